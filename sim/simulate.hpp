@@ -1,0 +1,77 @@
+#pragma once
+/// Time histories: a motion from its initial state, with its events, samples and energy account.
+
+#include <string_view>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "sim/energy.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+enum class EventKind {
+  reversal,  ///< the velocity changes sign and the mass slips on
+  stop,      ///< the mass comes to rest and sticks
+  release,   ///< the mass leaves a stick
+  grazing,   ///< a guard is touched within rounding and not crossed
+  switching, ///< a law changes its mode, the mass moving on
+};
+
+/// "reversal", "stop", "release", "grazing", "switching".
+[[nodiscard]] std::string_view name(EventKind kind);
+
+struct Event {
+  double t = 0.0;  ///< s
+  EventKind kind = EventKind::reversal;
+  double x = 0.0;  ///< m
+  double v = 0.0;  ///< m/s
+};
+
+/// One row of a history.
+struct Sample {
+  double t = 0.0;         ///< s
+  double y = 0.0;         ///< base position [m]; 0 for a force-driven oscillator
+  double x = 0.0;         ///< m
+  double v = 0.0;         ///< m/s
+  double a = 0.0;         ///< m/s^2
+  double force = 0.0;     ///< friction force on the mass, F > 0 opposing v > 0 [N]
+  double external = 0.0;  ///< external force f(t) [N]
+};
+
+struct History {
+  core::Outcome outcome;
+  std::vector<Event> events;
+  std::vector<Sample> samples;  ///< at 0, 1/sample_rate, ...; empty when sample_rate is 0
+  Sample final;
+  Energy energy;
+  /// The certificate of the event search.
+  long searches = 0;
+  long panels = 0;
+  long grazings = 0;
+};
+
+struct SimulateOptions {
+  double duration = 0.0;     ///< s
+  double sample_rate = 0.0;  ///< Hz; 0: no samples
+  long max_events = 10'000'000;
+};
+
+[[nodiscard]] History simulate(const Model& model, const SimulateOptions& options);
+
+/// An extreme of a free vibration: a turning point of x.
+struct Extreme {
+  double t = 0.0;  ///< s
+  double x = 0.0;  ///< m, signed
+};
+
+struct FreeDecay {
+  core::Outcome outcome;
+  std::vector<Extreme> peaks;  ///< the initial position first when released from rest
+  bool came_to_rest = false;   ///< fewer than the requested peaks because the mass stuck
+};
+
+/// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.
+[[nodiscard]] FreeDecay free_decay(const Model& model, int peaks);
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,51 @@
+#pragma once
+/// Steady states: the periodic orbit approached from the model's initial state.
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "sim/energy.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+struct Stick {
+  double start = 0.0;     ///< s, modulo one forcing period
+  double duration = 0.0;  ///< s
+  double position = 0.0;  ///< m
+};
+
+struct SteadyState {
+  core::Outcome outcome;              ///< when not ok() the numbers below mean nothing
+  std::vector<std::string> warnings;  ///< e.g. other orbits exist
+
+  double peak = 0.0;       ///< max x [m]
+  double trough = 0.0;     ///< min x [m]
+  double amplitude = 0.0;  ///< (peak - trough)/2 [m]
+  double phase = 0.0;      ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
+  double period = 0.0;     ///< s
+  double max_speed = 0.0;  ///< m/s
+  int stops_per_cycle = 0;  ///< instants per period at which the mass comes to rest and stays
+  std::vector<Stick> sticks;
+  std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
+  Energy energy;                                  ///< J per period
+
+  double start_position = 0.0;  ///< x at t = 0 of the orbit [m]
+  double start_velocity = 0.0;  ///< v at t = 0 of the orbit [m/s]
+  int newton_steps = 0;
+  int transient_periods = 0;
+
+  [[nodiscard]] bool stable() const;  ///< all multipliers inside the unit circle
+};
+
+struct SteadyStateOptions {
+  double tolerance = 1e-14;     ///< closure of the orbit relative to its size
+  int max_periods = 20'000;     ///< of transient followed before giving up
+};
+
+/// Needs a harmonic excitation.
+[[nodiscard]] SteadyState steady_state(const Model& model, const SteadyStateOptions& options = {});
+
+}  // namespace dualdamp::sim
