@@ -1,11 +1,17 @@
 #pragma once
 /// Estimates: numbers, their uncertainty, and the method's own doubts.
+///
+/// Two questions are kept apart. `outcome`: is there a number at all? When it is not ok() `value` means nothing and
+/// the record did not allow an estimate. `usable`: does the method stand by its number? An estimate that is there
+/// and not usable carries its value, so that it can be reported beside its reason.
 
 #include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "core/outcome.hpp"
 
 namespace dualdamp::identify {
 
@@ -30,15 +36,19 @@ struct Exclusion {
 /// The test of a wider model against the fitted one.
 struct LackOfFit {
   std::string test;        ///< "quadratic term F-test"
-  double statistic = 0.0;
+  double statistic = 0.0;  ///< F with 1 and `freedom` degrees of freedom
+  int freedom = 0;
   double p_value = 1.0;
-  bool fired = false;      ///< p_value below the level
-  double level = 0.01;
+  double effect = 0.0;  ///< rms of the added term over the range of the data
+  /// p_value below the level and the effect above `least_effect`: noiseless data show differences of no weight.
+  bool fired = false;
+  double level = 0.05;
+  double least_effect = 5e-4;
 };
 
-/// One fit of a fraction of the data (the paper's lower 4/5, 3/5, 2/5).
+/// One fit of a fraction of the data (the paper's lower 4/5, 3/5, 2/5; windows of four extremes).
 struct SubsetFit {
-  std::string label;  ///< "5/5", "4/5", ...
+  std::string label;  ///< "5/5", "4/5", ... or "1-4", "2-5", ...
   int used = 0;
   ParameterSet value;
 };
@@ -46,27 +56,38 @@ struct SubsetFit {
 /// The straight line behind a resonance estimate: x = intercept + slope Y.
 struct LineFit {
   double slope = 0.0;
-  double intercept = 0.0;  ///< m
-  double residual_deviation = 0.0;  ///< m
-  double G = 0.0;          ///< parameter function at the estimate
-  std::vector<double> residuals;  ///< m, of the used pairs in order
+  double intercept = 0.0;           ///< m
+  double residual_deviation = 0.0;  ///< m; 0 when two pairs leave no residual
+  double G = 0.0;                   ///< parameter function at the estimate
+  std::vector<double> residuals;    ///< m, of the used pairs in order
+};
+
+/// The decrement law behind a free-decay estimate: e_i = (-1)^i sign X_i + offset, X_(i+1) = R X_i - x_f (1 + R).
+struct DecayFit {
+  double R = 0.0;                   ///< decay of one half swing without dry friction
+  double first_amplitude = 0.0;     ///< signed: e_0 - offset [m]
+  double offset = 0.0;              ///< m
+  double residual_deviation = 0.0;  ///< m; 0 when the extremes leave no residual
+  std::vector<double> residuals;    ///< m, of the used extremes in order
 };
 
 struct Estimate {
   std::string method;
+  core::Outcome outcome;  ///< not ok(): there is no estimate, and why
   bool usable = false;
-  std::string reason;                ///< why it is not usable, or what it rests on
+  std::string reason;  ///< why it is not usable, or what it rests on
   ParameterSet value;
-  std::optional<ParameterSet> std;             ///< standard errors; absent when the data leave no freedom for them
+  std::optional<ParameterSet> std;  ///< standard errors; absent when the data leave no freedom for them
   std::optional<ParameterIntervals> interval95;
-  std::optional<Eigen::Matrix2d> covariance;   ///< of (zeta, F0)
-  std::optional<double> correlation;           ///< of (zeta, F0)
-  std::vector<int> used;                       ///< numbers of the data used
+  std::optional<Eigen::Matrix2d> covariance;  ///< of (zeta, F0)
+  std::optional<double> correlation;          ///< of (zeta, F0)
+  std::vector<int> used;                      ///< numbers of the data used
   std::vector<Exclusion> excluded;
   std::optional<LackOfFit> lack_of_fit;
   std::vector<SubsetFit> subsets;
-  std::optional<LineFit> line;
-  std::vector<std::string> warnings;           ///< each a sentence
+  std::optional<LineFit> line;        ///< resonance methods
+  std::optional<DecayFit> decay;      ///< free_decay
+  std::vector<std::string> warnings;  ///< each a sentence
 };
 
 }  // namespace dualdamp::identify
