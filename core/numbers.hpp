@@ -1,0 +1,34 @@
+#pragma once
+/// Decimal numbers as text: one strict grammar in, the shortest text that reads back to the same bits out.
+///
+/// Grammar (that of JSON):  -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?
+/// So `5`, `-0.5`, `1e-3`, `1.0e-3` are numbers; `+1`, `010`, `.5`, `1.`, `0x10`, `nan`, `inf`, `1_000` are not, and
+/// neither is a number that double precision turns into zero (`1e-400`) or infinity (`1e400`).
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dualdamp::core {
+
+struct NumberText {
+  std::optional<double> value;
+  std::size_t length = 0;  ///< characters of the text that belong to the number
+  std::string fault;       ///< why there is no value: "has a leading zero"; reads after "the number"
+};
+
+/// The number at the beginning of `text`; what follows it is the caller's.
+[[nodiscard]] NumberText read_number(std::string_view text);
+
+/// `text` as a whole is a number.
+[[nodiscard]] NumberText parse_number(std::string_view text);
+
+/// Shortest text that reads back to the same bits. An exponent always comes with a point (`1.0e-05`): YAML 1.1
+/// readers take `1e-05` for a word. `nan`, `inf`, `-inf` for what is not finite.
+[[nodiscard]] std::string format_number(double value);
+
+/// At most `digits` significant digits, for people to read.
+[[nodiscard]] std::string format_number(double value, int digits);
+
+}  // namespace dualdamp::core

@@ -1,0 +1,42 @@
+#pragma once
+/// Provenance: what made an artefact, from what, with what, and when. Every file the program writes opens with it.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dualdamp::core {
+
+/// SHA-256 of `bytes` as 64 lower-case hexadecimal digits.
+[[nodiscard]] std::string sha256(std::string_view bytes);
+
+/// A library and its version, as found when the program was configured; sorted by name.
+struct Library {
+  std::string name;
+  std::string version;
+};
+
+[[nodiscard]] const std::vector<Library>& libraries();
+
+/// The present time as "2025-01-31T12:00:00Z".
+[[nodiscard]] std::string utc_now();
+
+/// Where an artefact comes from, beside the program itself (`core::build_info()`, `libraries()`).
+struct Provenance {
+  std::string source;            ///< the scenario file as named by the user
+  std::string source_sha256;     ///< of its bytes
+  std::string scenario;          ///< the resolved scenario as JSON on one line
+  std::string scenario_sha256;   ///< of `scenario`
+  std::string data_sha256;       ///< of the measured data, when there is any
+  std::vector<std::string> overrides;  ///< `--set` texts in order
+  double tolerance = 0.0;
+  std::string started;           ///< UTC
+  double duration = 0.0;         ///< s
+};
+
+/// Name and value in the order to print, program and libraries first: the comment head of a table and the provenance
+/// block of a result are this list.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> lines(const Provenance& provenance);
+
+}  // namespace dualdamp::core
