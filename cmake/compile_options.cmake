@@ -1,0 +1,29 @@
+# The compile options of every target; why they are what they are: docs/decisions/001-compile-options.md.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+option(DUALDAMP_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
+set(DUALDAMP_SANITIZE "" CACHE STRING "Sanitizers of every target: address,undefined or thread")
+
+# Asserts stay on wherever speed is not the point: only Release turns them off.
+string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
+
+add_library(dualdamp_options INTERFACE)
+target_compile_options(dualdamp_options INTERFACE
+  -ffp-contract=off
+  $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wdouble-promotion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wcast-qual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
+  # Tables leave out the fields that stay empty.
+  -Wno-missing-field-initializers
+  # -Wrestrict: false alarms of GCC 12 on std::string concatenation (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond;-Wlogical-op;-Wno-restrict>
+  $<$<BOOL:${DUALDAMP_WARNINGS_AS_ERRORS}>:-Werror>)
+if(DUALDAMP_SANITIZE)
+  target_compile_options(dualdamp_options INTERFACE
+    -fsanitize=${DUALDAMP_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(dualdamp_options INTERFACE -fsanitize=${DUALDAMP_SANITIZE})
+endif()

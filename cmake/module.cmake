@@ -1,0 +1,21 @@
+# dualdamp_module(<folder> HEADERS ... SOURCES ... [PUBLIC ...] [PRIVATE ...]): the library of one folder.
+# HEADERS are public: installed, and included as "<folder>/<header>". PUBLIC and PRIVATE are what it links.
+function(dualdamp_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "dualdamp_module(${name}): unexpected ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT arg_HEADERS AND NOT arg_SOURCES)
+    return()  # a folder still empty
+  endif()
+  set(target dualdamp_${name})
+  add_library(${target} STATIC)
+  add_library(dualdamp::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  target_sources(${target}
+    PRIVATE ${arg_SOURCES}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:dualdamp_options>)
+  install(TARGETS ${target} EXPORT dualdamp FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dualdamp)
+endfunction()
