@@ -3,12 +3,14 @@
 
 namespace dualdamp::sim {
 
+class Interval;
+
 struct Energy {
-  double input = 0.0;     ///< work of the base motion and of the external force
-  double friction = 0.0;  ///< work dissipated by the friction laws
+  double input = 0.0;     ///< work of the moving base on spring and damper, and of the external force on the mass
+  double friction = 0.0;  ///< work done against the friction laws
   double viscous = 0.0;   ///< work dissipated by the damper
-  double stored = 0.0;    ///< change of m v^2/2 + k x^2/2 (and of what laws store)
-  double defect = 0.0;    ///< input - friction - viscous - stored
+  double stored = 0.0;    ///< change of m v^2/2 + k (y - x)^2/2
+  double defect = 0.0;    ///< input - friction - viscous - stored: rounding, if the motion is right
 };
 
 }  // namespace dualdamp::sim

@@ -24,7 +24,7 @@ struct Excitation {
   double phase = 0.0;      ///< phi [rad]
   double offset = 0.0;     ///< constant force [N], force_harmonic only
   double slope = 0.0;      ///< V [m/s] of base_ramp or R [N/s] of force_ramp
-  std::vector<Harmonic> harmonics;
+  std::vector<Harmonic> harmonics{};
 
   [[nodiscard]] bool is_harmonic() const {
     return type == ExcitationType::base_harmonic || type == ExcitationType::force_harmonic;

@@ -1,42 +1,20 @@
 #pragma once
 /// Time histories: a motion from its initial state, with its events, samples and energy account.
 
-#include <string_view>
 #include <vector>
 
 #include "core/outcome.hpp"
 #include "sim/energy.hpp"
+#include "sim/interval.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::sim {
-
-enum class EventKind {
-  reversal,  ///< the velocity changes sign and the mass slips on
-  stop,      ///< the mass comes to rest and sticks
-  release,   ///< the mass leaves a stick
-  grazing,   ///< a guard is touched within rounding and not crossed
-  switching, ///< a law changes its mode, the mass moving on
-};
-
-/// "reversal", "stop", "release", "grazing", "switching".
-[[nodiscard]] std::string_view name(EventKind kind);
 
 struct Event {
   double t = 0.0;  ///< s
   EventKind kind = EventKind::reversal;
   double x = 0.0;  ///< m
   double v = 0.0;  ///< m/s
-};
-
-/// One row of a history.
-struct Sample {
-  double t = 0.0;         ///< s
-  double y = 0.0;         ///< base position [m]; 0 for a force-driven oscillator
-  double x = 0.0;         ///< m
-  double v = 0.0;         ///< m/s
-  double a = 0.0;         ///< m/s^2
-  double force = 0.0;     ///< friction force on the mass, F > 0 opposing v > 0 [N]
-  double external = 0.0;  ///< external force f(t) [N]
 };
 
 struct History {

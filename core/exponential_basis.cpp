@@ -1,0 +1,217 @@
+#include "core/exponential_basis.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace dualdamp::core {
+
+namespace {
+
+constexpr int max_nodes = 6;
+
+/// Panel width times the fastest |z|: wide enough for two panels in half a period, narrow enough that the
+/// remainder of a quintic interpolant, (|z| h)^6 / 46080, stays near 1e-3.
+constexpr double panel_angle = 1.6;
+
+/// Below this |z delta| seven Taylor terms of exp are exact to rounding.
+constexpr double shift_limit = 0.02;
+
+/// Nodes of one divided difference of z -> exp(z s).
+struct Nodes {
+  std::array<Complex, max_nodes> z;
+  int count = 0;
+};
+
+Nodes without(const Nodes& nodes, int removed) {
+  Nodes rest;
+  for (int i = 0; i < nodes.count; ++i) {
+    if (i != removed) rest.z[static_cast<std::size_t>(rest.count++)] = nodes.z[static_cast<std::size_t>(i)];
+  }
+  return rest;
+}
+
+/// Close nodes: Taylor series about their mean. With w_i = (z_i - mean) s the divided difference is
+/// s^n exp(mean s) sum_k h_k(w)/(n + k)!, h_k the complete homogeneous symmetric polynomials, built up column by
+/// column of the bidiagonal matrix that has the nodes on its diagonal.
+Complex close_nodes(const Nodes& nodes, double s) {
+  const int n = nodes.count - 1;
+  Complex mean = 0.0;
+  for (int i = 0; i <= n; ++i) mean += nodes.z[static_cast<std::size_t>(i)];
+  mean /= static_cast<double>(nodes.count);
+  // power[i] = h_k of the first i + 1 nodes; starts as h_0 = 1.
+  std::array<Complex, max_nodes> power;
+  power.fill(1.0);
+  double factorial = 1.0;
+  for (int i = 1; i <= n; ++i) factorial *= i;
+  Complex sum = 0.0;
+  for (int k = 0; k < 26; ++k) {
+    sum += power[static_cast<std::size_t>(n)] / factorial;
+    factorial *= n + k + 1;
+    Complex before = 0.0;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(n); ++i) {
+      before += (nodes.z[i] - mean) * s * power[i];
+      power[i] = before;
+    }
+  }
+  return sum * std::exp(mean * s) * std::pow(s, n);
+}
+
+/// Divided difference of z -> exp(z s). The farthest pair is taken apart as long as that loses no digits.
+Complex divided_exponential(const Nodes& nodes, double s) {
+  if (nodes.count == 1) return std::exp(nodes.z[0] * s);
+  int far_a = 0;
+  int far_b = 1;
+  double spread = -1.0;
+  for (int a = 0; a < nodes.count; ++a) {
+    for (int b = a + 1; b < nodes.count; ++b) {
+      const double distance = std::abs(nodes.z[static_cast<std::size_t>(a)] - nodes.z[static_cast<std::size_t>(b)]);
+      if (distance > spread) {
+        spread = distance;
+        far_a = a;
+        far_b = b;
+      }
+    }
+  }
+  if (spread * s <= 1.0) return close_nodes(nodes, s);
+  const Complex gap = nodes.z[static_cast<std::size_t>(far_a)] - nodes.z[static_cast<std::size_t>(far_b)];
+  return (divided_exponential(without(nodes, far_b), s) - divided_exponential(without(nodes, far_a), s)) / gap;
+}
+
+/// exp(z delta) - 1 for |z delta| < shift_limit.
+Complex small_exponential(Complex w) {
+  return w * (1.0 + w / 2.0 * (1.0 + w / 3.0 * (1.0 + w / 4.0 * (1.0 + w / 5.0 * (1.0 + w / 6.0 * (1.0 + w / 7.0))))));
+}
+
+}  // namespace
+
+int ExponentialBasis::add(Complex exponent, int parent) {
+  assert(size_ < capacity && parent < size_);
+  const std::size_t k = index(size_);
+  re_[k] = exponent.real();
+  im_[k] = exponent.imag();
+  parent_[k] = parent;
+  const double square = std::norm(exponent);
+  fourth_power_[k] = square * square;
+  fastest_ = std::max(fastest_, std::sqrt(square));
+  has_chains_ = has_chains_ || parent != no_parent;
+  return size_++;
+}
+
+void ExponentialBasis::finish() {
+  panel_ = fastest_ > 0.0 ? panel_angle / fastest_ : 1.0;
+  if (!has_chains_) evaluate(panel_, rotor_);
+}
+
+Complex ExponentialBasis::chain_value(int k, double s) const {
+  Nodes nodes;
+  for (int i = k; i != no_parent; i = parent(i)) {
+    assert(nodes.count < max_nodes);
+    nodes.z[static_cast<std::size_t>(nodes.count++)] = exponent(i);
+  }
+  return divided_exponential(nodes, s);
+}
+
+void ExponentialBasis::evaluate(double s, Values& values) const {
+  for (std::size_t k = 0; k < index(size_); ++k) {
+    if (parent_[k] != no_parent) {
+      const Complex value = chain_value(static_cast<int>(k), s);
+      values.re[k] = value.real();
+      values.im[k] = value.imag();
+      continue;
+    }
+    const double size = re_[k] == 0.0 ? 1.0 : std::exp(re_[k] * s);
+    values.re[k] = im_[k] == 0.0 ? size : size * std::cos(im_[k] * s);
+    values.im[k] = im_[k] == 0.0 ? 0.0 : size * std::sin(im_[k] * s);
+  }
+}
+
+bool ExponentialBasis::shift(double delta, Values& values) const {
+  if (has_chains_ || !(fastest_ * std::abs(delta) < shift_limit)) return false;
+  for (std::size_t k = 0; k < index(size_); ++k) {
+    const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta);
+    const Complex old(values.re[k], values.im[k]);
+    const Complex value = old + old * gain;
+    values.re[k] = value.real();
+    values.im[k] = value.imag();
+  }
+  return true;
+}
+
+void ExponentialBasis::step_panel(Values& values) const {
+  for (std::size_t k = 0; k < index(size_); ++k) {
+    const double re = values.re[k] * rotor_.re[k] - values.im[k] * rotor_.im[k];
+    values.im[k] = values.re[k] * rotor_.im[k] + values.im[k] * rotor_.re[k];
+    values.re[k] = re;
+  }
+}
+
+void clear(const ExponentialBasis& basis, ModeFunction& f) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) f.re[k] = f.im[k] = 0.0;
+}
+
+void accumulate(const ExponentialBasis& basis, double factor, const ModeFunction& g, ModeFunction& f) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    f.re[k] += factor * g.re[k];
+    f.im[k] += factor * g.im[k];
+  }
+}
+
+void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFunction& derivative) {
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Complex z = basis.exponent(k);
+    derivative.re[i] = f.re[i] * z.real() - f.im[i] * z.imag();
+    derivative.im[i] = f.re[i] * z.imag() + f.im[i] * z.real();
+    // E_k' holds one E_parent: the parent's coefficient gains c_k. Parents stand before their children.
+    if (basis.parent(k) != ExponentialBasis::no_parent) {
+      const auto p = static_cast<std::size_t>(basis.parent(k));
+      derivative.re[p] += f.re[i];
+      derivative.im[p] += f.im[i];
+    }
+  }
+}
+
+double evaluate(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    sum += f.re[k] * values.re[k] - f.im[k] * values.im[k];
+  }
+  return sum;
+}
+
+double at_start(const ExponentialBasis& basis, const ModeFunction& f) {
+  double sum = 0.0;
+  for (int k = 0; k < basis.size(); ++k) {
+    if (basis.parent(k) == ExponentialBasis::no_parent) sum += f.re[static_cast<std::size_t>(k)];
+  }
+  return sum;
+}
+
+double bound(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values,
+             double begin, double width) {
+  double sum = 0.0;
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double size = std::abs(f.re[i]) + std::abs(f.im[i]);
+    if (size == 0.0) continue;
+    if (basis.parent(k) == ExponentialBasis::no_parent) {
+      const double rate = basis.growth(k);
+      const double growth = rate > 0.0 ? std::exp(rate * width) : 1.0;
+      sum += size * growth * (std::abs(values.re[i]) + std::abs(values.im[i]));
+      continue;
+    }
+    // Hermite and Genocchi: |E| <= s^n/n! max exp(Re z s) over the nodes. Decay is at most as fast as the slowest.
+    double slowest = basis.exponent(k).real();
+    double power = 1.0;
+    int n = 0;
+    for (int p = basis.parent(k); p != ExponentialBasis::no_parent; p = basis.parent(p)) {
+      slowest = std::max(slowest, basis.exponent(p).real());
+      power *= (begin + width) / ++n;
+    }
+    sum += size * power * std::exp(slowest * (slowest > 0.0 ? begin + width : begin));
+  }
+  return sum;
+}
+
+}  // namespace dualdamp::core

@@ -1,0 +1,441 @@
+#include "core/first_crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dualdamp::core {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double graze = 16.0 * epsilon;
+constexpr int max_depth = 60;
+constexpr int taylor_terms = 9;
+
+/// A guard's value and first two derivatives at one time.
+struct Jet {
+  double s = 0.0;
+  double value = 0.0;
+  double slope = 0.0;
+  double curvature = 0.0;
+  int zeros = 0;  ///< known order of the zero here
+};
+
+double magnitude_sum(const ExponentialBasis& basis, const ModeFunction& f) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    sum += std::sqrt(f.re[k] * f.re[k] + f.im[k] * f.im[k]);
+  }
+  return sum;
+}
+
+/// Quintic Hermite interpolant of a panel on t in [0, 1], in Bernstein form of degree six.
+struct Bernstein {
+  std::array<double, 7> b;
+
+  Bernstein(const Jet& left, const Jet& right) {
+    const double h = right.s - left.s;
+    const std::array<double, 6> five = {
+        left.value,
+        left.value + left.slope * h / 5.0,
+        left.value + 2.0 * left.slope * h / 5.0 + left.curvature * h * h / 20.0,
+        right.value - 2.0 * right.slope * h / 5.0 + right.curvature * h * h / 20.0,
+        right.value - right.slope * h / 5.0,
+        right.value,
+    };
+    b[0] = five[0];
+    for (std::size_t i = 1; i < 6; ++i) {
+      const double part = static_cast<double>(i) / 6.0;
+      b[i] = part * five[i - 1] + (1.0 - part) * five[i];
+    }
+    b[6] = five[5];
+  }
+
+  /// Value at t by de Casteljau.
+  [[nodiscard]] double at(double t) const {
+    std::array<double, 7> w = b;
+    for (std::size_t n = 6; n > 0; --n) {
+      for (std::size_t i = 0; i < n; ++i) w[i] += t * (w[i + 1] - w[i]);
+    }
+    return w[0];
+  }
+
+  /// Descartes: the roots in (0, 1) are at most the sign changes, and as many modulo two. Zeros are skipped.
+  [[nodiscard]] int sign_changes() const {
+    int changes = 0;
+    double last = 0.0;
+    for (const double coefficient : b) {
+      if (coefficient == 0.0) continue;
+      if (last * coefficient < 0.0) ++changes;
+      last = coefficient;
+    }
+    return changes;
+  }
+};
+
+/// The search for one guard within one outer panel.
+class PanelSearch {
+ public:
+  PanelSearch(const ExponentialBasis& basis, const Guard& guard, int index, std::vector<Grazing>& grazings,
+              SearchCount& count)
+      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count) {}
+
+  /// The jet from values of the basis; close to a known zero from the Taylor series that has it exactly.
+  [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) const {
+    if (near_start(s)) return taylor_jet(s);
+    return {s, evaluate(basis_, guard_.value, values), evaluate(basis_, guard_.slope, values),
+            evaluate(basis_, guard_.curvature, values), 0};
+  }
+
+  [[nodiscard]] Jet jet(double s) const {
+    if (near_start(s)) return taylor_jet(s);
+    ExponentialBasis::Values values;
+    basis_.evaluate(s, values);
+    return jet(s, values);
+  }
+
+  [[nodiscard]] Jet start_jet() const {
+    Jet start{0.0, at_start(basis_, guard_.value), at_start(basis_, guard_.slope), at_start(basis_, guard_.curvature),
+              guard_.known_zeros};
+    if (start.zeros > 0) start.value = 0.0;
+    if (start.zeros > 1) start.slope = 0.0;
+    if (start.zeros > 2) start.curvature = 0.0;
+    return start;
+  }
+
+  /// Rounding allowance of the value at s: 16 eps of the amplitudes, less where a known zero is factored out.
+  [[nodiscard]] double slack(double s) const {
+    double allowance = graze * amplitude_;
+    const double angle = s * 1.6 / basis_.panel();
+    for (int i = 0; i < guard_.known_zeros && angle < 1.0; ++i) allowance *= angle;
+    return allowance;
+  }
+
+  /// Bounds for the panel [a, a + h] from the values of the basis at a.
+  void bound_panel(double a, double h, const ExponentialBasis::Values& values) {
+    sixth_ = bound(basis_, guard_.sixth, values, a, h);
+    curvature_ = bound(basis_, guard_.curvature, values, a, h);
+    amplitude_ = has_growth_ ? bound(basis_, guard_.value, values, a, h) : guard_.amplitude;
+  }
+
+  /// First root in (a, b), or a negative number.
+  [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
+
+  void allow_growth(bool growth) { has_growth_ = growth; }
+
+ private:
+  static constexpr double none = -1.0;
+
+  [[nodiscard]] bool near_start(double s) const {
+    return guard_.known_zeros > 0 && s * 1.6 < 0.05 * basis_.panel();
+  }
+  [[nodiscard]] Jet taylor_jet(double s) const;
+  [[nodiscard]] double accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder) const;
+  [[nodiscard]] double polish(double s) const;
+  [[nodiscard]] Jet minimum(const Jet& a, const Jet& b) const;
+  [[nodiscard]] Jet split_point(const Jet& a, const Jet& b) const;
+  [[nodiscard]] double split(const Jet& a, const Jet& b, int depth);
+
+  const ExponentialBasis& basis_;
+  const Guard& guard_;
+  int index_;
+  std::vector<Grazing>& grazings_;
+  SearchCount& count_;
+  double sixth_ = 0.0;
+  double curvature_ = 0.0;
+  double amplitude_ = 0.0;
+  bool has_growth_ = false;
+};
+
+Jet PanelSearch::taylor_jet(double s) const {
+  Jet result{s, 0.0, 0.0, 0.0, 0};
+  ModeFunction derivative = guard_.value;
+  double power = 1.0;  // s^k / k!
+  double power1 = 0.0;
+  double power2 = 0.0;
+  for (int k = 0; k < taylor_terms; ++k) {
+    if (k >= guard_.known_zeros) {
+      const double c = at_start(basis_, derivative);
+      result.value += c * power;
+      result.slope += c * power1;
+      result.curvature += c * power2;
+    }
+    power2 = power1;
+    power1 = power;
+    power *= s / (k + 1);
+    const ModeFunction previous = derivative;
+    differentiate(basis_, previous, derivative);
+  }
+  return result;
+}
+
+/// Halley's iteration from a good guess; the basis is evaluated once and then shifted.
+double PanelSearch::polish(double s) const {
+  ExponentialBasis::Values values;
+  basis_.evaluate(s, values);
+  for (int i = 0; i < 8; ++i) {
+    const Jet j = jet(s, values);
+    const double newton = j.value / j.slope;
+    const double step = newton / (1.0 - 0.5 * newton * j.curvature / j.slope);
+    if (!std::isfinite(step)) return s;
+    s -= step;
+    if (std::abs(step) <= 2.0 * epsilon * s) return s;
+    if (!basis_.shift(-step, values)) basis_.evaluate(s, values);
+  }
+  return s;
+}
+
+double newton_in_panel(const Bernstein& h, const Jet& a, const Jet& b) {
+  // The sign change lies in (low, high); Newton from the end where the guard is negative, bisection as a safeguard.
+  double low = 0.0;
+  double high = 1.0;
+  const double width = b.s - a.s;
+  double t = b.slope < 0.0 ? std::clamp(1.0 - b.value / (b.slope * width), 0.0, 1.0) : 0.5;
+  double value = h.at(t);
+  for (int i = 0; i < 6; ++i) {
+    (value > 0.0 ? low : high) = t;
+    const double step = 1e-3 * (high - low);
+    const double slope = (h.at(t + step) - value) / step;
+    double next = t - value / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - t) < 1e-5) return next;
+    t = next;
+    value = h.at(t);
+  }
+  return t;
+}
+
+/// The root behind the only sign change of `low`, when g is certified positive before it and monotone across it.
+double PanelSearch::accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder) const {
+  const double width = b.s - a.s;
+  const Bernstein interpolant(a, b);
+  const double root = polish(a.s + width * newton_in_panel(interpolant, a, b));
+  if (!(root > a.s && root <= b.s)) return none;
+  const Jet at = jet(root);
+  if (!(at.slope < 0.0)) return none;
+  // |g - H| <= 14400/46080 of `remainder` anywhere on the panel.
+  const double gap = std::min(2.0 * (remainder * 0.3125 + slack(root)) / -at.slope, root - a.s);
+  if (curvature_ * gap >= -at.slope) return none;
+  const double before = (root - gap - a.s) / width;
+  // L has one root; positive at `before` means positive up to there, and g >= L.
+  if (before > 0.0 && !(low.at(before) > 0.0)) return none;
+  if (before <= 0.0 && a.zeros > 0) return none;
+  return root;
+}
+
+/// The minimum between slopes of opposite sign, by Newton on g' with bisection as a safeguard.
+Jet PanelSearch::minimum(const Jet& a, const Jet& b) const {
+  double low = a.s;
+  double high = b.s;
+  double s = a.s + (b.s - a.s) * a.slope / (a.slope - b.slope);
+  Jet j = jet(s);
+  for (int i = 0; i < 60; ++i) {
+    (j.slope < 0.0 ? low : high) = s;
+    double next = s - j.slope / j.curvature;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double step = next - s;
+    s = next;
+    j = jet(s);
+    if (std::abs(step) <= 4.0 * epsilon * s) break;
+  }
+  return j;
+}
+
+/// A point inside (a, b) whose value is decided beyond rounding, where there is one.
+Jet PanelSearch::split_point(const Jet& a, const Jet& b) const {
+  if (b.value > 0.0 && a.slope < 0.0 && b.slope > 0.0) return minimum(a, b);
+  Jet j;
+  for (const double part : {0.5, 0.43, 0.61}) {
+    j = jet(a.s + part * (b.s - a.s));
+    if (std::abs(j.value) > slack(j.s)) break;
+  }
+  return j;
+}
+
+double PanelSearch::split(const Jet& a, const Jet& b, int depth) {
+  ++count_.splits;
+  Jet middle = split_point(a, b);
+  if (std::abs(middle.value) <= slack(middle.s)) {
+    ++count_.grazings;
+    grazings_.push_back({index_, middle.s});
+    middle.value = middle.slope = 0.0;
+    middle.zeros = 2;
+    // A touched point is where the certificate hands over: positive on both sides of it.
+    middle.curvature = std::max(middle.curvature, 0.0);
+  }
+  if (!(middle.s > a.s && middle.s < b.s)) return b.value < 0.0 ? b.s : none;
+  if (middle.value < 0.0) return first_root(a, middle, depth + 1);
+  const double left = first_root(a, middle, depth + 1);
+  return left >= 0.0 ? left : first_root(middle, b, depth + 1);
+}
+
+double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
+  const double h = b.s - a.s;
+  const double h2 = h * h;
+  const double remainder = sixth_ * h2 * h2 * h2 / 14400.0;
+  Bernstein low(a, b);
+  low.b[3] -= remainder;
+  // Coefficients that a factored zero makes exactly zero carry no rounding; the others do.
+  const double left_slack = slack(a.s);
+  const double right_slack = slack(b.s);
+  bool positive = true;
+  for (int i = 0; i < 7; ++i) {
+    const bool factored = i < a.zeros || 6 - i < b.zeros;
+    double& coefficient = low.b[static_cast<std::size_t>(i)];
+    if (factored) {
+      coefficient = std::max(coefficient, 0.0);
+      continue;
+    }
+    coefficient -= a.zeros == 0 ? std::max(left_slack, right_slack) : right_slack * 0.0625;
+    positive = positive && coefficient > 0.0;
+  }
+  if (positive) return none;
+  const bool crosses = b.zeros == 0 && b.value < 0.0;
+  if (crosses && low.sign_changes() == 1) {
+    const double root = accept_root(a, b, low, remainder);
+    if (root >= 0.0) return root;
+  }
+  if (depth >= max_depth || h <= 4.0 * epsilon * b.s) {
+    if (crosses) return b.s;
+    // Undecidable at double precision and no sign change: flat contact.
+    ++count_.grazings;
+    grazings_.push_back({index_, 0.5 * (a.s + b.s)});
+    return none;
+  }
+  return split(a, b, depth);
+}
+
+void start_values(const ExponentialBasis& basis, ExponentialBasis::Values& values) {
+  for (int k = 0; k < basis.size(); ++k) {
+    values.re[static_cast<std::size_t>(k)] = basis.parent(k) == ExponentialBasis::no_parent ? 1.0 : 0.0;
+    values.im[static_cast<std::size_t>(k)] = 0.0;
+  }
+}
+
+/// Panels may widen where the fast elements have died out: the remainder stays below 1e-3 of the amplitude.
+double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
+                   const ExponentialBasis::Values& values, double a) {
+  double width = basis.panel();
+  for (int doubling = 0; doubling < 60; ++doubling) {
+    const double wider = 2.0 * width;
+    const double wider2 = wider * wider;
+    for (const Guard& guard : guards) {
+      const double remainder = bound(basis, guard.sixth, values, a, wider) * wider2 * wider2 * wider2 / 14400.0;
+      if (remainder > 1e-3 * guard.amplitude) return width;
+    }
+    width = wider;
+  }
+  return width;
+}
+
+/// Panels meet where every guard is decided beyond rounding; moves an undecided inner end b, evaluates there.
+double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double b,
+                       double horizon, ExponentialBasis::Values& values) {
+  for (int attempt = 0; attempt < 4 && b < horizon; ++attempt) {
+    const auto undecided = [&](const Guard& guard) {
+      return guard.amplitude > 0.0 && std::abs(evaluate(basis, guard.value, values)) <= graze * guard.amplitude;
+    };
+    if (std::none_of(guards.begin(), guards.end(), undecided)) break;
+    b = a + 0.77 * (b - a);
+    basis.evaluate(b, values);
+  }
+  return b;
+}
+
+}  // namespace
+
+void prepare(const ExponentialBasis& basis, Guard& guard) {
+  differentiate(basis, guard.value, guard.slope);
+  differentiate(basis, guard.slope, guard.curvature);
+  guard.amplitude = magnitude_sum(basis, guard.value);
+  if (basis.has_chains()) {
+    ModeFunction third;
+    ModeFunction fourth;
+    differentiate(basis, guard.curvature, third);
+    differentiate(basis, third, fourth);
+    differentiate(basis, fourth, third);
+    differentiate(basis, third, guard.sixth);
+    return;
+  }
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    guard.sixth.re[i] = guard.curvature.re[i] * basis.fourth_power(k);
+    guard.sixth.im[i] = guard.curvature.im[i] * basis.fourth_power(k);
+  }
+}
+
+void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon, Crossing& crossing,
+                    std::vector<Grazing>& grazings, SearchCount& count) {
+  ++count.searches;
+  crossing.found = false;
+  crossing.guard = -1;
+  crossing.s = horizon;
+  const bool stepping = !basis.has_chains();
+  bool growth = basis.has_chains();
+  for (int k = 0; k < basis.size(); ++k) growth = growth || basis.growth(k) > 0.0;
+
+  ExponentialBasis::Values left;
+  ExponentialBasis::Values right;
+  start_values(basis, left);
+  double a = 0.0;
+  while (a < horizon) {
+    ++count.panels;
+    double b = a + panel_width(basis, guards, left, a);
+    const bool full = stepping && b == a + basis.panel() && b < horizon;
+    b = std::min(b, horizon);
+    if (full) {
+      right = left;
+      basis.step_panel(right);
+    } else {
+      basis.evaluate(b, right);
+    }
+    b = clear_panel_end(basis, guards, a, b, horizon, right);
+    double first = -1.0;
+    for (std::size_t g = 0; g < guards.size(); ++g) {
+      if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
+      PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
+      search.allow_growth(growth);
+      search.bound_panel(a, b - a, left);
+      const Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, left);
+      Jet end = search.jet(b, right);
+      if (b == horizon && std::abs(end.value) <= search.slack(b) && end.slope < 0.0) {
+        end.value = 0.0;  // reached at the horizon: left to the next search
+        end.zeros = 1;
+      }
+      const double root = search.first_root(begin, end);
+      if (root >= 0.0 && (first < 0.0 || root < first)) {
+        first = root;
+        crossing.guard = static_cast<int>(g);
+      }
+    }
+    if (first >= 0.0) {
+      crossing.found = true;
+      crossing.s = first;
+      basis.evaluate(first, crossing.values);
+      while (!grazings.empty() && grazings.back().s > first) grazings.pop_back();
+      return;
+    }
+    left = right;
+    a = b;
+  }
+  crossing.values = left;
+}
+
+Germ germ(const ExponentialBasis& basis, const ModeFunction& f, double tolerance) {
+  // Rates beyond those that f itself contains do not enter: each Taylor coefficient has its own amplitudes.
+  constexpr int orders = 4;
+  ModeFunction derivative = f;
+  double scale = tolerance;
+  double rate = basis.panel() > 0.0 ? 1.6 / basis.panel() : 1.0;
+  for (int order = 0; order < orders; ++order) {
+    const double value = at_start(basis, derivative);
+    if (std::abs(value) > graze * magnitude_sum(basis, derivative) + scale) return {value > 0.0 ? 1 : -1, order};
+    scale *= rate;
+    const ModeFunction previous = derivative;
+    differentiate(basis, previous, derivative);
+  }
+  return {0, orders};
+}
+
+}  // namespace dualdamp::core

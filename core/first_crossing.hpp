@@ -1,0 +1,84 @@
+#pragma once
+/// The certified first crossing of guards on one mode.
+///
+/// A guard is a function g(s) on an exponential basis that is positive while the mode holds.
+///
+/// What triggers. The search returns the smallest s in (0, horizon) at which some guard goes from positive to
+///   negative. Sides are frozen: a guard counts as positive from the start of the mode, so a root that rounding
+///   has stepped across is still a sign change on the panel that contains it.
+/// What happens exactly at an end point.
+///   s = 0        The caller states how many zeros g has there (`known_zeros`: value, slope, curvature, ...).
+///                They are factored out of the first panel, never stepped over; g is taken positive just after 0.
+///   s = horizon  Belongs to the next search: a guard that reaches zero there within rounding is not reported here
+///                and the caller's check at the start of the next mode finds it.
+/// Tangency. A minimum within `graze` = 16 eps times the sum of the guard's amplitudes of zero is one grazing
+///   contact: reported, not a crossing. Deeper dips are two crossings, of which the first is returned.
+/// Why nothing can be missed. The interval is covered by panels. On a panel of width h the quintic Hermite
+///   interpolant H of (g, g', g'') at both ends obeys
+///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,
+///   M6 from the amplitudes, since every element's modulus is known. In Bernstein form of degree six that remainder
+///   touches one coefficient only: L = H - remainder. All coefficients of L positive: no zero on the panel. One
+///   sign change of them: L has exactly one root and g > 0 before it; the root of g just behind it is accepted when
+///   |g'| there exceeds M2 times the gap, so that g is monotone across it. Anything else is split, at the minimum
+///   where there is one, until one of the three cases holds.
+///
+/// Cost: on a basis without chains a panel costs a few dozen multiplications and no transcendental function; a
+/// crossing costs one evaluation of the basis. No allocation unless contacts graze.
+
+#include <span>
+#include <vector>
+
+#include "core/exponential_basis.hpp"
+
+namespace dualdamp::core {
+
+struct Guard {
+  ModeFunction value;
+  int known_zeros = 0;  ///< order of the zero at s = 0, up to 3
+
+  // Filled by prepare().
+  ModeFunction slope;
+  ModeFunction curvature;
+  ModeFunction sixth;      ///< moduli of the sixth derivative's coefficients
+  double amplitude = 0.0;  ///< sum of |c_k|
+};
+
+/// Fills the derived members of `guard` from `value`.
+void prepare(const ExponentialBasis& basis, Guard& guard);
+
+struct Crossing {
+  bool found = false;
+  int guard = -1;                   ///< index of the guard that crossed
+  double s = 0.0;                   ///< where [s]
+  ExponentialBasis::Values values;  ///< E_k at s, or at the horizon when nothing was found
+};
+
+/// A tangency.
+struct Grazing {
+  int guard = -1;
+  double s = 0.0;  ///< s
+};
+
+/// What has been searched so far: the certificate a run can print.
+struct SearchCount {
+  long searches = 0;
+  long panels = 0;
+  long splits = 0;
+  long grazings = 0;
+};
+
+/// First crossing of any of `guards` (each prepared) in (0, horizon); tangencies before it are appended to
+/// `grazings`. The horizon must be finite and >= 0.
+void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon, Crossing& crossing,
+                    std::vector<Grazing>& grazings, SearchCount& count);
+
+/// The sign of a function just after s = 0 and the order of its zero there, from its Taylor coefficients; a
+/// coefficient within 16 eps times its own amplitudes' sum plus `tolerance` times the basis' rate counts as zero.
+struct Germ {
+  int sign = 0;   ///< 0: zero to the order examined
+  int zeros = 0;  ///< number of leading Taylor coefficients that vanish
+};
+
+[[nodiscard]] Germ germ(const ExponentialBasis& basis, const ModeFunction& f, double tolerance);
+
+}  // namespace dualdamp::core

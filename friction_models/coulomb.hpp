@@ -1,0 +1,45 @@
+#pragma once
+/// Coulomb friction, with a static limit that may exceed the kinetic level.
+///
+///   slip   F = kinetic sgn v                       [N]
+///   rest   F = pull while |pull| <= static         [N]
+///
+/// Viscous friction is the oscillator's damper. Holds for dry contact at speeds where the level does not depend on
+/// speed. Source: coulomb1785, denhartog1931 in `docs/refs.bib`. Exact engine. Cost: none beyond the driver's.
+
+#include <vector>
+
+#include "friction_models/law.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+class Coulomb {
+ public:
+  static const std::vector<Parameter>& parameters();
+
+  /// Levels in N, 0 <= kinetic <= static_level.
+  Coulomb(double kinetic, double static_level) : kinetic_(kinetic), static_(static_level) {}
+
+  [[nodiscard]] Memory start(const Instant&) const { return {}; }
+  [[nodiscard]] double force(const Memory&, const Instant&, Direction direction) const {
+    return sign(direction) * kinetic_;
+  }
+  void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const {}
+  void jump(Memory&, Trigger, const Instant&, Direction) const {}
+
+  [[nodiscard]] double static_limit(const Memory&, const Instant&) const { return static_; }
+
+  [[nodiscard]] Affine affine_force(const Memory&, const Instant&, Direction direction) const {
+    return {.constant = sign(direction) * kinetic_};
+  }
+  void affine_guards(const Memory&, const Instant&, Direction, std::vector<Affine>&) const {}
+  [[nodiscard]] Affine affine_limit(const Memory&, const Instant&) const { return {.constant = static_}; }
+  void advance(Memory&, const Instant&, const Instant&, Direction) const {}
+
+ private:
+  double kinetic_;
+  double static_;
+};
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,450 @@
+#include "sim/exact_engine.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace dualdamp::sim {
+
+using core::Complex;
+using core::ModeFunction;
+using friction::Affine;
+using friction::Direction;
+
+namespace {
+
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// Values farther than this (relative) from a limit are decided by their sign; closer ones by their Taylor germ.
+constexpr double clearly = 1e-9;
+
+}  // namespace
+
+std::string_view name(EventKind kind) {
+  switch (kind) {
+    case EventKind::reversal: return "reversal";
+    case EventKind::stop: return "stop";
+    case EventKind::release: return "release";
+    case EventKind::grazing: return "grazing";
+    case EventKind::switching: return "switching";
+  }
+  return "";
+}
+
+/// One phase as an interval. The engine's functions stay in place until its next call; only the drive has moved on,
+/// so it is read backwards from the end of the interval.
+class ExactEngine::PhaseInterval final : public Interval {
+ public:
+  explicit PhaseInterval(const ExactEngine& engine) : engine_(engine) {}
+
+  [[nodiscard]] Sample at(double s) const override {
+    const core::ExponentialBasis& basis = engine_.mode_->basis();
+    core::ExponentialBasis::Values values;
+    basis.evaluate(s, values);
+    const Drive::Value drive = engine_.drive_.at(s - duration);
+    Sample sample{.t = begin + s, .y = drive.y, .y_rate = drive.y_rate, .external = drive.external};
+    sample.x = core::evaluate(basis, engine_.motion_, values);
+    const Oscillator& o = engine_.model_.oscillator;
+    if (direction == Direction::rest) {
+      // Friction balances all else.
+      const double damper = o.damper_to == DamperTo::base ? o.damping * drive.y_rate : 0.0;
+      sample.force = o.stiffness * (drive.y - sample.x) + damper + drive.external;
+      return sample;
+    }
+    sample.v = core::evaluate(basis, engine_.velocity_, values);
+    sample.a = core::evaluate(basis, engine_.acceleration_, values);
+    const Affine& f = force.force;
+    sample.force = f.constant + f.rate * s + f.position * sample.x + f.velocity * sample.v;
+    for (std::size_t i = 0; i < force.decays.size(); ++i) {
+      sample.force += force.transients[i] * std::exp(-force.decays[i] * s);
+    }
+    return sample;
+  }
+
+  [[nodiscard]] double resolution() const override { return engine_.mode_->basis().panel(); }
+
+  Total force;
+
+ private:
+  const ExactEngine& engine_;
+};
+
+ExactEngine::ExactEngine(const Model& model)
+    : model_(model),
+      drive_(model.oscillator, model.excitation),
+      interval_(std::make_unique<PhaseInterval>(*this)) {
+  for (const friction::Law& law : model_.friction) {
+    assert(law.is_affine());
+    can_rest_ = can_rest_ || law.holds_mass();
+  }
+  start(model.initial.position, model.initial.velocity);
+}
+
+ExactEngine::~ExactEngine() = default;
+
+void ExactEngine::start(double x, double v) {
+  local_time_ = 0.0;
+  cycle_ = 0;
+  x_ = x;
+  v_ = v;
+  memories_.clear();
+  for (const friction::Law& law : model_.friction) memories_.push_back(law.start(now()));
+  place(x, v);
+}
+
+void ExactEngine::restart(double x, double v) {
+  local_time_ = 0.0;
+  cycle_ = 0;
+  place(x, v);
+}
+
+void ExactEngine::place(double x, double v) {
+  x_ = x;
+  v_ = v;
+  drive_.reset(0.0);
+  repeats_ = 0;
+  outcome_ = {};
+  sensitivity_.setIdentity();
+  saltation_.pending = false;
+  if (v_ != 0.0) {
+    change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
+  } else {
+    settle();
+  }
+}
+
+double ExactEngine::time() const {
+  return cycle_ == 0 ? local_time_ : static_cast<double>(cycle_) * drive_.period() + local_time_;
+}
+
+/// Adds up the laws' affine forces; at rest the laws that hold the mass are left out.
+void ExactEngine::sum_forces(bool with_holding_laws, Total& total) const {
+  total.force = {};
+  total.transients.clear();
+  total.decays.clear();
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    const friction::Law& law = model_.friction[i];
+    if (law.holds_mass() && !with_holding_laws) continue;
+    const Affine part = law.affine_force(memories_[i], now(), direction_);
+    total.force.constant += part.constant;
+    total.force.rate += part.rate;
+    total.force.position += part.position;
+    total.force.velocity += part.velocity;
+    if (part.transient != 0.0) {
+      total.transients.push_back(part.transient);
+      total.decays.push_back(part.decay);
+    }
+  }
+}
+
+Affine ExactEngine::total_limit() const {
+  Affine total;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (!model_.friction[i].holds_mass()) continue;
+    const Affine part = model_.friction[i].affine_limit(memories_[i], now());
+    total.constant += part.constant + part.position * x_;
+    total.rate += part.rate;
+    assert(part.transient == 0.0);
+  }
+  return total;
+}
+
+const LinearMode& ExactEngine::mode_for(double damping, double stiffness, const std::vector<double>& decays) {
+  for (const auto& mode : modes_) {
+    if (mode->damping() == damping && mode->stiffness() == stiffness && mode->decays() == decays) return *mode;
+  }
+  // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
+  if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& mode) { return mode.get() != mode_; });
+  modes_.push_back(std::make_unique<LinearMode>(model_.oscillator.mass, damping, stiffness, drive_.frequencies(),
+                                                true, decays));
+  return *modes_.back();
+}
+
+/// forcing_ = drive + extra - the laws' parts that do not move with the mass.
+void ExactEngine::load_forcing(const Total& total, double extra_constant) {
+  forcing_.constant = drive_.force_constant() - total.force.constant + extra_constant;
+  forcing_.ramp = drive_.force_ramp() - total.force.rate;
+  forcing_.phasors.resize(drive_.frequencies().size());
+  for (std::size_t j = 0; j < forcing_.phasors.size(); ++j) forcing_.phasors[j] = drive_.force_phasor(j);
+  forcing_.transients.resize(total.transients.size());
+  for (std::size_t j = 0; j < total.transients.size(); ++j) forcing_.transients[j] = -total.transients[j];
+}
+
+double ExactEngine::force_scale() const {
+  return drive_.force_scale() + std::abs(total_.force.constant) +
+         (model_.oscillator.stiffness + std::abs(total_.force.position)) * std::abs(x_);
+}
+
+/// All forces on the mass at rest here, except those of laws that hold it, as a function of time.
+const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
+  sum_forces(false, total_);
+  const Oscillator& o = model_.oscillator;
+  const double stiffness = o.stiffness + total_.force.position;
+  const LinearMode& mode = mode_for(o.damping + total_.force.velocity, stiffness, total_.decays);
+  load_forcing(total_, -stiffness * x_);
+  mode.represent(forcing_, pull);
+  return mode;
+}
+
+/// limit - direction * pull
+void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFunction& guard) const {
+  const core::ExponentialBasis& basis = mode_->basis();
+  const Affine limit = total_limit();
+  ModeFunction level;
+  mode_->represent({.constant = limit.constant, .ramp = limit.rate}, level);
+  core::clear(basis, guard);
+  core::accumulate(basis, 1.0, level, guard);
+  core::accumulate(basis, -direction, pull, guard);
+}
+
+/// Decides what happens at v = 0: rest, or slip in the direction of the pull.
+void ExactEngine::settle() {
+  ModeFunction pull;
+  const LinearMode* before = mode_;
+  direction_ = Direction::rest;
+  mode_ = &pull_on_mode(pull);
+  const double level = total_limit().constant;
+  const double scale = force_scale() + level;
+  const double strength = core::at_start(mode_->basis(), pull);
+  Direction direction = strength > 0.0 ? Direction::forward : Direction::backward;
+  if (std::abs(strength) < level - clearly * scale) {
+    direction = Direction::rest;
+  } else if (std::abs(strength) <= level + clearly * scale) {
+    direction = Direction::rest;
+    for (const Direction candidate : {Direction::forward, Direction::backward}) {
+      ModeFunction guard;
+      limit_guard(pull, friction::sign(candidate), guard);
+      if (core::germ(mode_->basis(), guard, rounding * scale).sign < 0) direction = candidate;
+    }
+  }
+  mode_ = before;
+  change_direction(direction);
+}
+
+void ExactEngine::change_direction(Direction direction) {
+  direction_ = direction;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    model_.friction[i].jump(memories_[i], {}, now(), direction_);
+  }
+}
+
+core::Guard& ExactEngine::new_guard(const Owner& owner) {
+  if (guard_count_ == guards_.size()) {
+    guards_.emplace_back();
+    owners_.emplace_back();
+  }
+  owners_[guard_count_] = owner;
+  guards_[guard_count_].known_zeros = 0;
+  return guards_[guard_count_++];
+}
+
+void ExactEngine::lay_rest() {
+  ModeFunction pull;
+  mode_ = &pull_on_mode(pull);
+  const core::ExponentialBasis& basis = mode_->basis();
+  core::clear(basis, motion_);
+  core::clear(basis, velocity_);
+  core::clear(basis, acceleration_);
+  mode_->represent({.constant = x_}, motion_);
+  force_scale_ = force_scale();
+  if (!can_rest_) return;
+  const double stiffness = model_.oscillator.stiffness + total_.force.position;
+  for (const int direction : {1, -1}) {
+    core::Guard& guard = new_guard({.kind = Owner::Kind::limit,
+                                    .law = direction,
+                                    .by_position = direction * stiffness,
+                                    .tolerance = rounding * force_scale_});
+    limit_guard(pull, direction, guard.value);
+  }
+}
+
+void ExactEngine::lay_slip() {
+  sum_forces(true, total_);
+  const Oscillator& o = model_.oscillator;
+  mode_ = &mode_for(o.damping + total_.force.velocity, o.stiffness + total_.force.position, total_.decays);
+  load_forcing(total_, 0.0);
+  const core::ExponentialBasis& basis = mode_->basis();
+  mode_->solve(forcing_, x_, v_, motion_);
+  core::differentiate(basis, motion_, velocity_);
+  core::differentiate(basis, velocity_, acceleration_);
+  force_scale_ = force_scale();
+  const double sign = friction::sign(direction_);
+  // Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
+  core::Guard& guard = new_guard({.kind = Owner::Kind::velocity,
+                                  .by_velocity = sign,
+                                  .tolerance = rounding * force_scale_ / o.mass * basis.panel()});
+  core::clear(basis, guard.value);
+  core::accumulate(basis, sign, velocity_, guard.value);
+}
+
+void ExactEngine::add_law_guards() {
+  const core::ExponentialBasis& basis = mode_->basis();
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    affine_guards_.clear();
+    model_.friction[i].affine_guards(memories_[i], now(), direction_, affine_guards_);
+    for (std::size_t j = 0; j < affine_guards_.size(); ++j) {
+      const Affine& g = affine_guards_[j];
+      core::Guard& guard = new_guard({.kind = Owner::Kind::law,
+                                      .law = static_cast<int>(i),
+                                      .guard = static_cast<int>(j),
+                                      .by_position = g.position,
+                                      .by_velocity = g.velocity,
+                                      .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
+                                                               std::abs(g.velocity * v_))});
+      ModeForcing own{.constant = g.constant,
+                      .ramp = g.rate,
+                      .transients = std::vector<double>(mode_->decays().size())};
+      for (std::size_t d = 0; d < mode_->decays().size(); ++d) {
+        if (mode_->decays()[d] == g.decay) own.transients[d] = g.transient;
+      }
+      mode_->represent(own, guard.value);
+      core::accumulate(basis, g.position, motion_, guard.value);
+      core::accumulate(basis, g.velocity, velocity_, guard.value);
+    }
+  }
+}
+
+void ExactEngine::lay_phase() {
+  guard_count_ = 0;
+  if (direction_ == Direction::rest) {
+    lay_rest();
+  } else {
+    lay_slip();
+  }
+  add_law_guards();
+  for (std::size_t i = 0; i < guard_count_; ++i) core::prepare(mode_->basis(), guards_[i]);
+}
+
+/// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
+bool ExactEngine::find_violated() {
+  const core::ExponentialBasis& basis = mode_->basis();
+  for (std::size_t i = 0; i < guard_count_; ++i) {
+    core::Guard& guard = guards_[i];
+    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owners_[i].tolerance) continue;
+    const core::Germ germ = core::germ(basis, guard.value, owners_[i].tolerance);
+    if (germ.sign < 0) {
+      crossing_.found = true;
+      crossing_.guard = static_cast<int>(i);
+      crossing_.s = 0.0;
+      basis.evaluate(0.0, crossing_.values);
+      return true;
+    }
+    guard.known_zeros = std::min(germ.zeros, 3);
+  }
+  return false;
+}
+
+/// Ends the phase after s: position, velocity, drive and the laws' own states.
+void ExactEngine::advance(double s) {
+  const core::ExponentialBasis& basis = mode_->basis();
+  const friction::Instant before = now();
+  if (direction_ != Direction::rest) {
+    x_ = core::evaluate(basis, motion_, crossing_.values);
+    v_ = core::evaluate(basis, velocity_, crossing_.values);
+  }
+  const bool periodic = std::isfinite(drive_.period());
+  local_time_ += s;
+  if (periodic && local_time_ >= drive_.period()) {
+    local_time_ = 0.0;
+    ++cycle_;
+    drive_.reset(0.0);
+  } else {
+    for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) {
+      const auto k = static_cast<std::size_t>(mode_->harmonic_element(j));
+      drive_.turn(j, {crossing_.values.re[k], crossing_.values.im[k]});
+    }
+    drive_.pass(s);
+  }
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    model_.friction[i].advance(memories_[i], before, now(), direction_);
+  }
+}
+
+EventKind ExactEngine::act(const Owner& owner) {
+  switch (owner.kind) {
+    case Owner::Kind::velocity: {
+      v_ = 0.0;
+      settle();
+      if (direction_ != Direction::rest) return EventKind::reversal;
+      saltation_.pending = false;
+      sensitivity_.row(1).setZero();
+      return EventKind::stop;
+    }
+    case Owner::Kind::limit:
+      change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
+      return EventKind::release;
+    case Owner::Kind::law: break;
+  }
+  const auto law = static_cast<std::size_t>(owner.law);
+  model_.friction[law].jump(memories_[law], {owner.guard}, now(), direction_);
+  return EventKind::switching;
+}
+
+void ExactEngine::propagate() {
+  if (direction_ == Direction::rest) {
+    sensitivity_.row(1).setZero();
+  } else {
+    sensitivity_ = (mode_->propagator(crossing_.values) * sensitivity_).eval();
+  }
+}
+
+void ExactEngine::prepare_saltation(const Owner& owner, const core::Guard& guard) {
+  saltation_ = {.pending = true,
+                .by_position = owner.by_position,
+                .by_velocity = owner.by_velocity,
+                .slope = core::evaluate(mode_->basis(), guard.slope, crossing_.values),
+                .acceleration = core::evaluate(mode_->basis(), acceleration_, crossing_.values)};
+}
+
+/// A perturbation shifts the event by dt = -(g_x dx + g_v dv)/g'; x is continuous with equal slopes, v gains the
+/// difference of accelerations over dt.
+void ExactEngine::apply_saltation() {
+  if (!saltation_.pending) return;
+  saltation_.pending = false;
+  if (saltation_.slope == 0.0) return;
+  const double after = core::at_start(mode_->basis(), acceleration_);
+  const double gain = (after - saltation_.acceleration) / saltation_.slope;
+  sensitivity_.row(1) += (gain * (saltation_.by_position * sensitivity_.row(0) +
+                                  saltation_.by_velocity * sensitivity_.row(1)))
+                             .eval();
+}
+
+const Interval* ExactEngine::next(double horizon) {
+  const double period_left = drive_.period() - local_time_;
+  const double left = std::min(horizon - time(), period_left);
+  if (!outcome_.ok() || !(left > 0.0)) return nullptr;
+  lay_phase();
+  if (tracking_) apply_saltation();
+  grazings_.clear();
+  const bool at_once = find_violated();
+  if (!at_once) {
+    core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, left, crossing_, grazings_, count_);
+  }
+  if (at_once && ++repeats_ > max_repeats) {
+    outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
+    return nullptr;
+  }
+  if (!at_once) repeats_ = 0;
+
+  interval_->begin = time();
+  interval_->duration = crossing_.s;
+  interval_->direction = direction_;
+  interval_->force = total_;
+  interval_->ending.reset();
+  if (tracking_) propagate();
+  const bool whole = !crossing_.found && left == period_left;
+  const core::Crossing& end = crossing_;
+  if (tracking_ && end.found) {
+    prepare_saltation(owners_[static_cast<std::size_t>(end.guard)], guards_[static_cast<std::size_t>(end.guard)]);
+  }
+  advance(whole ? period_left : end.s);
+  if (!std::isfinite(x_) || !std::isfinite(v_)) {
+    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+    return nullptr;
+  }
+  if (end.found) interval_->ending = act(owners_[static_cast<std::size_t>(end.guard)]);
+  return interval_.get();
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,147 @@
+#pragma once
+/// The exact engine: walks from event to event for laws that are affine in every mode.
+///
+/// Between events the motion is closed-form (`sim/linear_mode.hpp`); the next event is found by the certified search
+/// (`core/first_crossing.hpp`). The driver knows no law by name. At v = 0 it decides by the sum of forces:
+///   rest      while |pull| <= sum of static limits, equality included when the excess is not growing;
+///   slip      otherwise, in the direction of the pull.
+/// A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times.
+///
+/// Under a harmonic excitation time is kept modulo one forcing period, so that long runs lose no phase: intervals
+/// also end at period boundaries.
+///
+/// Cost: for Coulomb friction about one exp, two sincos and a few dozen multiplications an event; no allocation
+/// after the first period.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/first_crossing.hpp"
+#include "core/outcome.hpp"
+#include "sim/drive.hpp"
+#include "sim/interval.hpp"
+#include "sim/linear_mode.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+class ExactEngine {
+ public:
+  static constexpr int max_repeats = 32;
+
+  /// Every law of the model must be affine.
+  explicit ExactEngine(const Model& model);
+  ~ExactEngine();
+  ExactEngine(const ExactEngine&) = delete;
+  ExactEngine& operator=(const ExactEngine&) = delete;
+
+  /// Places the mass at t = 0 with all laws at their start.
+  void start(double x, double v);
+  /// Same, keeping what the laws remember: closes a period.
+  void restart(double x, double v);
+
+  /// The next interval, ending at an event, a period boundary or `horizon` [s], whichever is first. Valid until the
+  /// next call. A null pointer: nothing more before the horizon, or outcome() is not ok().
+  [[nodiscard]] const Interval* next(double horizon);
+
+  [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
+  [[nodiscard]] double time() const;                       ///< s
+  [[nodiscard]] double position() const { return x_; }     ///< m
+  [[nodiscard]] double velocity() const { return v_; }     ///< m/s
+  [[nodiscard]] friction::Direction direction() const { return direction_; }
+  [[nodiscard]] const core::SearchCount& count() const { return count_; }
+  /// Tangencies within the last interval.
+  [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
+
+  /// Forcing period [s]; infinite without a harmonic excitation.
+  [[nodiscard]] double period() const { return drive_.period(); }
+
+  /// Tracks d(x, v)(now)/d(x, v)(start or restart): products of propagators and saltation matrices.
+  void track_sensitivity(bool track) { tracking_ = track; }
+  [[nodiscard]] const Eigen::Matrix2d& sensitivity() const { return sensitivity_; }
+
+ private:
+  /// What a guard of the present phase belongs to.
+  struct Owner {
+    enum class Kind { velocity, limit, law } kind = Kind::velocity;
+    int law = 0;    ///< index of the law; for a limit the direction of release, +1 or -1
+    int guard = 0;  ///< index among the law's own guards
+    double by_position = 0.0;  ///< dg/dx
+    double by_velocity = 0.0;  ///< dg/dv
+    double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
+  };
+  /// Force of several laws together, affine in the phase.
+  struct Total {
+    friction::Affine force;  ///< without its transient
+    std::vector<double> transients;
+    std::vector<double> decays;
+  };
+  /// An event waiting for the acceleration after it, to complete the saltation matrix.
+  struct Saltation {
+    bool pending = false;
+    double by_position = 0.0;
+    double by_velocity = 0.0;
+    double slope = 0.0;
+    double acceleration = 0.0;
+  };
+  class PhaseInterval;
+
+  [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
+  void place(double x, double v);
+  void sum_forces(bool with_holding_laws, Total& total) const;
+  [[nodiscard]] friction::Affine total_limit() const;
+  const LinearMode& mode_for(double damping, double stiffness, const std::vector<double>& decays);
+  void load_forcing(const Total& total, double extra_constant);
+  const LinearMode& pull_on_mode(core::ModeFunction& pull);
+  void limit_guard(const core::ModeFunction& pull, double direction, core::ModeFunction& guard) const;
+  void lay_phase();
+  void lay_rest();
+  void lay_slip();
+  void add_law_guards();
+  core::Guard& new_guard(const Owner& owner);
+  bool find_violated();
+  void settle();
+  void change_direction(friction::Direction direction);
+  EventKind act(const Owner& owner);
+  void propagate();
+  void prepare_saltation(const Owner& owner, const core::Guard& guard);
+  void apply_saltation();
+  void advance(double s);
+  [[nodiscard]] double force_scale() const;
+
+  Model model_;
+  Drive drive_;
+  bool can_rest_ = false;  ///< some law has a static limit
+  double x_ = 0.0;
+  double v_ = 0.0;
+  double local_time_ = 0.0;  ///< within the forcing period
+  long cycle_ = 0;
+  friction::Direction direction_ = friction::Direction::rest;
+  std::vector<friction::Memory> memories_;
+
+  int repeats_ = 0;  ///< events in a row that took no time
+  std::vector<std::unique_ptr<LinearMode>> modes_;
+  const LinearMode* mode_ = nullptr;  ///< of the present phase
+  ModeForcing forcing_;
+  Total total_;
+  double force_scale_ = 0.0;
+  core::ModeFunction motion_;
+  core::ModeFunction velocity_;
+  core::ModeFunction acceleration_;
+  std::vector<core::Guard> guards_;
+  std::vector<Owner> owners_;
+  std::size_t guard_count_ = 0;
+  std::vector<friction::Affine> affine_guards_;
+  core::Crossing crossing_;
+  std::vector<core::Grazing> grazings_;
+  core::SearchCount count_;
+  core::Outcome outcome_;
+
+  bool tracking_ = false;
+  Eigen::Matrix2d sensitivity_ = Eigen::Matrix2d::Identity();
+  Saltation saltation_;
+  std::unique_ptr<PhaseInterval> interval_;
+};
+
+}  // namespace dualdamp::sim

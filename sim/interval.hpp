@@ -1,0 +1,59 @@
+#pragma once
+/// An interval: the motion between two events, as a function of time.
+///
+/// Both engines hand out a stream of intervals; sampling, extremes, energy and event logs are observers of that
+/// stream (`sim/observers.hpp`). Within an interval the velocity keeps one sign or the mass rests, so extremes of x
+/// lie at interval ends only.
+
+#include <optional>
+#include <string_view>
+
+#include "friction_models/law.hpp"
+
+namespace dualdamp::sim {
+
+enum class EventKind {
+  reversal,   ///< the velocity changes sign and the mass moves on
+  stop,       ///< the mass comes to rest and stays
+  release,    ///< the mass leaves rest
+  grazing,    ///< a guard is touched within rounding and not crossed
+  switching,  ///< a law changes its mode, the mass moving on
+};
+
+/// "reversal", "stop", "release", "grazing", "switching".
+[[nodiscard]] std::string_view name(EventKind kind);
+
+/// All quantities of the motion at one time.
+struct Sample {
+  double t = 0.0;         ///< s
+  double y = 0.0;         ///< base position [m]; 0 for a force-driven oscillator
+  double y_rate = 0.0;    ///< base velocity [m/s]
+  double x = 0.0;         ///< m
+  double v = 0.0;         ///< m/s
+  double a = 0.0;         ///< m/s^2
+  double force = 0.0;     ///< friction force on the mass, F > 0 opposing v > 0 [N]
+  double external = 0.0;  ///< external force f(t) [N]
+};
+
+class Interval {
+ public:
+  Interval() = default;
+  Interval(const Interval&) = delete;
+  Interval& operator=(const Interval&) = delete;
+  virtual ~Interval() = default;
+
+  double begin = 0.0;     ///< s
+  double duration = 0.0;  ///< s
+  friction::Direction direction = friction::Direction::rest;
+  std::optional<EventKind> ending;  ///< none: the interval ends at a period boundary or at the horizon
+
+  /// The motion at `begin + s`, 0 <= s <= duration.
+  [[nodiscard]] virtual Sample at(double s) const = 0;
+  /// A time [s] over which the motion is well resolved by a polynomial of low degree: a quadrature panel.
+  [[nodiscard]] virtual double resolution() const = 0;
+
+  [[nodiscard]] double end() const { return begin + duration; }
+  [[nodiscard]] Sample state_at(double t) const { return at(t - begin); }
+};
+
+}  // namespace dualdamp::sim

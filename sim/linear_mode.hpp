@@ -1,0 +1,75 @@
+#pragma once
+/// Closed-form motion of one mode:  m x'' + C x' + K x = f(s),
+///     f(s) = constant + ramp s + sum_i transient_i exp(-decay_i s) + Re sum_j phasor_j exp(i w_j s)      [N].
+///
+/// C [N.s/m] and K [N/m] of any sign, zero included. A basis of exponentials is laid out once for (m, C, K, w);
+/// each phase then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's own
+/// (resonance with little damping, vanishing stiffness), or those two lie close to each other (critical damping),
+/// the solution is written on divided differences, so that nothing cancels.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/exponential_basis.hpp"
+
+namespace dualdamp::sim {
+
+/// The right-hand side of a mode, relative to the start of the phase.
+struct ModeForcing {
+  double constant = 0.0;                ///< N
+  double ramp = 0.0;                    ///< N/s; only for a mode laid out with a ramp
+  std::vector<core::Complex> phasors{};  ///< N, one for each frequency of the mode, or none
+  std::vector<double> transients{};      ///< N, one for each decay of the mode, or none
+};
+
+class LinearMode {
+ public:
+  /// `ramped`: the forcing may have a ramp.
+  LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies, bool ramped,
+             std::span<const double> decays = {});
+
+  [[nodiscard]] const core::ExponentialBasis& basis() const { return basis_; }
+  [[nodiscard]] double damping() const { return damping_; }
+  [[nodiscard]] double stiffness() const { return stiffness_; }
+  [[nodiscard]] const std::vector<double>& decays() const { return decays_; }
+
+  /// The element exp(i w_j s) of frequency j.
+  [[nodiscard]] int harmonic_element(std::size_t j) const { return harmonics_[j].source; }
+
+  /// x(s) with x(0) = x0, x'(0) = v0.
+  void solve(const ModeForcing& forcing, double x0, double v0, core::ModeFunction& x) const;
+  /// f(s) itself.
+  void represent(const ModeForcing& forcing, core::ModeFunction& f) const;
+  /// d(x, v)(s) / d(x, v)(0), from the elements' values at s.
+  [[nodiscard]] Eigen::Matrix2d propagator(const core::ExponentialBasis::Values& values) const;
+
+ private:
+  /// How a forcing exp(z s) enters the particular solution: gain on one element.
+  struct Driven {
+    int source = 0;  ///< the element exp(z s) (or s) itself
+    int target = 0;  ///< element of the particular solution
+    core::Complex gain;
+  };
+
+  void lay_own_motion();
+  [[nodiscard]] bool close_to_own(core::Complex z) const;
+  Driven drive(core::Complex z, int source);
+
+  core::ExponentialBasis basis_;
+  double mass_;
+  double damping_;
+  double stiffness_;
+  std::vector<double> decays_;
+  core::Complex first_;   ///< the oscillator's own exponents
+  core::Complex second_;
+  int own_first_ = 0;     ///< exp(first_ s)
+  int own_second_ = -1;   ///< divided difference of first_ and second_; -1: underdamped, one complex element
+  Driven constant_;
+  Driven ramp_;
+  bool ramped_;
+  std::vector<Driven> harmonics_;
+  std::vector<Driven> transients_;
+};
+
+}  // namespace dualdamp::sim
