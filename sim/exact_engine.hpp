@@ -42,11 +42,13 @@ class ExactEngine {
   void restart(double x, double v);
 
   /// The next interval, ending at an event, a period boundary or `horizon` [s], whichever is first. Valid until the
-  /// next call. A null pointer: nothing more before the horizon, or outcome() is not ok().
+  /// next call. A null pointer: nothing more before the horizon, or outcome() is not ok(). Under a harmonic
+  /// excitation the horizon may be infinite.
   [[nodiscard]] const Interval* next(double horizon);
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
   [[nodiscard]] double time() const;                       ///< s
+  [[nodiscard]] long cycle() const { return cycle_; }      ///< whole forcing periods passed
   [[nodiscard]] double position() const { return x_; }     ///< m
   [[nodiscard]] double velocity() const { return v_; }     ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
@@ -59,6 +61,7 @@ class ExactEngine {
 
   /// Tracks d(x, v)(now)/d(x, v)(start or restart): products of propagators and saltation matrices.
   void track_sensitivity(bool track) { tracking_ = track; }
+  void reset_sensitivity() { sensitivity_.setIdentity(); }
   [[nodiscard]] const Eigen::Matrix2d& sensitivity() const { return sensitivity_; }
 
  private:

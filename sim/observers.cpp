@@ -1,0 +1,125 @@
+#include "sim/observers.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace dualdamp::sim {
+
+namespace {
+
+/// Panels of one interval are at most this many: a very fast transient is then under-resolved, and the energy
+/// defect shows it.
+constexpr double max_panels = 4096.0;
+
+/// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval.
+template <class Visit>
+void quadrature(const Interval& interval, const Visit& visit) {
+  using Rule = boost::math::quadrature::gauss<double, 15>;
+  if (interval.duration <= 0.0) return;
+  const double panels = std::clamp(std::ceil(interval.duration / interval.resolution()), 1.0, max_panels);
+  const double half = 0.5 * interval.duration / panels;
+  for (double panel = 0.0; panel < panels; panel += 1.0) {
+    const double middle = (2.0 * panel + 1.0) * half;
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+      const double offset = half * Rule::abscissa()[i];
+      const double weight = half * Rule::weights()[i];
+      visit(interval.at(middle + offset), weight);
+      if (offset != 0.0) visit(interval.at(middle - offset), weight);
+    }
+  }
+}
+
+}  // namespace
+
+void Sampler::observe(const Interval& interval) {
+  if (rate_ <= 0.0) return;
+  for (;;) {
+    const double t = static_cast<double>(samples_.size()) / rate_;
+    if (t >= interval.end()) return;
+    Sample sample = interval.state_at(std::max(t, interval.begin));
+    sample.t = t;
+    samples_.push_back(sample);
+  }
+}
+
+void Sampler::finish(const Sample& final) {
+  if (rate_ <= 0.0) return;
+  const double t = static_cast<double>(samples_.size()) / rate_;
+  if (std::abs(t - final.t) > 1e-9 / rate_) return;
+  samples_.push_back(final);
+  samples_.back().t = t;
+}
+
+void Extremes::observe(const Interval& interval) {
+  const Sample begin = interval.at(0.0);
+  const Sample end = interval.at(interval.duration);
+  if (!seen_) peak_ = trough_ = begin.x;
+  seen_ = true;
+  peak_ = std::max({peak_, begin.x, end.x});
+  trough_ = std::min({trough_, begin.x, end.x});
+  max_speed_ = std::max({max_speed_, std::abs(begin.v), std::abs(end.v)});
+  if (interval.direction == friction::Direction::rest || interval.duration <= 0.0) return;
+  // The speed is largest where the acceleration changes sign; a grid brackets it, bisection finds it.
+  const int cells = static_cast<int>(std::clamp(std::ceil(8.0 * interval.duration / interval.resolution()), 8.0, 4096.0));
+  double left = 0.0;
+  double left_a = begin.a;
+  for (int i = 1; i <= cells; ++i) {
+    const double right = interval.duration * i / cells;
+    const double right_a = interval.at(right).a;
+    if (left_a * right_a < 0.0) {
+      double low = left;
+      double high = right;
+      for (int step = 0; step < 60 && high - low > 0.0; ++step) {
+        const double middle = 0.5 * (low + high);
+        (interval.at(middle).a * left_a > 0.0 ? low : high) = middle;
+      }
+      max_speed_ = std::max(max_speed_, std::abs(interval.at(low).v));
+    }
+    left = right;
+    left_a = right_a;
+  }
+}
+
+double EnergyAudit::stored(const Sample& sample) const {
+  const double stretch = sample.y - sample.x;
+  return 0.5 * (oscillator_.mass * sample.v * sample.v + oscillator_.stiffness * stretch * stretch);
+}
+
+void EnergyAudit::observe(const Interval& interval) {
+  if (!started_) first_ = stored(interval.at(0.0));
+  started_ = true;
+  last_ = stored(interval.at(interval.duration));
+  const bool damper_moves = oscillator_.damper_to == DamperTo::base;
+  // Sums of one interval first: thousands of intervals then add up without loss.
+  Energy part;
+  quadrature(interval, [&](const Sample& s, double weight) {
+    const double damper_speed = damper_moves ? s.v - s.y_rate : s.v;
+    const double base_force =
+        oscillator_.stiffness * (s.y - s.x) - (damper_moves ? oscillator_.damping * damper_speed : 0.0);
+    part.input += weight * (base_force * s.y_rate + s.external * s.v);
+    part.friction += weight * s.force * s.v;
+    part.viscous += weight * oscillator_.damping * damper_speed * damper_speed;
+  });
+  sums_.input += part.input;
+  sums_.friction += part.friction;
+  sums_.viscous += part.viscous;
+}
+
+Energy EnergyAudit::account() const {
+  Energy result = sums_;
+  result.stored = last_ - first_;
+  result.defect = result.input - result.friction - result.viscous - result.stored;
+  return result;
+}
+
+void Fundamental::observe(const Interval& interval) {
+  quadrature(interval, [&](const Sample& s, double weight) {
+    sum_ += weight * s.x * std::polar(1.0, -omega_ * s.t);
+  });
+}
+
+std::complex<double> Fundamental::coefficient() const { return sum_ * (omega_ / std::numbers::pi); }
+
+}  // namespace dualdamp::sim
