@@ -1,5 +1,6 @@
 # dualdamp_module(<folder> HEADERS ... SOURCES ... [PUBLIC ...] [PRIVATE ...]): the library of one folder.
-# HEADERS are public: installed, and included as "<folder>/<header>". PUBLIC and PRIVATE are what it links.
+# HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
+# PUBLIC and PRIVATE are what it links.
 function(dualdamp_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE")
   if(arg_UNPARSED_ARGUMENTS)

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Fails when a folder includes or links what its place in the architecture does not allow.
+
+usage: layering.py ROOT
+
+FOLDERS is the table of docs/architecture.md; LIBRARIES says where each foreign library may appear. A header is public
+when a CMakeLists.txt names it under HEADERS (they are installed), private otherwise.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+# What a folder may include from the project, beside itself. tests/ may include anything.
+FOLDERS = {
+    "core": [],
+    "friction_models": ["core"],
+    "sim": ["core", "friction_models"],
+    "identify": ["core", "friction_models", "sim"],
+    "scenarios": ["core", "friction_models", "sim", "identify"],
+    "bench": ["core", "friction_models", "sim", "identify", "scenarios"],
+    "cli": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
+    "python": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
+}
+ANYWHERE = list(FOLDERS)
+ABOVE_SIM = ["identify", "scenarios", "bench", "cli", "python"]
+
+# Files that may include a library: sources, private headers too, or all headers too.
+SOURCES, PRIVATE, PUBLIC = range(3)
+
+# Library: (its includes, the folders that may use it, the files that may). The first match counts.
+LIBRARIES = {
+    "Eigen's plain matrices": (r"Eigen/Core", ANYWHERE, PUBLIC),
+    "Eigen beyond Eigen/Core": (r"(unsupported/)?Eigen/", ANYWHERE, PRIVATE),
+    "udunits2": (r"udunits2?\.h", ["core"], SOURCES),
+    "Random123": (r"Random123/", ["core"], SOURCES),
+    "OpenSSL": (r"openssl/", ["core"], SOURCES),
+    "SLEEF": (r"sleef\.h", ["sim"], SOURCES),
+    "oneTBB": (r"(tbb|oneapi)/", ["sim", *ABOVE_SIM], SOURCES),
+    "Boost.Odeint": (r"boost/numeric/odeint", ["sim", "bench"], SOURCES),
+    "Boost": (r"boost/", ["core", "sim", *ABOVE_SIM], SOURCES),
+    "Ceres": (r"(ceres|glog)/", ["identify"], SOURCES),
+    "yaml-cpp": (r"yaml-cpp/", ["scenarios"], SOURCES),
+    "matio": (r"matio\.h", ["identify", "scenarios"], SOURCES),
+    "nlohmann-json's forward declarations": (r"nlohmann/json_fwd\.hpp", ["scenarios", "bench", "cli"], PUBLIC),
+    "nlohmann-json": (r"nlohmann/", ["scenarios", "bench", "cli"], PRIVATE),
+    "fmt": (r"fmt/", ABOVE_SIM, SOURCES),
+    "CLI11": (r"CLI/", ["cli"], PUBLIC),
+    "MPI": (r"mpi\.h", ["bench"], SOURCES),
+    "the operating system": (r"(sys/\w+|unistd|fcntl|dlfcn|pthread|poll|termios)\.h", ["scenarios", "bench", "cli"], SOURCES),
+}
+STANDARD = re.compile(r"[a-z_0-9]+$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+HEADER_LIST = re.compile(r"\bHEADERS\b(.*?)(?:\bSOURCES\b|\))", re.DOTALL)
+LINKED = re.compile(r"\b(?:dualdamp_|dualdamp::)(%s)\b" % "|".join(FOLDERS))
+ONE_ODEINT = "sim"  # the folder that keeps Boost.Odeint in a single file
+
+
+def source_files(root, folder):
+    return sorted(p for p in (root / folder).rglob("*") if p.suffix in (".hpp", ".cpp", ".h", ".ipp"))
+
+
+def public_headers(root):
+    """Paths relative to the root of the headers that a CMakeLists.txt names under HEADERS."""
+    found = set()
+    for folder in FOLDERS:
+        for cmake in (root / folder).rglob("CMakeLists.txt"):
+            for names in HEADER_LIST.findall(re.sub(r"#.*", "", cmake.read_text())):
+                found |= {str((cmake.parent / name).relative_to(root)) for name in names.split()}
+    return found
+
+
+def line_of(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+def project_fault(root, path, target, public):
+    """Why file `path` may not include project file `target`, or None."""
+    folder, owner = path.split("/")[0], target.split("/")[0]
+    if folder == "tests":
+        return None if (root / target).exists() else "no such file"
+    if owner == "tests":
+        return "only tests include tests"
+    if owner != folder and owner not in FOLDERS[folder]:
+        allowed = ", ".join([folder, *FOLDERS[folder]])
+        return f"{folder}/ may include only {allowed}"
+    if not (root / target).exists():
+        return "no such file"
+    if owner != folder and target not in public:
+        return f"this header is private to {owner}/"
+    if path in public and target not in public:
+        return "a public header may not include a private one"
+    return None
+
+
+def library_fault(path, target, public):
+    """Why file `path` may not include foreign header `target`, or None."""
+    folder = path.split("/")[0]
+    if folder == "tests" or STANDARD.match(target):
+        return None
+    rank = SOURCES if path.endswith(".cpp") else PUBLIC if path in public else PRIVATE
+    for name, (pattern, folders, files) in LIBRARIES.items():
+        if not re.match(pattern, target):
+            continue
+        if folder not in folders:
+            return f"{name} may appear only in {', '.join(f + '/' for f in folders)}"
+        if rank > files:
+            return f"{name} belongs in {('.cpp files', '.cpp files and private headers')[files]}"
+        return None
+    return "this library is not on the list in scripts/checks/layering.py"
+
+
+def include_faults(root, path, public):
+    text = (root / path).read_text()
+    if not path.endswith(".cpp") and not re.search(r"^#pragma once$", text, re.MULTILINE):
+        yield f"{path}:1: a header without #pragma once"
+    for match in INCLUDE.finditer(text):
+        target = match[2]
+        owner = target.split("/")[0] if "/" in target else ""
+        if owner in FOLDERS or owner == "tests":
+            fault = project_fault(root, path, target, public)
+        elif match[1] == '"':
+            fault = "project files are included from the root: #include \"folder/file.hpp\""
+        else:
+            fault = library_fault(path, target, public)
+        if fault:
+            yield f"{path}:{line_of(text, match.start())}: {match[0].strip()}: {fault}"
+
+
+def link_faults(root, folder):
+    """The libraries of the project that the folder's CMakeLists.txt names."""
+    for path in sorted((root / folder).rglob("CMakeLists.txt")):
+        text = re.sub(r"#.*", "", path.read_text())
+        for match in LINKED.finditer(text):
+            if match[1] != folder and match[1] not in FOLDERS[folder]:
+                yield f"{path.relative_to(root)}:{line_of(text, match.start())}: {folder}/ may not link {match[0]}"
+
+
+def odeint_faults(root):
+    users = [p for p in source_files(root, ONE_ODEINT) if "boost/numeric/odeint" in p.read_text()]
+    if len(users) > 1:
+        names = ", ".join(str(p.relative_to(root)) for p in users)
+        yield f"{ONE_ODEINT}/: Boost.Odeint belongs in one .cpp, it is in {names}"
+
+
+def faults(root):
+    public = public_headers(root)
+    for folder in [*FOLDERS, "tests"]:
+        for path in source_files(root, folder):
+            yield from include_faults(root, str(path.relative_to(root)), public)
+        if folder in FOLDERS:
+            yield from link_faults(root, folder)
+    yield from odeint_faults(root)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    found = list(faults(Path(sys.argv[1]).resolve()))
+    for fault in found:
+        print(fault)
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Fails when a law, a method, a header, a source or a scenario lacks one of the things that belong to it.
+
+usage: parity.py ROOT PROGRAM
+
+Laws and methods are those the built PROGRAM lists; a page of another name is a fault. Each law has a header,
+a source, a test, a page and a scenario that uses it; each method likewise, where one file pair may serve a family:
+identify/resonance.{hpp,cpp} serves resonance_two_point. Every header of a library is in a CMakeLists.txt (public under
+HEADERS, which makes a FILE_SET; private under SOURCES), so is every source, and the first line of every shipped scenario points editors to the schema.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "tests"]
+LIBRARIES = ["core", "friction_models", "sim", "identify", "scenarios"]  # folders whose headers are installed
+SHIPPED = ["scenarios/examples", "scenarios/paper"]
+
+
+def listed(program, command):
+    """First column of `program command`: the names."""
+    result = subprocess.run([program, command], capture_output=True, text=True, check=True)
+    return [line.split()[0] for line in result.stdout.splitlines() if line.strip()]
+
+
+def family(name):
+    """resonance_two_point, resonance_two, resonance: the names a file that serves it may have."""
+    words = name.split("_")
+    return ["_".join(words[:count]) for count in range(len(words), 0, -1)]
+
+
+def words_of(node, key):
+    """Every text under `key` anywhere in a YAML document: {law: coulomb} and methods: [a, b]."""
+    if isinstance(node, dict):
+        for name, value in node.items():
+            if name == key:
+                yield from (v for v in (value if isinstance(value, list) else [value]) if isinstance(v, str))
+            yield from words_of(value, key)
+    elif isinstance(node, list):
+        for value in node:
+            yield from words_of(value, key)
+
+
+def scenario_files(root):
+    return sorted(p for folder in SHIPPED for p in (root / folder).rglob("*.yaml"))
+
+
+def used_words(root, key):
+    return {word for path in scenario_files(root) for word in words_of(yaml.safe_load(path.read_text()), key)}
+
+
+def lacking(root, places):
+    """Of places [what, [candidate paths]], those with no candidate present."""
+    for what, candidates in places:
+        if not any((root / path).is_file() for path in candidates):
+            yield f"no {what} ({candidates[0]})"
+
+
+def law_faults(root, names):
+    used = used_words(root, "law")
+    for name in names:
+        yield from (f"law {name}: {fault}" for fault in lacking(root, [
+            ("header", [f"friction_models/{name}.hpp"]),
+            ("source", [f"friction_models/{name}.cpp"]),
+            ("test", [f"tests/friction_models/test_{name}.cpp"]),
+            ("page", [f"docs/laws/{name}.md"]),
+        ]))
+        if name not in used:
+            yield f"law {name}: no scenario uses it (scenarios/examples/{name}.yaml)"
+    for page in sorted((root / "docs/laws").glob("*.md")):
+        if page.stem not in names and page.stem not in ("README", "index"):
+            yield f"docs/laws/{page.name}: the program lists no such law"
+
+
+def method_faults(root, names):
+    used = used_words(root, "methods")
+    for name in names:
+        stems = family(name)
+        yield from (f"method {name}: {fault}" for fault in lacking(root, [
+            ("header", [f"identify/{stem}.hpp" for stem in stems]),
+            ("source", [f"identify/{stem}.cpp" for stem in stems]),
+            ("test", [f"tests/identify/test_{stem}.cpp" for stem in stems]),
+            ("page", [f"docs/methods/{name}.md"]),
+        ]))
+        if name not in used:
+            yield f"method {name}: no scenario uses it"
+    for page in sorted((root / "docs/methods").glob("*.md")):
+        if page.stem not in names and page.stem not in ("README", "index"):
+            yield f"docs/methods/{page.name}: the program lists no such method"
+
+
+def order_faults(kind, names):
+    if names != sorted(set(names)):
+        yield f"{kind}: the program's list is not sorted or names one twice"
+
+
+def build_faults(root):
+    """Sources and headers that no CMakeLists.txt between them and the root names."""
+    for folder in CODE:
+        for path in sorted((root / folder).rglob("*.[ch]pp")):
+            if (root / "tests/package") in path.parents or (path.suffix == ".hpp" and folder not in LIBRARIES):
+                continue
+            if not any(names_file(cmake, path) for cmake in cmake_files(root, path)):
+                where = "CMakeLists.txt (under HEADERS, or SOURCES when private)" if path.suffix == ".hpp" else "CMakeLists.txt"
+                yield f"{path.relative_to(root)}: not in a {where}"
+
+
+def cmake_files(root, path):
+    folder = path.parent
+    while folder != root:
+        if (folder / "CMakeLists.txt").is_file():
+            yield folder / "CMakeLists.txt"
+        folder = folder.parent
+
+
+def names_file(cmake, path):
+    text = re.sub(r"#.*", "", cmake.read_text())
+    return str(path.relative_to(cmake.parent)) in text.replace(")", " ").split()
+
+
+def scenario_faults(root):
+    schema = root / "scenarios/scenario.schema.json"
+    for path in scenario_files(root):
+        first = path.read_text().split("\n", 1)[0]
+        expected = "# yaml-language-server: $schema=" + os.path.relpath(schema, path.parent)
+        if first != expected:
+            yield f"{path.relative_to(root)}:1: the first line must be: {expected}"
+
+
+def faults(root, program):
+    laws, methods = listed(program, "laws"), listed(program, "methods")
+    if not laws or not methods:
+        yield "the program lists no laws or no methods"
+    yield from order_faults("laws", laws)
+    yield from order_faults("methods", methods)
+    yield from law_faults(root, laws)
+    yield from method_faults(root, methods)
+    yield from build_faults(root)
+    yield from scenario_faults(root)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    found = list(faults(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()))
+    for fault in found:
+        print(fault)
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,88 @@
+# Sourced by the scripts: installs what is missing, builds what is not fresh. Everything it says goes to stderr.
+# A failure ends with status 69, which the program itself never returns.
+
+root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd)
+readonly root
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+say() { printf '%s: %s\n' "$(basename -- "$0")" "$*" >&2; }
+
+fail() {
+  say "$@"
+  exit 69
+}
+
+# missing_packages KIND...: the packages of these kinds that are not installed.
+missing_packages() {
+  local wanted present
+  wanted=$(awk -v kinds=" $* " '!/^#/ && index(kinds, " " $2 " ") { print $1 }' "$root/scripts/packages.txt")
+  # shellcheck disable=SC2086
+  present=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p')
+  grep -vxF -f <(printf '%s\n' "$present") <<<"$wanted" | tr '\n' ' '
+}
+
+# ensure_packages KIND...: installs what is missing.
+ensure_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    say "this is not Debian: scripts/packages.txt names what has to be installed"
+    return
+  fi
+  local missing
+  missing=$(missing_packages "$@")
+  [ -n "$missing" ] || return 0
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "missing packages; run as root: apt-get install $missing"
+    as_root=(sudo)
+  fi
+  say "installing ${missing% }"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 -y)
+  "${apt[@]}" update >&2 </dev/null || say "the package lists could not be refreshed; trying with those at hand"
+  # shellcheck disable=SC2086
+  "${apt[@]}" install --no-install-recommends $missing >&2 </dev/null || fail "could not install: $missing"
+}
+
+# Configures when that was never done, when the presets changed, or when the tree has moved since.
+configure() {
+  local build=$root/build/$1
+  local fresh=()
+  if [ -f "$build/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+    fresh=(--fresh)
+  elif [ -f "$build/build.ninja" ] && [ ! "$root/CMakePresets.json" -nt "$build/build.ninja" ]; then
+    return 0
+  fi
+  say "configuring build/$1"
+  (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$build/configure.log" 2>&1 </dev/null && return 0
+  tail -n 40 "$build/configure.log" >&2
+  return 1
+}
+
+# Silent when there is something to run already, with ninja's progress when all has to be built.
+compile() {
+  local build=$root/build/$1 quiet=()
+  if [ -e "$build/.built" ]; then
+    quiet=(--quiet)
+  else
+    say "building build/$1, once: this takes some minutes"
+  fi
+  ninja -C "$build" -j "$(nproc)" "${quiet[@]}" "${@:2}" >&2 </dev/null && touch "$build/.built"
+}
+
+# prepare PRESET KIND... -- [TARGET...]: packages, then build. One at a time, however many start at once.
+prepare() {
+  local preset=$1 kinds=()
+  shift
+  while [ "$1" != -- ]; do
+    kinds+=("$1")
+    shift
+  done
+  shift
+  mkdir -p "$root/build/$preset" || fail "cannot write to $root/build"
+  (
+    flock 9
+    ensure_packages "${kinds[@]}"
+    configure "$preset" || fail "could not configure build/$preset"
+    compile "$preset" "$@" || fail "could not build build/$preset"
+  ) 9>"$root/build/.$preset.lock" || exit
+}

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The layering check passes a sound tree and names each planted fault."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CHECK = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "layering.py"
+
+SOUND = {
+    "core/units.hpp": "#pragma once\n#include <Eigen/Core>\n#include <string>\n",
+    "core/units.cpp": '#include "core/units.hpp"\n\n#include <udunits2.h>\n#include <cmath>\n',
+    "friction_models/coulomb.hpp": '#pragma once\n#include "core/units.hpp"\n',
+    "sim/smooth.hpp": '#pragma once\n#include "friction_models/coulomb.hpp"\n',
+    "sim/smooth.cpp": '#include "sim/smooth.hpp"\n#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>\n',
+    "identify/fit.cpp": '#include <ceres/ceres.h>\n#include "sim/smooth.hpp"\n',
+    "scenarios/reader.cpp": "#include <yaml-cpp/yaml.h>\n#include <nlohmann/json.hpp>\n",
+    "bench/speed/main.cpp": "#include <boost/numeric/odeint.hpp>\n",
+    "cli/main.cpp": '#include <CLI/CLI.hpp>\n#include <unistd.h>\n#include "core/units.hpp"\n',
+    "tests/core/units.cpp": '#include <yaml-cpp/yaml.h>\n#include "cli/main.cpp"\n',
+    "scenarios/json.hpp": "#pragma once\n#include <nlohmann/json.hpp>\n",
+    "core/CMakeLists.txt": "dualdamp_module(core\n  HEADERS units.hpp bad.hpp\n  SOURCES units.cpp)\n",
+    "friction_models/CMakeLists.txt": "dualdamp_module(f HEADERS coulomb.hpp PUBLIC dualdamp_core)\n",
+    "sim/CMakeLists.txt": "# not dualdamp_cli\ndualdamp_module(sim HEADERS smooth.hpp bad.hpp PUBLIC dualdamp_core)\n",
+    "scenarios/CMakeLists.txt": "dualdamp_module(scenarios HEADERS bad.hpp SOURCES reader.cpp json.hpp)\n",
+}
+
+# One change to the sound tree, and words of the complaint.
+FAULTS = {
+    "upward include": ("core/bad.cpp", '#include "sim/smooth.hpp"\n', ["core/bad.cpp:1", "core/ may include only core"]),
+    "sideways include": ("friction_models/bad.hpp", '#pragma once\n#include "scenarios/x.hpp"\n', ["bad.hpp:2"]),
+    "angle brackets hide nothing": ("core/bad.cpp", "#include <sim/smooth.hpp>\n", ["core/ may include only core"]),
+    "bench from identify": ("identify/bad.cpp", '#include "bench/x.hpp"\n', ["identify/ may include only"]),
+    "tests from the library": ("sim/bad.cpp", '#include "tests/support/x.hpp"\n', ["only tests include tests"]),
+    "yaml-cpp outside scenarios": ("cli/bad.cpp", "#include <yaml-cpp/yaml.h>\n", ["yaml-cpp may appear only in scenarios/"]),
+    "yaml-cpp in a header": ("scenarios/bad.hpp", "#pragma once\n#include <yaml-cpp/yaml.h>\n", ["belongs in .cpp"]),
+    "a second odeint file": ("sim/bad.cpp", "#include <boost/numeric/odeint.hpp>\n", ["in one .cpp", "sim/smooth.cpp"]),
+    "odeint elsewhere": ("identify/bad.cpp", "#include <boost/numeric/odeint.hpp>\n", ["Boost.Odeint may appear only"]),
+    "CLI11 outside cli": ("scenarios/bad.cpp", "#include <CLI/CLI.hpp>\n", ["CLI11 may appear only in cli/"]),
+    "udunits2 in a header": ("core/bad.hpp", "#pragma once\n#include <udunits2.h>\n", ["udunits2 belongs in .cpp"]),
+    "Ceres outside identify": ("sim/bad.cpp", "#include <ceres/ceres.h>\n", ["Ceres may appear only in identify/"]),
+    "json in a header": ("scenarios/bad.hpp", "#pragma once\n#include <nlohmann/json.hpp>\n", ["belongs in .cpp"]),
+    "a private header of another folder": ("cli/bad.cpp", '#include "scenarios/json.hpp"\n', ["private to scenarios/"]),
+    "a private header in a public one": ("scenarios/bad.hpp", '#pragma once\n#include "scenarios/json.hpp"\n',
+                                         ["may not include a private one"]),
+    "heavy Eigen in a header": ("sim/bad.hpp", "#pragma once\n#include <Eigen/Dense>\n", ["beyond Eigen/Core belongs"]),
+    "an unknown library": ("core/bad.cpp", "#include <gsl/gsl_math.h>\n", ["not on the list"]),
+    "relative include": ("core/bad.cpp", '#include "units.hpp"\n', ["included from the root"]),
+    "parent include": ("core/bad.cpp", '#include "../sim/smooth.hpp"\n', ["included from the root"]),
+    "a file that is not there": ("sim/bad.cpp", '#include "core/none.hpp"\n', ["no such file"]),
+    "no pragma once": ("core/bad.hpp", "int f();\n", ["without #pragma once"]),
+    "spaced directive": ("core/bad.cpp", '  #  include   "cli/main.cpp"\n', ["core/ may include only core"]),
+    "upward link": ("core/CMakeLists.txt", "x\ndualdamp_module(core HEADERS units.hpp PUBLIC dualdamp_sim)\n",
+                    ["core/CMakeLists.txt:2", "core/ may not link dualdamp_sim"]),
+}
+
+
+def run(tree):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in tree.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        return subprocess.run([sys.executable, CHECK, folder], capture_output=True, text=True, check=False)
+
+
+class Layering(unittest.TestCase):
+    def test_sound_tree_passes(self):
+        result = run(SOUND)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+    def test_planted_faults_are_named(self):
+        for name, (path, text, words) in FAULTS.items():
+            with self.subTest(name):
+                result = run({**SOUND, path: text})
+                self.assertEqual(result.returncode, 1)
+                for word in words:
+                    self.assertIn(word, result.stdout)
+                self.assertEqual(len(result.stdout.splitlines()), 1, result.stdout)
+
+    def test_needs_a_root(self):
+        result = subprocess.run([sys.executable, CHECK], capture_output=True, text=True, check=False)
+        self.assertNotEqual(result.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

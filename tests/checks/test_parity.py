@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""The parity check passes a complete tree and names whatever is taken away."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CHECK = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "parity.py"
+
+PROGRAM = """#!/bin/sh
+case $1 in
+  laws) echo 'coulomb  constant force'; echo 'dahl     bristles';;
+  methods) echo 'free_decay           decrements'; echo 'resonance_two_point  two pairs';;
+esac
+"""
+FIRST = "# yaml-language-server: $schema=../scenario.schema.json\n"
+COMPLETE = {
+    "program": PROGRAM,
+    "core/CMakeLists.txt": "dualdamp_module(core\n  HEADERS units.hpp\n  SOURCES units.cpp)\n",
+    "core/units.hpp": "",
+    "core/units.cpp": "",
+    "sim/CMakeLists.txt": "dualdamp_module(sim\n  HEADERS analytic/den_hartog.hpp\n  SOURCES analytic/den_hartog.cpp\n  PUBLIC x)\n",
+    "sim/analytic/den_hartog.hpp": "",
+    "sim/analytic/den_hartog.cpp": "",
+    "friction_models/CMakeLists.txt": "dualdamp_module(f HEADERS coulomb.hpp dahl.hpp SOURCES coulomb.cpp dahl.cpp)\n",
+    "friction_models/coulomb.hpp": "",
+    "friction_models/coulomb.cpp": "",
+    "friction_models/dahl.hpp": "",
+    "friction_models/dahl.cpp": "",
+    "identify/CMakeLists.txt": "dualdamp_module(i\n  HEADERS free_decay.hpp resonance.hpp\n  SOURCES free_decay.cpp resonance.cpp)\n",
+    "identify/free_decay.hpp": "",
+    "identify/free_decay.cpp": "",
+    "identify/resonance.hpp": "",
+    "identify/resonance.cpp": "",
+    "tests/friction_models/CMakeLists.txt": "dualdamp_test(f SOURCES test_coulomb.cpp test_dahl.cpp)\n",
+    "tests/friction_models/test_coulomb.cpp": "",
+    "tests/friction_models/test_dahl.cpp": "",
+    "tests/identify/CMakeLists.txt": "dualdamp_test(i SOURCES test_free_decay.cpp test_resonance.cpp)\n",
+    "tests/identify/test_free_decay.cpp": "",
+    "tests/identify/test_resonance.cpp": "",
+    "docs/laws/coulomb.md": "",
+    "docs/laws/dahl.md": "",
+    "docs/methods/free_decay.md": "",
+    "docs/methods/resonance_two_point.md": "",
+    "scenarios/examples/coulomb.yaml": FIRST + "system: {friction: {law: coulomb}}\n",
+    "scenarios/examples/parallel.yaml": FIRST + "system: {friction: [{law: coulomb}, {law: dahl}]}\n",
+    "scenarios/paper/identify.yaml": FIRST + "analysis: {methods: [free_decay, resonance_two_point]}\n",
+}
+
+# A file replaced (None: removed), and words of the one complaint.
+FAULTS = {
+    "law without header": ("friction_models/dahl.hpp", None, ["law dahl: no header"]),
+    "law without source": ("friction_models/dahl.cpp", None, ["law dahl: no source"]),
+    "law without test": ("tests/friction_models/test_dahl.cpp", None, ["law dahl: no test"]),
+    "law without page": ("docs/laws/dahl.md", None, ["law dahl: no page"]),
+    "law without scenario": ("scenarios/examples/parallel.yaml", None, ["law dahl: no scenario"]),
+    "page without law": ("docs/laws/lugre.md", "", ["lugre.md: the program lists no such law"]),
+    "method without header": ("identify/free_decay.hpp", None, ["method free_decay: no header"]),
+    "family without source": ("identify/resonance.cpp", None, ["method resonance_two_point: no source"]),
+    "method without test": ("tests/identify/test_free_decay.cpp", None, ["method free_decay: no test"]),
+    "a family page is not enough": ("docs/methods/resonance_two_point.md", None, ["resonance_two_point: no page"]),
+    "method without scenario": ("scenarios/paper/identify.yaml", FIRST + "analysis: {methods: [free_decay]}\n",
+                                ["method resonance_two_point: no scenario"]),
+    "header in no CMakeLists.txt": ("sim/analytic/other.hpp", "", ["sim/analytic/other.hpp: not in a CMakeLists.txt"]),
+    "source in no CMakeLists.txt": ("core/other.cpp", "", ["core/other.cpp: not in a CMakeLists.txt"]),
+    "source in a comment": ("core/CMakeLists.txt", "dualdamp_module(core HEADERS units.hpp SOURCES)  # units.cpp\n",
+                            ["core/units.cpp: not in"]),
+    "test in no CMakeLists.txt": ("tests/identify/test_more.cpp", "", ["tests/identify/test_more.cpp: not in"]),
+    "scenario without schema line": ("scenarios/paper/other.yaml", "schema: dualdamp/1\n", ["other.yaml:1: the first line"]),
+    "unsorted list": ("program", PROGRAM.replace("coulomb  constant", "zzz").replace("echo 'zzz force'", "true")
+                      .replace("'dahl     bristles'", "'dahl x'; echo 'coulomb x'"), ["laws: the program's list is not sorted"]),
+}
+
+
+def run(tree):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in tree.items():
+            if text is None:
+                continue
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        program = Path(folder) / "program"
+        program.chmod(0o755)
+        return subprocess.run([sys.executable, CHECK, folder, program], capture_output=True, text=True, check=False)
+
+
+class Parity(unittest.TestCase):
+    def test_complete_tree_passes(self):
+        result = run(COMPLETE)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+    def test_whatever_is_missing_is_named(self):
+        for name, (path, text, words) in FAULTS.items():
+            with self.subTest(name):
+                result = run({**COMPLETE, path: text})
+                self.assertEqual(result.returncode, 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, result.stdout)
+                self.assertEqual(len(result.stdout.splitlines()), 1, result.stdout)
+
+    def test_program_that_fails_is_no_pass(self):
+        self.assertNotEqual(run({**COMPLETE, "program": "#!/bin/sh\nexit 2\n"}).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
