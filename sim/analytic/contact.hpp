@@ -1,8 +1,8 @@
 #pragma once
 /// Contact compliance in series with Coulomb friction (a Jenkins element) under harmonic motion x = X cos(wt).
 ///
-/// After a reversal the contact spring of stiffness K unloads from +F to -F over the travel 2F/K; sliding sets in when
-/// X (1 - cos wt) = 2F/K, at the speed
+/// After a reversal the contact spring of stiffness K unloads from +F to -F over the travel 2F/K; sliding sets in
+/// when X (1 - cos wt) = 2F/K, at the speed
 ///   V_s = w X sin(wt) = 2 w sqrt(X F/K - (F/K)^2)                                     Eq (18)
 ///
 /// Holds for a harmonic motion with F/K <= X; beyond that the contact never slides.
@@ -17,7 +17,8 @@ namespace dualdamp::sim::analytic {
 [[nodiscard]] std::optional<double> transition_velocity(double omega, double X, double F, double K);
 
 /// The inverse of Eq (18), K = 2 F/(X - sqrt(X^2 - V_s^2/w^2)) [N/m]: of the two solutions the stiffer, for which
-/// sliding sets in during the first quarter of the cycle (F/K <= X/2). Nothing when V_s exceeds the greatest speed w X.
+/// sliding sets in during the first quarter of the cycle (F/K <= X/2). Nothing when V_s exceeds the greatest speed
+/// w X.
 [[nodiscard]] std::optional<double> contact_stiffness(double omega, double X, double F, double V_s);
 
 }  // namespace dualdamp::sim::analytic

@@ -17,8 +17,8 @@ using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// scale times 1 - sin(sqrt z)/sqrt z, an entire function of z; `sine_ratio` is scale sin(sqrt z)/sqrt z, used where
-/// nothing cancels.
+/// scale times 1 - sin(sqrt z)/sqrt z, an entire function of z; `sine_ratio` is scale sin(sqrt z)/sqrt z, used
+/// where nothing cancels.
 double one_minus_sine_ratio(double z, double sine_ratio, double scale) {
   if (std::abs(z) > 1.0) return scale - sine_ratio;
   double term = z / 6.0;
@@ -89,7 +89,8 @@ Circular hyperbolic(double B, double a) {
   return c;
 }
 
-/// Eqs (4)-(5) with numerator and denominator written in z = b^2 = (pi/r)^2 (1 - zeta^2), which is free of branches:
+/// Eqs (4)-(5) with numerator and denominator written in z = b^2 = (pi/r)^2 (1 - zeta^2), which is free of
+/// branches:
 ///   N = (sinh a - a) + a (1 - sin b/b),   D = (cosh a - 1) + (1 + cos b)
 /// Both terms of N are positive for zeta <= 1, so nothing cancels.
 void set_by_squares(DenHartog& d) {
@@ -140,9 +141,15 @@ void set_by_decay_rates(DenHartog& d) {
   const auto lag = [](double p) {
     if (p > 0.3) return 1.0 - std::tanh(p) / p;
     const double u = p * p;  // Taylor series; its next term is below 3e-17 of the sum
-    return u * (1.0 / 3 + u * (-2.0 / 15 + u * (17.0 / 315 + u * (-62.0 / 2835 + u * (1382.0 / 155925 +
-           u * (-21844.0 / 6081075 + u * (929569.0 / 638512875 + u * (-6404582.0 / 10854718875 +
-           u * (443861162.0 / 1856156927625 - u * (18888466084.0 / 194896477400625))))))))));
+    return u * (1.0 / 3 +
+                u * (-2.0 / 15 +
+                     u * (17.0 / 315 + u * (-62.0 / 2835 +
+                                            u * (1382.0 / 155925 +
+                                                 u * (-21844.0 / 6081075 +
+                                                      u * (929569.0 / 638512875 +
+                                                           u * (-6404582.0 / 10854718875 +
+                                                                u * (443861162.0 / 1856156927625 -
+                                                                     u * (18888466084.0 / 194896477400625))))))))));
   };
   const auto square_sech = [](double p) {
     const double e = std::exp(-2.0 * p);
@@ -155,8 +162,9 @@ void set_by_decay_rates(DenHartog& d) {
   const double e1 = std::exp(-2.0 * h * slow);
   const double e2 = std::exp(-2.0 * h * fast);
   d.H = -std::expm1(-4.0 * h * sigma) * e1 / ((1.0 + e1) * (1.0 + e2) * sigma * d.r);
-  d.dG_dzeta = ((fast * t1 + slow * t2) - h * (square_sech(h * slow) + square_sech(h * fast))) / (2.0 * sigma * sigma) -
-               d.G * d.zeta / (sigma * sigma);
+  d.dG_dzeta =
+      ((fast * t1 + slow * t2) - h * (square_sech(h * slow) + square_sech(h * fast))) / (2.0 * sigma * sigma) -
+      d.G * d.zeta / (sigma * sigma);
 }
 
 /// h(theta) = b/(w sin theta), theta = wt in (0, pi).
@@ -168,7 +176,8 @@ class HalfCycleQuotient {
   double operator()(double theta) const {
     const Ringing ringing = ring(beta_ * theta);
     const double half = std::sin(0.5 * theta);
-    return -d_.G + (d_.H * (ringing.one_minus_cosine - 2.0 * half * half) + drive_ * ringing.sine) / std::sin(theta);
+    return -d_.G +
+           (d_.H * (ringing.one_minus_cosine - 2.0 * half * half) + drive_ * ringing.sine) / std::sin(theta);
   }
 
  private:
@@ -251,8 +260,8 @@ double turning_point_limit(const DenHartog& d) {
 
 double non_sticking_limit(const DenHartog& d) {
   if (d.singular) return infinity;
-  // The other end point never decides: by symmetry the accelerations at the two turning points make its limit smaller
-  // by 2/r^2.
+  // The other end point never decides: by symmetry the accelerations at the two turning points make its limit
+  // smaller by 2/r^2.
   double greatest = turning_point_limit(d);
   const HalfCycleQuotient quotient(d);
   const std::vector<double> grid = half_cycle_grid(d);

@@ -8,11 +8,12 @@
 ///   q = sqrt((1 - r^2)^2 + (2 zeta r)^2)                                              Eq (6), with the square
 ///   beta = 1/r, r = w/wn, wn = sqrt(k/m), s = sqrt(1 - zeta^2), a = pi zeta beta, b = pi s beta
 ///
-/// with x_o the output amplitude [m], x_f = F0/k [m], zeta = c/(2 sqrt(m k)). A bracket of Eq (6) lost its square in
-/// print; docs/theory.md derives all of this. For zeta >= 1 sine and cosine turn into their hyperbolic forms.
+/// with x_o the output amplitude [m], x_f = F0/k [m], zeta = c/(2 sqrt(m k)). A bracket of Eq (6) lost its square
+/// in print; docs/theory.md derives all of this. For zeta >= 1 sine and cosine turn into their hyperbolic forms.
 ///
-/// Holds where the velocity keeps one sign over the half cycle between turning points. Eq (3) gives a plausible number
-/// beyond that range too, so `non_sticking_state` tests it and answers with nothing where the true motion sticks.
+/// Holds where the velocity keeps one sign over the half cycle between turning points. Eq (3) gives a plausible
+/// number beyond that range too, so `non_sticking_state` tests it and answers with nothing where the true motion
+/// sticks.
 ///
 /// This is an oracle: it shares no code with the event-driven engine.
 ///
@@ -51,8 +52,8 @@ struct DenHartog {
 /// r = 1/2 above all. Absolute error about 1e-15 (1 + G). Needs r >= 1e-4. Infinite when singular.
 [[nodiscard]] double non_sticking_limit(const DenHartog& functions);
 
-/// The value of b/(w sin wt) at the turning point, [1 + (1 - r^2) G + 2 zeta r H]/r^2 [-]: the limit S where the motion
-/// first stops at its turning point, which is everywhere but at low r. A lower bound of S always.
+/// The value of b/(w sin wt) at the turning point, [1 + (1 - r^2) G + 2 zeta r H]/r^2 [-]: the limit S where the
+/// motion first stops at its turning point, which is everywhere but at low r. A lower bound of S always.
 [[nodiscard]] double turning_point_limit(const DenHartog& functions);
 
 /// Largest x_f/Y [-] that does not stick: (1/q)/sqrt((S + G)^2 + H^2).

@@ -20,8 +20,8 @@ namespace dualdamp::sim::analytic {
 /// X_n [m] by the closed form, whether or not the mass gets that far.
 [[nodiscard]] double decrement_amplitude(double zeta, double x_f, double X_0, int n);
 
-/// Signed extremes [m] of the release from rest at `x_0`: at most `count` of them, x_0 first, ending with the one at
-/// which the mass stays.
+/// Signed extremes [m] of the release from rest at `x_0`: at most `count` of them, x_0 first, ending with the one
+/// at which the mass stays.
 [[nodiscard]] std::vector<double> free_decay_extremes(double zeta, double x_f, double x_0, int count);
 
 }  // namespace dualdamp::sim::analytic
