@@ -1,0 +1,30 @@
+#include "bench/speed/standard_case.hpp"
+
+#include <stdexcept>
+
+#include "friction_models/coulomb.hpp"
+#include "sim/steady_state.hpp"
+
+namespace dualdamp::bench::speed {
+
+sim::Model model_of(const StandardCase& work) {
+  sim::Model model;
+  model.oscillator = {.mass = work.mass, .stiffness = work.stiffness, .damping = work.damping};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = work.base_amplitude, .frequency = work.frequency};
+  model.friction.emplace_back(friction::Coulomb(work.friction, work.friction));
+  model.initial = {work.start_position, work.start_velocity};
+  return model;
+}
+
+StandardCase standard_case() {
+  StandardCase work;
+  const sim::SteadyState orbit = sim::steady_state(model_of(work));
+  if (!orbit.outcome.ok())
+    throw std::runtime_error("the standard case has no steady state: " + orbit.outcome.reason);
+  work.start_position = orbit.start_position;
+  work.start_velocity = orbit.start_velocity;
+  return work;
+}
+
+}  // namespace dualdamp::bench::speed

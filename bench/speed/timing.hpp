@@ -1,0 +1,22 @@
+#pragma once
+/// Times of several contenders, taken in turns so that a slow moment of the machine meets them all.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace dualdamp::bench::speed {
+
+/// Seconds of processor time for one unit of work.
+struct Time {
+  double median = 0.0;
+  double low = 0.0;   ///< first quartile of the batches
+  double high = 0.0;  ///< third quartile
+};
+
+/// Work(units) does that many units. Each work is warmed up, its batch sized to `batch_seconds`, and then timed
+/// `batches` times, one batch of each work after the other.
+[[nodiscard]] std::vector<Time> time_in_turns(std::span<const std::function<void(int)>> works, int batches,
+                                              double batch_seconds);
+
+}  // namespace dualdamp::bench::speed
