@@ -61,6 +61,13 @@ struct Bernstein {
     return w[0];
   }
 
+  /// Bound of |L| on the panel.
+  [[nodiscard]] double largest() const {
+    double bound = 0.0;
+    for (const double coefficient : b) bound = std::max(bound, std::abs(coefficient));
+    return bound;
+  }
+
   /// Descartes: the roots in (0, 1) are at most the sign changes, and as many modulo two. Zeros are skipped.
   [[nodiscard]] int sign_changes() const {
     int changes = 0;
@@ -296,9 +303,10 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
     const double root = accept_root(a, b, low, remainder);
     if (root >= 0.0) return root;
   }
-  if (depth >= max_depth || h <= 4.0 * epsilon * b.s) {
+  const double range = low.largest() + 2.0 * remainder;
+  if (depth >= max_depth || h <= 4.0 * epsilon * b.s || range <= 4.0 * std::max(left_slack, right_slack)) {
     if (crosses) return b.s;
-    // Undecidable at double precision and no sign change: flat contact.
+    // Nowhere on the panel does the guard stand out of rounding, and no sign change: one flat contact.
     ++count_.grazings;
     grazings_.push_back({index_, 0.5 * (a.s + b.s)});
     return none;

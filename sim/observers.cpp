@@ -92,23 +92,18 @@ void EnergyAudit::observe(const Interval& interval) {
   started_ = true;
   last_ = stored(interval.at(interval.duration));
   const bool damper_moves = oscillator_.damper_to == DamperTo::base;
-  // Sums of one interval first: thousands of intervals then add up without loss.
-  Energy part;
   quadrature(interval, [&](const Sample& s, double weight) {
     const double damper_speed = damper_moves ? s.v - s.y_rate : s.v;
     const double base_force =
         oscillator_.stiffness * (s.y - s.x) - (damper_moves ? oscillator_.damping * damper_speed : 0.0);
-    part.input += weight * (base_force * s.y_rate + s.external * s.v);
-    part.friction += weight * s.force * s.v;
-    part.viscous += weight * oscillator_.damping * damper_speed * damper_speed;
+    input_.add(weight * (base_force * s.y_rate + s.external * s.v));
+    friction_.add(weight * s.force * s.v);
+    viscous_.add(weight * oscillator_.damping * damper_speed * damper_speed);
   });
-  sums_.input += part.input;
-  sums_.friction += part.friction;
-  sums_.viscous += part.viscous;
 }
 
 Energy EnergyAudit::account() const {
-  Energy result = sums_;
+  Energy result{.input = input_.value(), .friction = friction_.value(), .viscous = viscous_.value()};
   result.stored = last_ - first_;
   result.defect = result.input - result.friction - result.viscous - result.stored;
   return result;

@@ -42,6 +42,22 @@ class Extremes {
   double max_speed_ = 0.0;
 };
 
+/// A sum that carries its own rounding error along (Neumaier): equal periods would otherwise add up a systematic one.
+class CompensatedSum {
+ public:
+  void add(double term) {
+    const double sum = sum_ + term;
+    const bool larger = (sum_ < 0.0 ? -sum_ : sum_) >= (term < 0.0 ? -term : term);
+    lost_ += larger ? (sum_ - sum) + term : (term - sum) + sum_;
+    sum_ = sum;
+  }
+  [[nodiscard]] double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0.0;
+  double lost_ = 0.0;
+};
+
 /// Energy account by Gauss-Legendre quadrature: the integrands are analytic inside an interval, so that the rule is
 /// exact to rounding. Forces come from the laws, not from the equation of motion: the defect is a real check.
 class EnergyAudit {
@@ -57,7 +73,9 @@ class EnergyAudit {
 
   Oscillator oscillator_;
   bool started_ = false;
-  Energy sums_;
+  CompensatedSum input_;
+  CompensatedSum friction_;
+  CompensatedSum viscous_;
   double first_ = 0.0;
   double last_ = 0.0;
 };

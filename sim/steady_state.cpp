@@ -26,6 +26,9 @@ constexpr double rounding_closure = 1e-12;
 
 constexpr int max_newton = 60;
 
+/// Growth over the first periods' motion that counts as growth without bound.
+constexpr double runaway = 1e9;
+
 /// One forcing period: where it starts, where it ends, how the end depends on the start.
 struct Passage {
   Vector2d begin;
@@ -97,10 +100,12 @@ double OrbitFinder::radius(const Passage& passage) const {
   return passage.derivative.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// Follows the motion until one period closes to `closure`.
+/// Follows the motion until one period closes to `closure`; gives up on a motion that grows without bound.
 bool OrbitFinder::follow(Passage& passage, double closure, int periods, SteadyState& result) {
+  const double early = passage.size;
   for (int i = 0; i < periods; ++i) {
     if (passage.closure(omega_) <= closure) return true;
+    if (early > 0.0 && passage.size > runaway * early) return false;
     passage = pass();
     ++result.transient_periods;
     if (!engine_.outcome().ok()) return false;
