@@ -45,28 +45,27 @@ ensure_packages() {
 
 # Configures when that was never done, when the presets changed, or when the tree has moved since.
 configure() {
-  local build=$root/build/$1
-  local fresh=()
-  if [ -f "$build/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+  local tree=$root/build/$1 fresh=()
+  if [ -f "$tree/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$tree/CMakeCache.txt"; then
     fresh=(--fresh)
-  elif [ -f "$build/build.ninja" ] && [ ! "$root/CMakePresets.json" -nt "$build/build.ninja" ]; then
+  elif [ -f "$tree/build.ninja" ] && [ ! "$root/CMakePresets.json" -nt "$tree/build.ninja" ]; then
     return 0
   fi
   say "configuring build/$1"
-  (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$build/configure.log" 2>&1 </dev/null && return 0
-  tail -n 40 "$build/configure.log" >&2
+  (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$tree/configure.log" 2>&1 </dev/null && return 0
+  tail -n 40 "$tree/configure.log" >&2
   return 1
 }
 
-# Silent when there is something to run already, with ninja's progress when all has to be built.
+# Silent when there is little to do: the note of the commit is looked at each time.
 compile() {
-  local build=$root/build/$1 quiet=()
-  if [ -e "$build/.built" ]; then
-    quiet=(--quiet)
-  else
-    say "building build/$1, once: this takes some minutes"
+  local tree=$root/build/$1 quiet=(--quiet)
+  shift
+  if [ "$(ninja -C "$tree" -n "$@" 2>/dev/null </dev/null | grep -c 'Building CXX')" -gt 1 ]; then
+    say "building ${tree#"$root/"}; from scratch this takes some minutes"
+    quiet=()
   fi
-  ninja -C "$build" -j "$(nproc)" "${quiet[@]}" "${@:2}" >&2 </dev/null && touch "$build/.built"
+  ninja -C "$tree" -j "$(nproc)" "${quiet[@]}" "$@" >&2 </dev/null
 }
 
 # prepare PRESET KIND... -- [TARGET...]: packages, then build. One at a time, however many start at once.
