@@ -1,0 +1,377 @@
+#include "scenarios/checks.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "core/provenance.hpp"
+#include "identify/methods.hpp"
+#include "scenarios/files.hpp"
+#include "scenarios/format.hpp"
+#include "scenarios/formulas.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+class Checker {
+ public:
+  Checker(const Document& document, Reading& reading, const CheckOptions& options)
+      : document_(document), reading_(reading), values_(reading.values), options_(options) {}
+
+  std::optional<MeasuredData> run() {
+    analysis_ = text_at("analysis", "type");
+    if (analysis_.empty()) return std::nullopt;
+    needs_ = find_needs();
+    if (needs_ != nullptr) {
+      check_sections();
+      check_excitation();
+    }
+    resolve_damping();
+    resolve_frequency();
+    if (analysis_ == "simulate") check_work();
+    std::optional<MeasuredData> data = read_data();
+    if (analysis_ == "identify") resolve_methods(data);
+    check_expectations();
+    return data;
+  }
+
+ private:
+  void complain(Place place, std::string message, std::string allowed = {}, std::string found = {},
+                std::string suggestion = {}) {
+    reading_.problems.push_back(
+        {document_.locate(place), std::move(message), std::move(allowed), std::move(found), std::move(suggestion)});
+  }
+
+  /// Of the value at `path`, or of what contains it.
+  [[nodiscard]] Place place_of(std::string path) const {
+    while (true) {
+      const auto found = reading_.places.find(path);
+      if (found != reading_.places.end()) return found->second;
+      const std::size_t cut = path.find_last_of(".[");
+      if (cut == std::string::npos) return document_.root().place;
+      path.resize(cut);
+    }
+  }
+
+  [[nodiscard]] const Node* node(std::string_view section) const {
+    const Entry* entry = document_.root().find(section);
+    return entry == nullptr ? nullptr : &entry->value;
+  }
+
+  /// The file has the key, whether or not its value could be read.
+  [[nodiscard]] bool stands_in_file(std::string_view section, std::string_view key) const {
+    const Node* parent = node(section);
+    return parent != nullptr && parent->find(key) != nullptr;
+  }
+
+  [[nodiscard]] bool has(const std::string& section, const std::string& key) const {
+    return values_.contains(section) && values_.at(section).is_object() && values_.at(section).contains(key);
+  }
+  [[nodiscard]] std::string text_at(const std::string& section, const std::string& key) const {
+    return has(section, key) ? values_.at(section).at(key).get<std::string>() : std::string();
+  }
+  [[nodiscard]] std::optional<double> number_at(const std::string& section, const std::string& key) const {
+    if (!has(section, key)) return std::nullopt;
+    return number(values_.at(section).at(key));
+  }
+
+  /// nullptr when the file is too faulty to know.
+  [[nodiscard]] const Needs* find_needs() const {
+    std::string measurement;
+    if (analysis_ == "identify") {
+      if (stands_in_file("analysis", "data"))
+        measurement = "data";
+      else if (has("analysis", "measurement"))
+        measurement = values_.at("analysis").at("measurement").at("type").get<std::string>();
+    }
+    const auto row = std::ranges::find_if(needs(), [&](const Needs& candidate) {
+      return candidate.analysis == analysis_ && candidate.measurement == measurement;
+    });
+    return row == needs().end() ? nullptr : &*row;
+  }
+
+  /// "analysis 'identify' with a measurement 'xy_curve'"
+  [[nodiscard]] std::string subject() const {
+    const std::string name = "analysis '" + analysis_ + "'";
+    if (needs_->measurement.empty()) return name;
+    return name +
+           (needs_->measurement == "data" ? " with data" : " with a measurement '" + needs_->measurement + "'");
+  }
+
+  void check_sections() {
+    if (needs_->excitations.empty()) {
+      for (const char* section : {"system", "excitation", "initial", "numerics"})
+        if (const Entry* entry = document_.root().find(section))
+          complain(entry->place, subject() + " has no use for '" + section + "'");
+      return;
+    }
+    if (node("system") == nullptr) {
+      complain(place_of("analysis.type"), "'system' is missing: " + subject() + " needs it");
+    } else if (needs_->damping && !stands_in_file("system", "damping") &&
+               !stands_in_file("system", "damping_ratio")) {
+      complain(node("system")->head(), "'system' needs one of damping, damping_ratio", "damping, damping_ratio");
+    }
+  }
+
+  void check_excitation() {
+    if (needs_->excitations.empty()) return;
+    const Node* given = node("excitation");
+    const std::string type = given == nullptr ? "none" : text_at("excitation", "type");
+    if (type.empty()) return;
+    if (!contains(needs_->excitations, type)) {
+      complain(given == nullptr ? place_of("analysis.type") : place_of("excitation.type"),
+               subject() + " does not work with " +
+                   (given == nullptr ? "no excitation" : "excitation type '" + type + "'") + ": " + needs_->reason,
+               joined(needs_->excitations));
+      return;
+    }
+    const Section& section = excitations().find(type)->section;
+    for (const std::string& key : needs_->drive)
+      if (const Field* field = section.find(key); field != nullptr && !stands_in_file("excitation", key))
+        complain(given->head(), "'excitation." + key + "' is missing: " + subject() + " needs it",
+                 describe_values(*field));
+  }
+
+  /// A damping ratio becomes a damping; both are needed for a damped frequency.
+  void resolve_damping() {
+    const auto m = number_at("system", "mass");
+    const auto k = number_at("system", "stiffness");
+    const auto ratio = number_at("system", "damping_ratio");
+    if (!m || !k || !ratio) return;
+    Json& system = values_["system"];
+    Json resolved = Json::object();
+    for (const auto& [key, value] : system.items()) {
+      if (key == "damping_ratio")
+        resolved["damping"] = *ratio * 2.0 * std::sqrt(*m * *k);
+      else
+        resolved[key] = value;
+    }
+    system = std::move(resolved);
+  }
+
+  void resolve_frequency() {
+    if (!has("excitation", "frequency")) return;
+    Json& frequency = values_["excitation"]["frequency"];
+    const auto m = number_at("system", "mass");
+    const auto k = number_at("system", "stiffness");
+    const auto word = frequency.get<std::string>();
+    if ((word != "natural" && word != "damped") || !m || !k) return;
+    const double natural = std::sqrt(*k / *m);
+    double value = natural;
+    if (word == "damped") {
+      const auto c = number_at("system", "damping");
+      if (!c) {
+        if (!stands_in_file("system", "damping") && !stands_in_file("system", "damping_ratio"))
+          complain(place_of("excitation.frequency"), "a damped frequency needs the system's damping",
+                   "natural, or a frequency");
+        return;
+      }
+      const double zeta = *c / (2.0 * std::sqrt(*m * *k));
+      if (std::abs(zeta) >= 1.0) {
+        complain(place_of("excitation.frequency"), "there is no damped frequency: the damping ratio is not below 1",
+                 "natural, or a frequency", "damping ratio " + core::format_number(zeta, 6));
+        return;
+      }
+      value = natural * std::sqrt((1.0 - zeta) * (1.0 + zeta));
+    }
+    frequency = core::format_number(value) + " rad/s";
+  }
+
+  void check_work() {
+    const auto m = number_at("system", "mass");
+    const auto k = number_at("system", "stiffness");
+    const auto cycles = number_at("analysis", "cycles");
+    // Still a word when it could not be resolved, and then complained about.
+    const bool driven = has("excitation", "frequency") && text_at("excitation", "frequency").ends_with("rad/s");
+    if (cycles && !driven) {
+      if (!stands_in_file("excitation", "frequency"))
+        complain(place_of("analysis.cycles"), "'analysis.cycles' needs a harmonic excitation",
+                 "'duration' instead");
+      return;
+    }
+    const double frequency = driven ? *number_at("excitation", "frequency") : 0.0;
+    const auto duration = cycles ? std::optional(*cycles * two_pi / frequency) : number_at("analysis", "duration");
+    if (!duration) return;
+    const double fastest = std::max(frequency, m && k ? std::sqrt(*k / *m) : 0.0);
+    if (*duration * fastest / two_pi > max_cycles)
+      complain(place_of(cycles ? "analysis.cycles" : "analysis.duration"), "the simulation is too long",
+               "at most " + core::format_number(max_cycles, 6) + " forcing or natural periods",
+               core::format_number(*duration * fastest / two_pi, 6) + " periods");
+    const double rows = *duration * number_at("analysis", "sample_rate").value_or(0.0);
+    if (rows > max_samples)
+      complain(place_of("analysis.sample_rate"), "the history has too many rows",
+               "at most " + core::format_number(max_samples, 6), core::format_number(rows, 6));
+  }
+
+  /// The path of a data file, unless it leads out of the scenario's directory.
+  std::optional<fs::path> safe_path(const std::string& name) {
+    const fs::path path(name);
+    const std::string allowed = "a relative path inside the scenario's directory";
+    const Place place = place_of("analysis.data");
+    if (options_.data_anywhere) return path;
+    if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) {
+      complain(place, "'analysis.data' must stay inside the scenario's directory", allowed, name);
+      return std::nullopt;
+    }
+    std::error_code error;
+    const fs::path root = fs::canonical(options_.directory.empty() ? "." : options_.directory, error);
+    const fs::path target = fs::canonical(root / path, error);
+    if (error) {
+      complain(place, "'analysis.data': " + name + " cannot be opened: " + error.message(), allowed);
+      return std::nullopt;
+    }
+    if (std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end()) {
+      complain(place, "'analysis.data' leads out of the scenario's directory through a link", allowed,
+               target.string());
+      return std::nullopt;
+    }
+    if (!fs::is_regular_file(target, error)) {
+      complain(place, "'analysis.data': " + name + " is not a file", allowed);
+      return std::nullopt;
+    }
+    return target;
+  }
+
+  std::optional<MeasuredData> read_data() {
+    if (!has("analysis", "data")) return std::nullopt;
+    const std::string name = text_at("analysis", "data");
+    const auto path = safe_path(name);
+    if (!path) return std::nullopt;
+    try {
+      constexpr std::size_t max_data = std::size_t{256} << 20U;
+      const std::string bytes = read_file(path->string(), max_data);
+      return MeasuredData{identify::parse_csv(bytes, name), core::sha256(bytes)};
+    } catch (const core::InputError& error) {
+      reading_.problems.insert(reading_.problems.end(), error.diagnostics().begin(), error.diagnostics().end());
+      return std::nullopt;
+    }
+  }
+
+  void resolve_methods(const std::optional<MeasuredData>& data) {
+    const bool synthetic = needs_ != nullptr && needs_->measurement != "data";
+    if (needs_ == nullptr || (!synthetic && !data)) return;
+    const bool pairs = synthetic ? needs_->measurement == "xy_curve" : data->csv.record.pairs.has_value();
+    const identify::RecordKind kind = pairs ? identify::RecordKind::pairs : identify::RecordKind::decay;
+    std::vector<std::string> fitting;
+    for (const identify::MethodEntry& method : identify::methods())
+      if (method.needs == kind) fitting.emplace_back(method.name);
+
+    Json& analysis = values_["analysis"];
+    if (!stands_in_file("analysis", "methods")) {
+      analysis["methods"] = fitting;
+    } else if (analysis.contains("methods")) {
+      for (std::size_t i = 0; i < analysis["methods"].size(); ++i) {
+        const auto name = analysis["methods"][i].get<std::string>();
+        if (!contains(fitting, name))
+          complain(place_of("analysis.methods[" + std::to_string(i) + "]"),
+                   "method '" + name + "' needs " + (pairs ? "the extremes of a free vibration" : "x-Y pairs"),
+                   joined(fitting), pairs ? "x-Y pairs" : "the extremes of a free vibration");
+      }
+    }
+    if (pairs && !stands_in_file("excitation", "frequency"))
+      complain(place_of("excitation"), "x-Y pairs need the forcing frequency at which they were measured",
+               "excitation: {type: base_harmonic, frequency: ...}");
+    check_pairs(pairs ? (synthetic ? grid_size_of_measurement() : data->csv.record.pairs->pairs.size()) : 0);
+  }
+
+  [[nodiscard]] std::size_t grid_size_of_measurement() const {
+    const Json& measurement = values_.at("analysis").at("measurement");
+    return measurement.contains("amplitudes") ? grid_size(measurement.at("amplitudes")) : 0;
+  }
+
+  void check_pairs(std::size_t count) {
+    if (!has("analysis", "pairs")) return;
+    const Json& pairs = values_.at("analysis").at("pairs");
+    if (pairs[0] == pairs[1])
+      complain(place_of("analysis.pairs"), "'analysis.pairs' names one pair twice", "two pairs");
+    for (std::size_t i = 0; i < 2 && count > 0; ++i)
+      if (pairs[i].get<std::size_t>() > count)
+        complain(place_of("analysis.pairs[" + std::to_string(i) + "]"), "there is no such pair",
+                 "1 to " + std::to_string(count), pairs[i].dump());
+  }
+
+  void check_expectations() {
+    if (!values_.contains("expect")) return;
+    std::string formula;
+    if (has("analysis", "formula")) formula = values_.at("analysis").at("formula").at("name").get<std::string>();
+    std::vector<std::string> patterns;
+    for (const ResultField& field : result_fields(analysis_, formula)) patterns.push_back(field.path);
+    for (std::size_t i = 0; i < values_.at("expect").size(); ++i) {
+      const Json& expectation = values_.at("expect").at(i);
+      if (!expectation.contains("value") || patterns.empty()) continue;
+      const Place place = place_of("expect[" + std::to_string(i) + "].value");
+      const auto text = expectation.at("value").get<std::string>();
+      const auto path = parse_result_path(text);
+      if (!path || !contains(patterns, path->pattern)) {
+        complain(place, "the result of analysis '" + analysis_ + "' has no number '" + text + "'", joined(patterns),
+                 {}, nearest(path ? path->pattern : text, patterns));
+      } else {
+        check_index(place, *path);
+      }
+    }
+  }
+
+  /// Indices whose bound is known before the run.
+  void check_index(Place place, const ResultPath& path) {
+    std::optional<std::size_t> count;
+    if (path.pattern.starts_with("points[]"))
+      for (const char* key : {"amplitudes", "frequencies"})
+        if (has("analysis", key)) count = grid_size(values_.at("analysis").at(key));
+    if (path.pattern.starts_with("estimates[]") && has("analysis", "methods"))
+      count = values_.at("analysis").at("methods").size();
+    if (count && path.indices.front() >= *count)
+      complain(place, "there is no such item in the result", "an index below " + std::to_string(*count),
+               std::to_string(path.indices.front()));
+  }
+
+  const Document& document_;
+  Reading& reading_;
+  Json& values_;
+  const CheckOptions& options_;
+  std::string analysis_;
+  const Needs* needs_ = nullptr;
+};
+
+}  // namespace
+
+std::optional<MeasuredData> check(const Document& document, Reading& reading, const CheckOptions& options) {
+  return Checker(document, reading, options).run();
+}
+
+std::optional<ResultPath> parse_result_path(const std::string& text) {
+  ResultPath path;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] != '[') {
+      path.pattern += text[at];
+      continue;
+    }
+    const std::size_t end = text.find(']', at);
+    const std::string digits = text.substr(at + 1, end == std::string::npos ? 0 : end - at - 1);
+    constexpr std::size_t longest = 9;
+    const bool is_index = !digits.empty() && digits.size() <= longest &&
+                          std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (!is_index) return std::nullopt;
+    path.indices.push_back(std::stoul(digits));
+    path.pattern += "[]";
+    at = end;
+  }
+  return path;
+}
+
+std::size_t grid_size(const Json& grid) {
+  return grid.is_array() ? grid.size() : grid.at("count").get<std::size_t>();
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,29 @@
+#pragma once
+/// Files in and out: bounded reading, and writing that leaves either the old file or the whole new one.
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dualdamp::scenarios {
+
+/// The bytes of a file. A missing file, a directory, no permission, more than `limit` bytes: `core::InputError`.
+[[nodiscard]] std::string read_file(const std::string& path, std::size_t limit);
+
+struct OutputFile {
+  std::string name;
+  std::string content;
+};
+
+/// Creates `directory` if need be and puts the files there, each written beside its place and moved in when
+/// complete. Errors: `OutputError`; files written before it stay.
+void write_files(const std::string& directory, const std::vector<OutputFile>& files);
+
+/// The output directory or a file in it cannot be written.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace dualdamp::scenarios

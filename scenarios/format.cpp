@@ -1,0 +1,321 @@
+#include "scenarios/format.hpp"
+
+#include "friction_models/registry.hpp"
+#include "identify/methods.hpp"
+#include "scenarios/formulas.hpp"
+#include "sim/excitation.hpp"
+#include "sim/steady_state.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+constexpr auto max_items = static_cast<std::size_t>(max_points);
+
+/// The harmonic excitations differ in the unit of their amplitudes.
+std::vector<Field> harmonic_fields(const std::string& unit) {
+  const Section harmonic = {{integer("order", "multiple of the frequency").required().at_least(2).at_most(1000),
+                             quantity("amplitude", {unit}, "its amplitude").required().at_least(0),
+                             quantity("phase", {"rad"}, "its phase").with_fallback(0.0)}};
+  return {
+      quantity("amplitude", {unit}, "amplitude A of A cos(w t + phase)").at_least(0),
+      quantity("frequency", {"rad/s"}, "forcing frequency w; natural: sqrt(k/m); damped: natural sqrt(1 - zeta^2)")
+          .above(0)
+          .or_words({"natural", "damped"}),
+      quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
+      section_list("harmonics", harmonic, "further harmonics of a distorted drive")
+          .items(1, static_cast<std::size_t>(sim::max_harmonics))};
+}
+
+Choice make_excitations() {
+  std::vector<Field> force = harmonic_fields("N");
+  force.push_back(quantity("offset", {"N"}, "constant force added").with_fallback(0.0));
+  return {"type",
+          {{"none", "no excitation: free vibration", {}},
+           {"base_harmonic", "base motion y(t) = A cos(w t + phase)", {harmonic_fields("m")}, "m"},
+           {"force_harmonic", "force on the mass f(t) = A cos(w t + phase) + offset", {std::move(force)}, "N"},
+           {"base_ramp",
+            "base moving at constant velocity, y(t) = V t",
+            {{quantity("velocity", {"m/s"}, "velocity V").required()}}},
+           {"force_ramp",
+            "force growing at constant rate, f(t) = R t",
+            {{quantity("rate", {"N/s"}, "rate R").required()}}}}};
+}
+
+Choice make_laws() {
+  Choice result{"law", {}};
+  for (const friction::LawEntry& law : friction::laws()) {
+    Variant variant{std::string(law.name), std::string(law.summary), {}};
+    for (const friction::Parameter& parameter : law.parameters)
+      variant.section.fields.push_back(field_of(parameter));
+    result.variants.push_back(std::move(variant));
+  }
+  return result;
+}
+
+Section system_section() {
+  Field friction =
+      choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
+  friction.listed = true;
+  friction.max_items = 16;
+  return {{quantity("mass", {"kg"}, "sliding mass m").required().above(0),
+           quantity("stiffness", {"N/m"}, "spring k between mass and base").required().above(0),
+           quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
+           quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
+           words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
+           std::move(friction)},
+          {{{"damping", "damping_ratio"}, false}}};
+}
+
+Field amplitudes() {
+  return grid("amplitudes", {"m", "N"}, "excitation amplitudes, each in place of the excitation's own")
+      .required()
+      .at_least(0)
+      .items(1, max_items);
+}
+
+Field peaks() {
+  return integer("peaks", "number of extremes wanted, the initial one included")
+      .required()
+      .at_least(1)
+      .at_most(max_points);
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const identify::MethodEntry& method : identify::methods()) names.emplace_back(method.name);
+  return names;
+}
+
+Variant identify_variant() {
+  const Choice measurement = {"type",
+                              {{"xy_curve", "steady states at several amplitudes", {{amplitudes()}}},
+                               {"free_decay", "extremes of a free vibration", {{peaks()}}}}};
+  return {
+      "identify",
+      "what the identification methods make of measured or simulated data",
+      {{text("data", "CSV file with the measured data, in the scenario's directory or below"),
+        choice("measurement", measurement, "a synthetic measurement of this scenario's system"),
+        word_list("methods", method_names(), "identification methods; default: all that fit the data"),
+        boolean("approximate_G", "G from the approximation Eq (15) instead of Eq (4)").with_fallback(false),
+        integers("pairs", "numbers of the two pairs that resonance_two_point uses; default: the outermost")
+            .at_least(1)
+            .items(2, 2),
+        quantity("sigma_x", {"m"}, "known standard deviation of a measured output amplitude or extreme")
+            .at_least(0),
+        quantity("sigma_Y", {"m"}, "known standard deviation of a measured input amplitude").at_least(0),
+        boolean("zero_offset", "the extremes of a free vibration are known to be about zero").with_fallback(false)},
+       {{{"data", "measurement"}, true}}}};
+}
+
+Variant formula_variant() {
+  Choice choice{"name", {}};
+  for (const FormulaEntry& entry : formulas())
+    choice.variants.push_back({std::string(entry.name), std::string(entry.summary), entry.arguments});
+  Field formula = scenarios::choice("formula", std::move(choice), "the formula and its arguments");
+  return {"formula", "a closed form of the paper", {{std::move(formula).required()}}};
+}
+
+Choice make_analyses() {
+  return {"type",
+          {{"simulate",
+            "the motion from its initial state",
+            {{quantity("duration", {"s"}, "time to simulate").above(0),
+              quantity("cycles", {"1"}, "time to simulate, in forcing periods").above(0).at_most(max_cycles),
+              quantity("sample_rate", {"1/s"}, "rows a second in history.csv; without it there is none").above(0)},
+             {{{"duration", "cycles"}, true}}}},
+           {"steady_state", "the periodic motion approached from the initial state", {}},
+           {"xy_curve", "output amplitude over input amplitude", {{amplitudes()}}},
+           {"frequency_response",
+            "output amplitude over frequency",
+            {{grid("frequencies", {"rad/s"}, "forcing frequencies, each in place of the excitation's own")
+                  .required()
+                  .above(0)
+                  .items(1, max_items)}}},
+           {"free_decay", "extremes of the free vibration from the initial state", {{peaks()}}},
+           identify_variant(),
+           formula_variant()}};
+}
+
+Section expect_section() {
+  return {{text("value", "path into the result, such as points[0].x").required(),
+           scalar("equals", "expected value, SI").required(),
+           quantity("within", {"1"}, "largest absolute difference, SI").at_least(0),
+           quantity("within_relative", {"1"}, "largest difference relative to the expected value").at_least(0),
+           text("source", "where the expected value comes from")},
+          {{{"within", "within_relative"}, false}}};
+}
+
+Section make_format() {
+  return {
+      {words("schema", {std::string(schema_name)}, "version of this format").required(),
+       text("title", "one line for people"), section("system", system_section(), "the oscillator"),
+       choice("excitation", excitations(), "what drives it; default: none"),
+       section("initial",
+               {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
+                 quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0)}},
+               "the state at t = 0"),
+       choice("analysis", analyses(), "the question").required(),
+       section_list("expect", expect_section(), "checks of the result; one that is off ends the run with status 1")
+           .items(1, 10'000),
+       section("numerics",
+               {{quantity("tolerance", {"1"}, "closure of a steady state relative to its size")
+                     .with_fallback(sim::SteadyStateOptions{}.tolerance)
+                     .at_least(1e-15)
+                     .at_most(1e-3)}},
+               "settings of the numerics")}};
+}
+
+}  // namespace
+
+const Section& scenario_format() {
+  static const Section format = make_format();
+  return format;
+}
+
+const Choice& analyses() {
+  static const Choice choice = make_analyses();
+  return choice;
+}
+
+const Choice& excitations() {
+  static const Choice choice = make_excitations();
+  return choice;
+}
+
+const Choice& friction_laws() {
+  static const Choice choice = make_laws();
+  return choice;
+}
+
+const std::vector<Needs>& needs() {
+  static const std::vector<std::string> harmonic = {"base_harmonic", "force_harmonic"};
+  static const std::string periodic = "a steady state needs a harmonic excitation";
+  static const std::string free = "a free vibration has no excitation";
+  static const std::vector<Needs> table = {
+      {"simulate", "", excitations().names(), {"amplitude", "frequency"}, true, ""},
+      {"steady_state", "", harmonic, {"amplitude", "frequency"}, true, periodic},
+      {"xy_curve", "", harmonic, {"frequency"}, true, periodic},
+      {"frequency_response", "", harmonic, {"amplitude"}, true, periodic},
+      {"free_decay", "", {"none"}, {}, true, free},
+      {"identify",
+       "xy_curve",
+       {"base_harmonic"},
+       {"frequency"},
+       true,
+       "the methods need the amplitude of the base"},
+      {"identify", "free_decay", {"none"}, {}, true, free},
+      {"identify",
+       "data",
+       {"base_harmonic", "none"},
+       {"frequency"},
+       false,
+       "the methods need the amplitude of the base"},
+      {"formula", "", {}, {}, false, ""},
+  };
+  return table;
+}
+
+std::vector<ResultField> result_fields(const std::string& analysis, const std::string& formula) {
+  static const std::vector<ResultField> energy = {{"energy.input", "J", "work of the excitation"},
+                                                  {"energy.friction", "J", "work dissipated by the friction laws"},
+                                                  {"energy.viscous", "J", "work dissipated by the damper"},
+                                                  {"energy.stored", "J", "change of kinetic and elastic energy"},
+                                                  {"energy.defect", "J", "input - friction - viscous - stored"}};
+  const auto joined = [](std::vector<ResultField> fields, const std::vector<ResultField>& more) {
+    fields.insert(fields.end(), more.begin(), more.end());
+    return fields;
+  };
+  static const std::vector<ResultField> point = {
+      {"points[].x", "m", "output amplitude (peak - trough)/2"},
+      {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+      {"points[].sticks", "1", "rests a period"},
+      {"points[].stable", "", "all multipliers inside the unit circle"},
+      {"points[].reason", "", "only of a point without numbers: why"}};
+  if (analysis == "simulate")
+    return joined({{"events[].t", "s", "time"},
+                   {"events[].kind", "", "reversal, stop, release, grazing, switching"},
+                   {"events[].x", "m", "position"},
+                   {"events[].v", "m/s", "velocity"},
+                   {"final.t", "s", "time at the end"},
+                   {"final.x", "m", "position at the end"},
+                   {"final.v", "m/s", "velocity at the end"}},
+                  joined(energy, {{"search.searches", "1", "searches for the next event"},
+                                  {"search.panels", "1", "panels certified free of events"},
+                                  {"search.grazings", "1", "guards touched and not crossed"}}));
+  if (analysis == "steady_state")
+    return joined({{"peak", "m", "max x"},
+                   {"trough", "m", "min x"},
+                   {"amplitude", "m", "(peak - trough)/2"},
+                   {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi)"},
+                   {"period", "s", "forcing period"},
+                   {"max_speed", "m/s", "max |v|"},
+                   {"stops_per_cycle", "1", "times a period the mass comes to rest and stays"},
+                   {"sticks[].start", "s", "begin of a rest, modulo one period"},
+                   {"sticks[].duration", "s", "its duration"},
+                   {"sticks[].position", "m", "its position"},
+                   {"multipliers[][]", "1", "Floquet multipliers of the full period, [re, im]"},
+                   {"stable", "", "all multipliers inside the unit circle"}},
+                  energy);
+  if (analysis == "xy_curve") return joined({{"points[].Y", "m or N", "excitation amplitude"}}, point);
+  if (analysis == "frequency_response")
+    return joined({{"points[].omega", "rad/s", "forcing frequency"},
+                   {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}},
+                  point);
+  if (analysis == "free_decay")
+    return {{"peaks[].t", "s", "time of the extreme"},
+            {"peaks[].x", "m", "its position, signed"},
+            {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"}};
+  if (analysis == "formula") {
+    const FormulaEntry* entry = find_formula(formula);
+    return entry == nullptr ? std::vector<ResultField>{} : entry->results;
+  }
+
+  // identify
+  std::vector<ResultField> fields = {{"estimates[].method", "", "name of the method"},
+                                     {"estimates[].usable", "", "the method stands by its number"}};
+  static const std::vector<ResultField> parameters = {{"zeta", "1", "damping ratio"},
+                                                      {"c", "N.s/m", "damping"},
+                                                      {"x_f", "m", "friction displacement F0/k"},
+                                                      {"F0", "N", "friction force"}};
+  const auto add = [&](const std::string& prefix, const std::string& suffix, const std::string& what) {
+    for (const ResultField& parameter : parameters)
+      fields.push_back({prefix + parameter.path + suffix, parameter.unit, what + parameter.meaning});
+  };
+  add("estimates[].", "", "");
+  add("estimates[].std.", "", "standard error of the ");
+  add("estimates[].interval95.", "[]", "95 % interval of the ");
+  add("estimates[].diagnostics.subsets[].", "", "from a part of the data: ");
+  const std::string d = "estimates[].diagnostics.";
+  fields.insert(fields.end(), {{d + "reason", "", "why it is not usable, or what it rests on"},
+                               {d + "used[]", "1", "numbers of the data used"},
+                               {d + "excluded[].number", "1", "number of a datum left out"},
+                               {d + "excluded[].reason", "", "why it was left out"},
+                               {d + "covariance[][]", "", "of (zeta, F0)"},
+                               {d + "correlation", "1", "of (zeta, F0)"},
+                               {d + "lack_of_fit.statistic", "1", "F statistic"},
+                               {d + "lack_of_fit.p_value", "1", "its probability when the model holds"},
+                               {d + "lack_of_fit.effect", "1", "rms of the added term over the range of the data"},
+                               {d + "lack_of_fit.fired", "", "the model does not hold"},
+                               {d + "subsets[].label", "", "which part"},
+                               {d + "subsets[].used", "1", "data of the part"},
+                               {d + "line.slope", "1", "of x over Y"},
+                               {d + "line.intercept", "m", "x at Y = 0"},
+                               {d + "line.residual_deviation", "m", "standard deviation of the residuals"},
+                               {d + "line.G", "1", "parameter function G at the estimate"},
+                               {d + "line.residuals[]", "m", "residuals of the data used"},
+                               {d + "decay.R", "1", "decay of a half swing without friction"},
+                               {d + "decay.first_amplitude", "m", "first extreme without offset"},
+                               {d + "decay.offset", "m", "position the extremes are about"},
+                               {d + "decay.residual_deviation", "m", "standard deviation of the residuals"},
+                               {d + "decay.residuals[]", "m", "residuals of the data used"},
+                               {d + "warnings[]", "", "doubts"},
+                               {"fit.method", "", "the first usable method"},
+                               {"fit.points[].number", "1", "number of the datum"},
+                               {"fit.points[].Y", "m", "measured input amplitude"},
+                               {"fit.points[].x", "m", "measured output amplitude or extreme"},
+                               {"fit.points[].fitted", "m", "x by the fit"}});
+  return fields;
+}
+
+}  // namespace dualdamp::scenarios

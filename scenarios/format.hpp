@@ -1,0 +1,48 @@
+#pragma once
+/// The scenario format: the tables of keys and what each analysis needs and returns. Contract: docs/user-guide.md.
+
+#include <string>
+#include <vector>
+
+#include "scenarios/keys.hpp"
+
+namespace dualdamp::scenarios {
+
+inline constexpr std::string_view schema_name = "dualdamp/1";
+
+/// What a file may ask for.
+inline constexpr double max_points = 1e6;   ///< values of a list, points of a curve
+inline constexpr double max_samples = 1e6;  ///< rows of a history
+inline constexpr double max_cycles = 1e5;   ///< forcing or natural periods of a history
+
+/// The keys of a scenario.
+[[nodiscard]] const Section& scenario_format();
+
+/// The variants of a choice of the format: analyses, excitations, laws.
+[[nodiscard]] const Choice& analyses();
+[[nodiscard]] const Choice& excitations();
+[[nodiscard]] const Choice& friction_laws();
+
+/// What an analysis needs from the other sections. One row for each kind of measurement of `identify`.
+struct Needs {
+  std::string analysis;
+  std::string measurement;               ///< of identify: its type, or "data"; empty otherwise
+  std::vector<std::string> excitations;  ///< types it works with; empty: it has no use for a system at all
+  std::vector<std::string> drive;        ///< keys of a harmonic excitation that must be there
+  bool damping = true;                   ///< damping or damping_ratio must be there
+  std::string reason;                    ///< why these excitations only, for messages
+};
+
+[[nodiscard]] const std::vector<Needs>& needs();
+
+/// A number in a result: its path with `[]` for any index, SI unit, meaning.
+struct ResultField {
+  std::string path;
+  std::string unit;
+  std::string meaning;
+};
+
+/// The numbers an analysis returns; for a formula those of `formula`.
+[[nodiscard]] std::vector<ResultField> result_fields(const std::string& analysis, const std::string& formula = {});
+
+}  // namespace dualdamp::scenarios

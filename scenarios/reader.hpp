@@ -1,0 +1,26 @@
+#pragma once
+/// Reads a document by the tables of `keys.hpp`: every key known, every value of the right kind, dimension and
+/// range.
+///
+/// What comes out is the resolved scenario: SI numbers, defaults filled in, keys in the order of the tables. It is
+/// itself a valid scenario; frequencies keep their unit (`"10 rad/s"`) because the format refuses them without.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.hpp"
+#include "scenarios/keys.hpp"
+#include "scenarios/tree.hpp"
+
+namespace dualdamp::scenarios {
+
+struct Reading {
+  Json values;                          ///< what could be read; faulty values are left out
+  std::map<std::string, Place> places;  ///< of each value by path: "system.friction[0].static"
+  std::vector<core::Diagnostic> problems;
+};
+
+[[nodiscard]] Reading read(const Document& document, const Section& format);
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,215 @@
+#include "scenarios/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "core/provenance.hpp"
+#include "friction_models/registry.hpp"
+#include "scenarios/checks.hpp"
+#include "scenarios/files.hpp"
+#include "scenarios/format.hpp"
+#include "scenarios/formulas.hpp"
+#include "scenarios/reader.hpp"
+#include "sim/steady_state.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// A file for a newer program would drown in complaints about keys this one does not know.
+void refuse_other_schema(const Document& document) {
+  const Entry* entry = document.root().find("schema");
+  if (entry == nullptr || entry->value.text == schema_name || !entry->value.text.starts_with("dualdamp/")) return;
+  throw core::InputError(
+      core::Diagnostic{document.locate(entry->value.place),
+                       "this file needs a version of dualdamp that reads '" + entry->value.text + "'",
+                       std::string(schema_name),
+                       entry->value.text,
+                       {}});
+}
+
+double number_or(const Json& section, const char* key, double fallback) {
+  return section.contains(key) ? number(section.at(key)) : fallback;
+}
+
+std::vector<double> grid_values(const Json& grid) {
+  std::vector<double> values;
+  if (grid.is_array()) {
+    for (const Json& value : grid) values.push_back(number(value));
+    return values;
+  }
+  const double from = number(grid.at("from"));
+  const double to = number(grid.at("to"));
+  const auto count = grid.at("count").get<std::size_t>();
+  const bool is_log = grid.at("spacing") == "log";
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    values.push_back(is_log ? from * std::pow(to / from, share) : from + share * (to - from));
+  }
+  values.back() = to;  // not a rounding beside it
+  return values;
+}
+
+sim::Oscillator oscillator(const Json& system) {
+  return {number(system.at("mass")), number(system.at("stiffness")), number_or(system, "damping", 0.0),
+          system.at("damper_to") == "base" ? sim::DamperTo::base : sim::DamperTo::ground};
+}
+
+sim::Excitation excitation(const Json& section) {
+  static const std::vector<std::pair<std::string, sim::ExcitationType>> types = {
+      {"none", sim::ExcitationType::none},
+      {"base_harmonic", sim::ExcitationType::base_harmonic},
+      {"force_harmonic", sim::ExcitationType::force_harmonic},
+      {"base_ramp", sim::ExcitationType::base_ramp},
+      {"force_ramp", sim::ExcitationType::force_ramp}};
+  sim::Excitation result;
+  result.type =
+      std::ranges::find(types, section.at("type").get<std::string>(), &decltype(types)::value_type::first)->second;
+  result.amplitude = number_or(section, "amplitude", 0.0);
+  result.frequency = number_or(section, "frequency", 0.0);
+  result.phase = number_or(section, "phase", 0.0);
+  result.offset = number_or(section, "offset", 0.0);
+  result.slope = number_or(section, "velocity", number_or(section, "rate", 0.0));
+  if (section.contains("harmonics"))
+    for (const Json& harmonic : section.at("harmonics"))
+      result.harmonics.push_back(
+          {harmonic.at("order").get<int>(), number(harmonic.at("amplitude")), number(harmonic.at("phase"))});
+  return result;
+}
+
+friction::Law law(const Json& section) {
+  friction::ParameterValues values;
+  for (const auto& [key, value] : section.items())
+    if (key != "law") values.emplace(key, number(value));
+  return friction::find_law(section.at("law").get<std::string>())->make(values);
+}
+
+sim::Model model(const Json& values) {
+  sim::Model result;
+  const Json& system = values.at("system");
+  result.oscillator = oscillator(system);
+  if (values.contains("excitation")) result.excitation = excitation(values.at("excitation"));
+  if (system.contains("friction")) {
+    const Json& friction = system.at("friction");
+    if (friction.is_array())
+      for (const Json& item : friction) result.friction.push_back(law(item));
+    else
+      result.friction.push_back(law(friction));
+  }
+  if (values.contains("initial"))
+    result.initial = {number(values.at("initial").at("position")), number(values.at("initial").at("velocity"))};
+  return result;
+}
+
+Identify identify_question(const Json& section, const sim::Model& model, std::optional<MeasuredData> data) {
+  Identify result;
+  result.constants = {model.oscillator.mass, model.oscillator.stiffness, model.excitation.frequency};
+  for (const Json& name : section.at("methods"))
+    result.methods.push_back(identify::find_method(name.get<std::string>()));
+  result.options.approximate_G = section.at("approximate_G").get<bool>();
+  result.options.zero_offset = section.at("zero_offset").get<bool>();
+  result.options.sigma_x = number_or(section, "sigma_x", 0.0);
+  result.options.sigma_Y = number_or(section, "sigma_Y", 0.0);
+  if (section.contains("pairs")) {
+    result.options.first_pair = section.at("pairs")[0].get<int>();
+    result.options.second_pair = section.at("pairs")[1].get<int>();
+  }
+  if (data) {
+    result.source = std::move(data->csv.record);
+    result.data_file = section.at("data").get<std::string>();
+    result.data_sha256 = data->sha256;
+    result.data_warnings = std::move(data->csv.warnings);
+    return result;
+  }
+  const Json& measurement = section.at("measurement");
+  if (measurement.at("type") == "xy_curve")
+    result.source = XyCurve{grid_values(measurement.at("amplitudes"))};
+  else
+    result.source = FreeDecayQuestion{measurement.at("peaks").get<int>()};
+  return result;
+}
+
+Analysis analysis(const Json& section, const sim::Model& model, std::optional<MeasuredData> data) {
+  const auto type = section.at("type").get<std::string>();
+  if (type == "simulate") {
+    const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
+    const double duration =
+        section.contains("cycles") ? number(section.at("cycles")) * period : number(section.at("duration"));
+    return Simulate{duration, number_or(section, "sample_rate", 0.0)};
+  }
+  if (type == "steady_state") return SteadyStateQuestion{};
+  if (type == "xy_curve") return XyCurve{grid_values(section.at("amplitudes"))};
+  if (type == "frequency_response") return FrequencyResponse{grid_values(section.at("frequencies"))};
+  if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
+  if (type == "identify") return identify_question(section, model, std::move(data));
+  const Json& formula = section.at("formula");
+  return Formula{formula.at("name").get<std::string>(), formula.dump()};
+}
+
+std::vector<Expectation> expectations(const Json& values, const Document& document, const Reading& reading) {
+  std::vector<Expectation> result;
+  if (!values.contains("expect")) return result;
+  for (std::size_t i = 0; i < values.at("expect").size(); ++i) {
+    const Json& item = values.at("expect").at(i);
+    Expectation expectation;
+    expectation.path = item.at("value").get<std::string>();
+    const Json& equals = item.at("equals");
+    if (equals.is_boolean())
+      expectation.equals = equals.get<bool>();
+    else if (equals.is_string())
+      expectation.equals = equals.get<std::string>();
+    else
+      expectation.equals = equals.get<double>();
+    if (item.contains("within")) expectation.within = number(item.at("within"));
+    if (item.contains("within_relative")) expectation.within_relative = number(item.at("within_relative"));
+    if (item.contains("source")) expectation.source = item.at("source").get<std::string>();
+    expectation.place = document.locate(reading.places.at("expect[" + std::to_string(i) + "].value"));
+    result.push_back(std::move(expectation));
+  }
+  return result;
+}
+
+void throw_sorted(std::vector<core::Diagnostic> problems, const std::string& file) {
+  // In order of the file; what comes from elsewhere (--set, data) after it.
+  std::ranges::stable_sort(problems, {}, [&](const core::Diagnostic& problem) {
+    return std::tuple(problem.place.file != file, problem.place.file, problem.place.line, problem.place.column);
+  });
+  throw core::InputError(std::move(problems));
+}
+
+}  // namespace
+
+Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
+  Document document(name, text);
+  for (const Override& item : options.set) document.set(item.assignment, item.origin);
+  refuse_other_schema(document);
+
+  Reading reading = read(document, scenario_format());
+  const std::string directory = std::filesystem::path(name).parent_path().string();
+  std::optional<MeasuredData> data = check(document, reading, {directory, options.data_anywhere});
+  reading.problems.insert(reading.problems.end(), document.problems().begin(), document.problems().end());
+  if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), name);
+
+  const Json& values = reading.values;
+  Scenario scenario;
+  scenario.file = name;
+  scenario.file_sha256 = core::sha256(text);
+  scenario.resolved = values.dump();
+  for (const Override& item : options.set) scenario.overrides.push_back(item.assignment);
+  if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
+  if (values.contains("system")) scenario.model = model(values);
+  scenario.tolerance = values.contains("numerics") ? number(values.at("numerics").at("tolerance"))
+                                                   : sim::SteadyStateOptions{}.tolerance;
+  scenario.analysis_name = values.at("analysis").at("type").get<std::string>();
+  scenario.analysis = analysis(values.at("analysis"), scenario.model, std::move(data));
+  scenario.expect = expectations(values, document, reading);
+  return scenario;
+}
+
+Scenario load_scenario(const std::string& path, const LoadOptions& options) {
+  return parse_scenario(read_file(path, max_bytes), path, options);
+}
+
+}  // namespace dualdamp::scenarios

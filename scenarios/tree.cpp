@@ -1,0 +1,444 @@
+#include "scenarios/tree.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <sstream>
+
+#include "scenarios/text_checks.hpp"
+
+namespace dualdamp::scenarios {
+
+using core::Diagnostic;
+using core::InputError;
+
+namespace {
+
+constexpr std::size_t max_problems = 50;
+
+/// Bytes that begin a UTF-8 character.
+int count_characters(std::string_view text) {
+  return static_cast<int>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+/// yaml-cpp's messages in the words of someone who writes a file.
+std::string in_plain_words(const std::string& message, std::string_view text, int position) {
+  const auto at = static_cast<std::size_t>(std::max(position, 0));
+  if (message == "end of map flow not found" && at > 0 && at < text.size() && text[at] == '[' &&
+      text[at - 1] != ' ')
+    return "between { and } a text with brackets, such as points[0].x, needs quotes";
+  static constexpr std::array<std::array<std::string_view, 2>, 7> translations = {{
+      {"end of map not found",
+       "this does not fit what stands above: check the indentation and a missing ':' or quote"},
+      {"end of sequence not found", "this does not fit the list above: check the indentation and the '-'"},
+      {"illegal map value",
+       "a ':' is out of place here: one key a line, and quotes around text that contains ': '"},
+      {"end of map flow not found", "a '{' above is not closed by '}'"},
+      {"end of sequence flow not found", "a '[' above is not closed by ']'"},
+      {"illegal flow end", "this bracket closes nothing"},
+      {"unknown token", "a value cannot begin with this character: put the text in quotes"},
+  }};
+  for (const auto& [theirs, ours] : translations)
+    if (message == theirs) return std::string(ours);
+  if (message == "the referenced anchor is not defined") return "anchors (&) and aliases (*) are not allowed";
+  return "this is not YAML: " + message;
+}
+
+}  // namespace
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t limit = 60;
+  // A cut must not split a UTF-8 character.
+  std::size_t end = std::min(text.size(), limit);
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
+}
+
+const Entry* Node::find(std::string_view key) const {
+  const auto found = std::ranges::find(entries, key, &Entry::key);
+  return found == entries.end() ? nullptr : &*found;
+}
+
+/// Builds the tree from yaml-cpp's events, and checks each event against the text it came from: the text still
+/// shows what the events hide.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(const Document& document, int source, std::size_t begin)
+      : document_(document), source_(source), begin_(begin), text_(document.sources_[index()].text) {}
+
+  [[nodiscard]] const std::vector<Diagnostic>& problems() const { return problems_; }
+  [[nodiscard]] Node take_root() { return std::move(root_); }
+  [[nodiscard]] bool has_root() const { return has_root_; }
+
+  void complain(std::size_t offset, std::string message, std::string allowed = {}, std::string found = {}) {
+    if (problems_.size() >= max_problems) throw InputError(problems_);
+    problems_.push_back({document_.locate(document_.place_at(source_, offset)),
+                         std::move(message),
+                         std::move(allowed),
+                         std::move(found),
+                         {}});
+  }
+
+  /// Says what is wrong with the text at `mark` and gives up.
+  [[noreturn]] void fail(const YAML::Mark& mark, std::string message) {
+    complain(offset(mark), std::move(message));
+    throw InputError(problems_);
+  }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (has_root_)
+      fail(mark,
+           "a second document begins here: a scenario is one document (check the indentation if none was meant)");
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    Node node;
+    node.place = place(mark);
+    if (awaits_key()) fail(mark, "a key is missing before ':'");
+    if (is_null_word(offset(mark)))
+      complain(offset(mark), "null is not a value: leave the key out");
+    else if (!stack_.empty() && stack_.back().node.kind == Node::Kind::map)
+      complain_about_missing_value();
+    else if (!stack_.empty())
+      complain(offset(mark), "an item of the list is empty");
+    attach(std::move(node));
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    complain(offset(mark), "anchors (&) and aliases (*) are not allowed: write the value out");
+    Node node;
+    node.place = place(mark);
+    attach(std::move(node));
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    refuse_properties(mark, tag, anchor);
+    const std::size_t where = offset(mark);
+    Node node;
+    node.kind = Node::Kind::scalar;
+    node.place = place(mark);
+    node.text = value;
+    const char first = at(where);
+    if (first == '"' || first == '\'') {
+      node.quoted = true;
+      check_quote(where, first);
+    } else if (first == '|' || first == '>') {
+      node.quoted = true;
+    } else if (first != '!' && first != '&' && text_.compare(where, value.size(), value) != 0) {
+      complain(where, "this value runs on into the next line",
+               "a value on one line: check the indentation and the ':' of the next line, or put text in quotes");
+    }
+    if (awaits_key())
+      begin_entry(std::move(node), where);
+    else
+      attach(std::move(node));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    open(mark, tag, anchor, Node::Kind::sequence);
+  }
+  void OnSequenceEnd() override { close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    open(mark, tag, anchor, Node::Kind::map);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Frame {
+    Node node;
+    bool has_key = false;  ///< a map's key has come, its value not yet
+    std::string key;
+    Place key_place;
+    std::size_t key_offset = 0;
+  };
+
+  [[nodiscard]] std::size_t index() const { return static_cast<std::size_t>(source_); }
+  [[nodiscard]] std::size_t offset(const YAML::Mark& mark) const {
+    return std::min(begin_ + static_cast<std::size_t>(std::max(mark.pos, 0)), text_.size());
+  }
+  /// Events come in order of the text: counting on from the last place keeps a long line linear.
+  [[nodiscard]] Place place(const YAML::Mark& mark) {
+    const std::size_t where = offset(mark);
+    if (where < last_offset_ || last_place_.line == 0 || text_.find('\n', last_offset_) < where) {
+      last_place_ = document_.place_at(source_, where);
+    } else {
+      last_place_.column += count_characters(std::string_view(text_).substr(last_offset_, where - last_offset_));
+    }
+    last_offset_ = where;
+    return last_place_;
+  }
+  [[nodiscard]] char at(std::size_t where) const { return where < text_.size() ? text_[where] : '\0'; }
+  [[nodiscard]] bool awaits_key() const {
+    return !stack_.empty() && stack_.back().node.kind == Node::Kind::map && !stack_.back().has_key;
+  }
+
+  [[nodiscard]] bool is_null_word(std::size_t where) const {
+    const std::string_view rest = std::string_view(text_).substr(where);
+    const std::string_view word = rest.substr(0, rest.find_first_of(" \n,]}#"));
+    return word == "~" || word == "null" || word == "Null" || word == "NULL";
+  }
+
+  void refuse_properties(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    if (anchor != 0) complain(offset(mark), "anchors (&) and aliases (*) are not allowed: write the value out");
+    const bool plain = tag.empty() || tag == "?";
+    if (!plain && (tag != "!" || at(offset(mark)) == '!')) complain(offset(mark), "tags (!) are not allowed");
+  }
+
+  /// yaml-cpp lets an open quote run to the end of the file.
+  void check_quote(std::size_t where, char quote) {
+    for (std::size_t i = where + 1; i < text_.size() && text_[i] != '\n'; ++i) {
+      if (quote == '"' && text_[i] == '\\') {
+        ++i;
+      } else if (text_[i] == quote) {
+        if (quote != '\'' || at(i + 1) != '\'') return;
+        ++i;
+      }
+    }
+    complain(where, "this quote is not closed on its line");
+  }
+
+  void complain_about_missing_value() {
+    const Frame& frame = stack_.back();
+    const std::size_t after = text_.find_first_not_of("\"' ", frame.key_offset + frame.key.size());
+    if (after != std::string::npos && text_[after] == ':')
+      complain(frame.key_offset, "'" + shortened(frame.key) + "' has no value");
+    else
+      complain(frame.key_offset, "'" + shortened(frame.key) + "' stands alone: a ':' and a value are missing");
+  }
+
+  void begin_entry(Node key, std::size_t where) {
+    Frame& frame = stack_.back();
+    frame.has_key = true;
+    frame.key = std::move(key.text);
+    frame.key_place = key.place;
+    frame.key_offset = where;
+    if (frame.key == "<<") complain(where, "merge keys (<<) are not allowed: write the values out");
+    if (const Entry* first = frame.node.find(frame.key))
+      complain(where, "the key '" + shortened(frame.key) + "' is given twice",
+               "one of them; the first is in line " + std::to_string(first->place.line));
+  }
+
+  void attach(Node node) {
+    if (stack_.empty()) {
+      root_ = std::move(node);
+      has_root_ = true;
+      return;
+    }
+    Frame& frame = stack_.back();
+    if (frame.node.kind == Node::Kind::sequence) {
+      frame.node.items.push_back(std::move(node));
+      return;
+    }
+    frame.has_key = false;
+    node.key_place = frame.key_place;
+    constexpr std::size_t max_keys = 1000;
+    if (frame.node.entries.size() >= max_keys) {
+      complain(frame.key_offset, "a map has more than " + std::to_string(max_keys) + " keys");
+      throw InputError(problems_);
+    }
+    if (frame.node.find(frame.key) == nullptr)
+      frame.node.entries.push_back({std::move(frame.key), frame.key_place, std::move(node)});
+  }
+
+  void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Node::Kind kind) {
+    if (awaits_key()) fail(mark, "a key must be a word");
+    if (stack_.size() >= static_cast<std::size_t>(max_depth))
+      fail(mark, "this is nested deeper than " + std::to_string(max_depth) + " levels");
+    refuse_properties(mark, tag, anchor);
+    Frame frame;
+    frame.node.kind = kind;
+    frame.node.place = place(mark);
+    stack_.push_back(std::move(frame));
+  }
+
+  void close() {
+    Node node = std::move(stack_.back().node);
+    stack_.pop_back();
+    attach(std::move(node));
+  }
+
+  const Document& document_;
+  int source_;
+  std::size_t begin_;
+  const std::string& text_;
+  std::size_t last_offset_ = 0;
+  Place last_place_;
+  std::vector<Frame> stack_;
+  Node root_;
+  bool has_root_ = false;
+  std::vector<Diagnostic> problems_;
+};
+
+namespace {
+
+std::vector<std::size_t> starts_of_lines(std::string_view text) {
+  std::vector<std::size_t> starts = {0};
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n') starts.push_back(i + 1);
+  return starts;
+}
+
+/// Offset of a `%` that begins a directive: one at the start of a line above the content.
+std::optional<std::size_t> find_directive(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] == '%') return at;
+    if (text[at] != '#' && text[at] != '\n') return std::nullopt;
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  }
+  return std::nullopt;
+}
+
+/// One step of a `--set` path: a key or a list index.
+struct Step {
+  std::string key;
+  std::optional<std::size_t> index;
+  std::size_t offset = 0;
+};
+
+/// Steps of `a.b[0].c`; nothing when the path is malformed.
+std::optional<std::vector<Step>> split_path(std::string_view path) {
+  std::vector<Step> steps;
+  std::size_t at = 0;
+  while (at < path.size()) {
+    Step step;
+    step.offset = at;
+    if (path[at] == '[') {
+      const std::size_t end = path.find(']', at);
+      if (steps.empty() || end == std::string_view::npos) return std::nullopt;
+      std::size_t index = 0;
+      const std::from_chars_result result = std::from_chars(path.data() + at + 1, path.data() + end, index);
+      if (result.ec != std::errc() || result.ptr != path.data() + end) return std::nullopt;
+      step.index = index;
+      at = end + 1;
+    } else {
+      const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
+      if (end == at) return std::nullopt;
+      step.key = std::string(path.substr(at, end - at));
+      at = end;
+    }
+    steps.push_back(std::move(step));
+    if (at < path.size() && path[at] == '.') {
+      ++at;
+      if (at == path.size() || path[at] == '[') return std::nullopt;
+    } else if (at < path.size() && path[at] != '[') {
+      return std::nullopt;
+    }
+  }
+  if (steps.empty()) return std::nullopt;
+  return steps;
+}
+
+}  // namespace
+
+Document::Document(std::string name, std::string text) {
+  sources_.push_back({std::move(name), normalised(text), {}});
+  sources_.front().line_starts = starts_of_lines(sources_.front().text);
+  const std::string& content = sources_.front().text;
+  if (content.size() > max_bytes)
+    throw InputError(
+        Diagnostic{{sources_.front().name, 0, 0, {}}, "the file is too large", "at most 1 MiB", {}, {}});
+  root_ = parse(0, 0);
+  if (root_.kind == Node::Kind::map) return;
+  const bool empty = root_.kind == Node::Kind::null;
+  throw InputError(Diagnostic{locate(empty ? Place{0, 1, 1} : root_.place),
+                              empty ? "the file is empty" : "a scenario is a map of keys and values",
+                              "a file that begins with 'schema: dualdamp/1'",
+                              {},
+                              {}});
+}
+
+Node Document::parse(int source, std::size_t begin) {
+  const std::string& text = sources_[static_cast<std::size_t>(source)].text;
+  TreeBuilder builder(*this, source, begin);
+  for (TextFault& fault : text_faults(text)) builder.complain(fault.offset, std::move(fault.message));
+  if (const auto directive = find_directive(text)) builder.complain(*directive, "directives (%) are not allowed");
+  // A text with such faults is not worth reading: yaml-cpp would report consequences.
+  if (!builder.problems().empty()) throw InputError(builder.problems());
+
+  std::istringstream stream(text.substr(begin));
+  YAML::Parser parser(stream);
+  try {
+    while (parser.HandleNextDocument(builder)) continue;
+  } catch (const YAML::Exception& error) {
+    builder.fail(error.mark, in_plain_words(error.msg, text.substr(begin), error.mark.pos));
+  }
+  problems_.insert(problems_.end(), builder.problems().begin(), builder.problems().end());
+  return builder.take_root();
+}
+
+Place Document::place_at(int source, std::size_t offset) const {
+  const Source& text = sources_[static_cast<std::size_t>(source)];
+  const auto after = std::ranges::upper_bound(text.line_starts, offset);
+  const std::size_t start = *(after - 1);
+  const int before = count_characters(std::string_view(text.text).substr(start, offset - start));
+  return {source, static_cast<int>(after - text.line_starts.begin()), before + 1};
+}
+
+core::SourcePlace Document::locate(Place place) const {
+  const Source& source = sources_[static_cast<std::size_t>(place.source)];
+  core::SourcePlace result{source.name, place.line, place.column, {}};
+  if (place.line < 1) return result;
+  const std::size_t start = source.line_starts[static_cast<std::size_t>(place.line) - 1];
+  const std::size_t end = std::min(source.text.find('\n', start), source.text.size());
+  // A caret far out on a very long line helps nobody.
+  constexpr std::size_t max_line = 240;
+  if (end - start <= max_line) result.text = source.text.substr(start, end - start);
+  return result;
+}
+
+void Document::set(std::string_view assignment, std::string origin) {
+  const int source = static_cast<int>(sources_.size());
+  sources_.push_back({std::move(origin), std::string(assignment), {}});
+  sources_.back().line_starts = starts_of_lines(assignment);
+  const auto refuse = [&](std::size_t offset, std::string message, std::string allowed) {
+    throw InputError(Diagnostic{locate(place_at(source, offset)), std::move(message), std::move(allowed), {}, {}});
+  };
+
+  const std::size_t equals = assignment.find('=');
+  const auto steps = split_path(assignment.substr(0, equals));
+  if (equals == std::string_view::npos || !steps)
+    refuse(0, "this does not name a value",
+           "PATH=VALUE, such as system.friction.kinetic=3 N or excitation.harmonics[0].order=3");
+  Node value = parse(source, equals + 1);
+  if (value.kind == Node::Kind::null) refuse(equals, "a value is missing after '='", "PATH=VALUE");
+
+  Node* node = &root_;
+  for (const Step& step : *steps) {
+    if (step.index) {
+      if (node->kind != Node::Kind::sequence || *step.index >= node->items.size())
+        refuse(
+            step.offset, "there is no such list item",
+            node->kind == Node::Kind::sequence ? "an index below " + std::to_string(node->items.size()) : "a key");
+      node = &node->items[*step.index];
+      continue;
+    }
+    const Place place = place_at(source, step.offset);
+    if (node->kind == Node::Kind::null) {
+      node->kind = Node::Kind::map;
+      node->place = place;
+    }
+    if (node->kind != Node::Kind::map)
+      refuse(step.offset, "'" + shortened(step.key) + "' is inside a value that has no keys", {});
+    auto entry = std::ranges::find(node->entries, step.key, &Entry::key);
+    if (entry == node->entries.end()) entry = node->entries.insert(entry, Entry{step.key, place, Node{}});
+    entry->place = place;
+    entry->value.key_place = place;
+    node = &entry->value;
+  }
+  value.key_place = node->key_place;
+  *node = std::move(value);
+}
+
+}  // namespace dualdamp::scenarios

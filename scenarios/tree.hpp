@@ -1,0 +1,92 @@
+#pragma once
+/// A scenario file as a located tree: every value knows the line and column it came from.
+///
+/// What YAML allows and a reader would misunderstand is refused here, before any key has a meaning: duplicate keys,
+/// keys without value, quotes that do not close on their line, values that run on over several lines, anchors,
+/// aliases, tags, merge keys, directives, several documents, tabs, invisible characters, text that is not UTF-8,
+/// nesting deeper than `max_depth`, files above `max_bytes`.
+/// Errors: `core::InputError` where nothing more can be read; every other problem is kept in `problems()`, so that
+/// those of the keys can be told with them. Cost: linear in the length of the text.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.hpp"
+
+namespace dualdamp::scenarios {
+
+inline constexpr std::size_t max_bytes = 1 << 20;
+inline constexpr int max_depth = 16;
+
+/// At most 60 bytes of `text`, for messages.
+[[nodiscard]] std::string shortened(std::string_view text);
+
+/// A position in one of the texts a document is made of. Lines and columns count from 1; a column is a character.
+struct Place {
+  int source = 0;
+  int line = 0;
+  int column = 0;
+};
+
+struct Entry;
+
+struct Node {
+  enum class Kind { null, scalar, sequence, map };  ///< null: a value already complained about
+
+  Kind kind = Kind::null;
+  Place place;
+  Place key_place;          ///< of the key it belongs to; line 0 when it belongs to none
+  std::string text;         ///< scalar
+  bool quoted = false;      ///< scalar: quoted or a block, so it is text and never a number or a word of the format
+  std::vector<Node> items;  ///< sequence
+  std::vector<Entry> entries;  ///< map, in order of the file, keys distinct
+
+  /// Where to point when something is missing inside.
+  [[nodiscard]] Place head() const { return key_place.line > 0 ? key_place : place; }
+  /// nullptr when this is no map or has no such key.
+  [[nodiscard]] const Entry* find(std::string_view key) const;
+};
+
+struct Entry {
+  std::string key;
+  Place place;
+  Node value;
+};
+
+/// The file and the `--set` texts applied to it.
+class Document {
+ public:
+  /// `name` stands for the file in messages.
+  Document(std::string name, std::string text);
+
+  /// Applies `PATH=VALUE`, PATH like `system.friction[0].kinetic`, VALUE in YAML. Keys on the way that do not exist
+  /// are created; list items must exist. `origin` stands for the file in messages.
+  void set(std::string_view assignment, std::string origin);
+
+  [[nodiscard]] const Node& root() const { return root_; }
+  [[nodiscard]] const std::vector<core::Diagnostic>& problems() const { return problems_; }
+  [[nodiscard]] core::SourcePlace locate(Place place) const;
+  /// The text of the file, line ends normalised.
+  [[nodiscard]] const std::string& text() const { return sources_.front().text; }
+
+ private:
+  struct Source {
+    std::string name;
+    std::string text;
+    std::vector<std::size_t> line_starts;
+  };
+
+  friend class TreeBuilder;
+
+  [[nodiscard]] Place place_at(int source, std::size_t offset) const;
+  /// Parses `sources_[source]` from `begin` on.
+  [[nodiscard]] Node parse(int source, std::size_t begin);
+
+  std::vector<Source> sources_;
+  Node root_;
+  std::vector<core::Diagnostic> problems_;
+};
+
+}  // namespace dualdamp::scenarios
