@@ -101,6 +101,11 @@ int ExponentialBasis::add(Complex exponent, int parent) {
 void ExponentialBasis::finish() {
   panel_ = fastest_ > 0.0 ? panel_angle / fastest_ : 1.0;
   if (!has_chains_) evaluate(panel_, rotor_);
+  even_ = !has_chains_;
+  for (int k = 0; k < size_; ++k) {
+    const double rate = std::abs(exponent(k));
+    even_ = even_ && growth(k) == 0.0 && (rate == 0.0 || 4.0 * rate >= fastest_);
+  }
 }
 
 Complex ExponentialBasis::chain_value(int k, double s) const {
@@ -138,11 +143,10 @@ bool ExponentialBasis::shift(double delta, Values& values) const {
   return true;
 }
 
-void ExponentialBasis::step_panel(Values& values) const {
+void ExponentialBasis::step_panel(const Values& from, Values& to) const {
   for (std::size_t k = 0; k < index(size_); ++k) {
-    const double re = values.re[k] * rotor_.re[k] - values.im[k] * rotor_.im[k];
-    values.im[k] = values.re[k] * rotor_.im[k] + values.im[k] * rotor_.re[k];
-    values.re[k] = re;
+    to.re[k] = from.re[k] * rotor_.re[k] - from.im[k] * rotor_.im[k];
+    to.im[k] = from.re[k] * rotor_.im[k] + from.im[k] * rotor_.re[k];
   }
 }
 

@@ -53,10 +53,14 @@ class ExponentialBasis {
   /// The width [s] of a search panel that suits the fastest element, and the step over it:
   /// E_k(s + panel()) from E_k(s) by one complex product each. For a basis without chains.
   [[nodiscard]] double panel() const { return panel_; }
-  void step_panel(Values& values) const;
+  void step_panel(const Values& from, Values& to) const;
 
   /// Fixes the panel; call once after the last add().
   void finish();
+
+  /// No chain, no growing element, and all nonzero exponents within a factor of four: one panel width and one
+  /// derivative bound serve the whole mode.
+  [[nodiscard]] bool even() const { return even_; }
 
   /// |z_k|^4, for derivative bounds.
   [[nodiscard]] double fourth_power(int k) const { return fourth_power_[index(k)]; }
@@ -76,6 +80,7 @@ class ExponentialBasis {
   double fastest_ = 0.0;
   int size_ = 0;
   bool has_chains_ = false;
+  bool even_ = false;
 };
 
 /// Coefficients of one quantity on a basis; the first size() entries count.

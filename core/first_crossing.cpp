@@ -13,6 +13,13 @@ constexpr double graze = 16.0 * epsilon;
 constexpr int max_depth = 60;
 constexpr int taylor_terms = 9;
 
+/// Elements that grow, or chains whose growth only bound() knows.
+bool grows(const ExponentialBasis& basis) {
+  bool result = basis.has_chains();
+  for (int k = 0; k < basis.size(); ++k) result = result || basis.growth(k) > 0.0;
+  return result;
+}
+
 /// A guard's value and first two derivatives at one time.
 struct Jet {
   double s = 0.0;
@@ -86,7 +93,7 @@ class PanelSearch {
  public:
   PanelSearch(const ExponentialBasis& basis, const Guard& guard, int index, std::vector<Grazing>& grazings,
               SearchCount& count)
-      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count) {}
+      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count), decays_(!grows(basis)) {}
 
   /// The jet from values of the basis; close to a known zero from the Taylor series that has it exactly.
   [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) const {
@@ -123,13 +130,19 @@ class PanelSearch {
   void bound_panel(double a, double h, const ExponentialBasis::Values& values) {
     sixth_ = bound(basis_, guard_.sixth, values, a, h);
     curvature_ = bound(basis_, guard_.curvature, values, a, h);
-    amplitude_ = has_growth_ ? bound(basis_, guard_.value, values, a, h) : guard_.amplitude;
+    amplitude_ = decays_ ? guard_.amplitude : bound(basis_, guard_.value, values, a, h);
   }
 
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
-
-  void allow_growth(bool growth) { has_growth_ = growth; }
+  /// The elements at the root last returned.
+  void values_at(double root, ExponentialBasis::Values& values) const {
+    if (root == polished_) {
+      values = root_values_;
+    } else {
+      basis_.evaluate(root, values);
+    }
+  }
 
  private:
   static constexpr double none = -1.0;
@@ -138,8 +151,8 @@ class PanelSearch {
     return guard_.known_zeros > 0 && s * 1.6 < 0.05 * basis_.panel();
   }
   [[nodiscard]] Jet taylor_jet(double s) const;
-  [[nodiscard]] double accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder) const;
-  [[nodiscard]] double polish(double s) const;
+  [[nodiscard]] double accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder);
+  Jet polish(double s);
   [[nodiscard]] Jet minimum(const Jet& a, const Jet& b) const;
   [[nodiscard]] Jet split_point(const Jet& a, const Jet& b) const;
   [[nodiscard]] double split(const Jet& a, const Jet& b, int depth);
@@ -149,10 +162,12 @@ class PanelSearch {
   int index_;
   std::vector<Grazing>& grazings_;
   SearchCount& count_;
+  bool decays_;
   double sixth_ = 0.0;
   double curvature_ = 0.0;
   double amplitude_ = 0.0;
-  bool has_growth_ = false;
+  double polished_ = -1.0;
+  ExponentialBasis::Values root_values_;
 };
 
 Jet PanelSearch::taylor_jet(double s) const {
@@ -177,50 +192,62 @@ Jet PanelSearch::taylor_jet(double s) const {
   return result;
 }
 
-/// Halley's iteration from a good guess; the basis is evaluated once and then shifted.
-double PanelSearch::polish(double s) const {
-  ExponentialBasis::Values values;
-  basis_.evaluate(s, values);
+/// Halley's iteration from a good guess; the basis is evaluated once and then shifted. Leaves the elements' values
+/// at the result in root_values_.
+Jet PanelSearch::polish(double s) {
+  basis_.evaluate(s, root_values_);
+  Jet j = jet(s, root_values_);
   for (int i = 0; i < 8; ++i) {
-    const Jet j = jet(s, values);
     const double newton = j.value / j.slope;
     const double step = newton / (1.0 - 0.5 * newton * j.curvature / j.slope);
-    if (!std::isfinite(step)) return s;
+    if (!(std::abs(step) > 2.0 * epsilon * s) || !(s - step >= 0.0)) break;
     s -= step;
-    if (std::abs(step) <= 2.0 * epsilon * s) return s;
-    if (!basis_.shift(-step, values)) basis_.evaluate(s, values);
+    if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
+    // Convergence is cubic: behind a small step nothing is left to correct, only the slope is used.
+    const bool converged = std::abs(step) * 1.6 < 1e-6 * basis_.panel();
+    j = jet(s, root_values_);
+    if (converged) break;
   }
-  return s;
+  j.s = polished_ = s;
+  return j;
 }
 
-double newton_in_panel(const Bernstein& h, const Jet& a, const Jet& b) {
-  // The sign change lies in (low, high); Newton from the end where the guard is negative, bisection as a safeguard.
+/// Root of the quintic Hermite interpolant whose value changes sign on the panel, as t in (0, 1).
+double interpolant_root(const Jet& a, const Jet& b) {
+  const double h = b.s - a.s;
+  const double d0 = a.slope * h;
+  const double d1 = b.slope * h;
+  const double s0 = 0.5 * a.curvature * h * h;
+  const double s1 = 0.5 * b.curvature * h * h;
+  // value = a + d0 t + s0 t^2 + t^3 (p + q t + r t^2)
+  const double rise = b.value - a.value - d0 - s0;
+  const double turn = d1 - d0 - 2.0 * s0;
+  const double bend = s1 - s0;
+  const double p = 10.0 * rise - 4.0 * turn + bend;
+  const double q = -15.0 * rise + 7.0 * turn - 2.0 * bend;
+  const double r = 6.0 * rise - 3.0 * turn + bend;
   double low = 0.0;
   double high = 1.0;
-  const double width = b.s - a.s;
-  double t = b.slope < 0.0 ? std::clamp(1.0 - b.value / (b.slope * width), 0.0, 1.0) : 0.5;
-  double value = h.at(t);
-  for (int i = 0; i < 6; ++i) {
+  double t = d1 < 0.0 ? std::clamp(1.0 - b.value / d1, 0.0, 1.0) : 0.5;
+  for (int i = 0; i < 12; ++i) {
+    const double value = a.value + t * (d0 + t * (s0 + t * (p + t * (q + t * r))));
+    const double slope = d0 + t * (2.0 * s0 + t * (3.0 * p + t * (4.0 * q + t * 5.0 * r)));
     (value > 0.0 ? low : high) = t;
-    const double step = 1e-3 * (high - low);
-    const double slope = (h.at(t + step) - value) / step;
     double next = t - value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - t) < 1e-5) return next;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    const double step = next - t;
     t = next;
-    value = h.at(t);
+    if (std::abs(step) < 1e-7) break;
   }
   return t;
 }
 
 /// The root behind the only sign change of `low`, when g is certified positive before it and monotone across it.
-double PanelSearch::accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder) const {
+double PanelSearch::accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder) {
   const double width = b.s - a.s;
-  const Bernstein interpolant(a, b);
-  const double root = polish(a.s + width * newton_in_panel(interpolant, a, b));
-  if (!(root > a.s && root <= b.s)) return none;
-  const Jet at = jet(root);
-  if (!(at.slope < 0.0)) return none;
+  const Jet at = polish(a.s + width * interpolant_root(a, b));
+  const double root = at.s;
+  if (!(root > a.s && root <= b.s) || !(at.slope < 0.0)) return none;
   // |g - H| <= 14400/46080 of `remainder` anywhere on the panel.
   const double gap = std::min(2.0 * (remainder * 0.3125 + slack(root)) / -at.slope, root - a.s);
   if (curvature_ * gap >= -at.slope) return none;
@@ -325,6 +352,7 @@ void start_values(const ExponentialBasis& basis, ExponentialBasis::Values& value
 double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
                    const ExponentialBasis::Values& values, double a) {
   double width = basis.panel();
+  if (basis.even()) return width;
   for (int doubling = 0; doubling < 60; ++doubling) {
     const double wider = 2.0 * width;
     const double wider2 = wider * wider;
@@ -355,6 +383,10 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
 
 void prepare(const ExponentialBasis& basis, Guard& guard) {
   differentiate(basis, guard.value, guard.slope);
+  prepare_with_slope(basis, guard);
+}
+
+void prepare_with_slope(const ExponentialBasis& basis, Guard& guard) {
   differentiate(basis, guard.slope, guard.curvature);
   guard.amplitude = magnitude_sum(basis, guard.value);
   if (basis.has_chains()) {
@@ -379,22 +411,18 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
   crossing.found = false;
   crossing.guard = -1;
   crossing.s = horizon;
-  const bool stepping = !basis.has_chains();
-  bool growth = basis.has_chains();
-  for (int k = 0; k < basis.size(); ++k) growth = growth || basis.growth(k) > 0.0;
-
-  ExponentialBasis::Values left;
-  ExponentialBasis::Values right;
-  start_values(basis, left);
+  std::array<ExponentialBasis::Values, 2> ends;
+  int current = 0;
+  start_values(basis, ends[0]);
   double a = 0.0;
   while (a < horizon) {
     ++count.panels;
-    double b = a + panel_width(basis, guards, left, a);
-    const bool full = stepping && b == a + basis.panel() && b < horizon;
-    b = std::min(b, horizon);
-    if (full) {
-      right = left;
-      basis.step_panel(right);
+    const ExponentialBasis::Values& left = ends[static_cast<std::size_t>(current)];
+    ExponentialBasis::Values& right = ends[static_cast<std::size_t>(1 - current)];
+    const double width = panel_width(basis, guards, left, a);
+    double b = std::min(a + width, horizon);
+    if (width == basis.panel() && b < horizon && !basis.has_chains()) {
+      basis.step_panel(left, right);
     } else {
       basis.evaluate(b, right);
     }
@@ -403,7 +431,6 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     for (std::size_t g = 0; g < guards.size(); ++g) {
       if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
       PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
-      search.allow_growth(growth);
       search.bound_panel(a, b - a, left);
       const Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, left);
       Jet end = search.jet(b, right);
@@ -415,35 +442,54 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
       if (root >= 0.0 && (first < 0.0 || root < first)) {
         first = root;
         crossing.guard = static_cast<int>(g);
+        search.values_at(root, crossing.values);
       }
     }
     if (first >= 0.0) {
       crossing.found = true;
       crossing.s = first;
-      basis.evaluate(first, crossing.values);
-      while (!grazings.empty() && grazings.back().s > first) grazings.pop_back();
+      std::erase_if(grazings, [&](const Grazing& grazing) { return grazing.s > first; });
       return;
     }
-    left = right;
+    current = 1 - current;
     a = b;
   }
-  crossing.values = left;
+  crossing.values = ends[static_cast<std::size_t>(current)];
+}
+
+namespace {
+
+/// Whether a Taylor coefficient stands out of rounding.
+bool stands_out(const ExponentialBasis& basis, const ModeFunction& f, double value, double tolerance) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) sum += std::abs(f.re[k]) + std::abs(f.im[k]);
+  return std::abs(value) > graze * sum + tolerance;
+}
+
+/// How fast a tolerance grows from one derivative to the next.
+double rate(const ExponentialBasis& basis) { return basis.panel() > 0.0 ? 1.6 / basis.panel() : 1.0; }
+
+}  // namespace
+
+Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance) {
+  constexpr int examined = 4;
+  ModeFunction third;
+  const std::array<const ModeFunction*, examined> derivatives = {&guard.value, &guard.slope, &guard.curvature, &third};
+  for (int order = 0; order < examined; ++order) {
+    const ModeFunction& f = *derivatives[static_cast<std::size_t>(order)];
+    if (order == examined - 1) differentiate(basis, guard.curvature, third);
+    const double value = at_start(basis, f);
+    if (stands_out(basis, f, value, tolerance)) return {value > 0.0 ? 1 : -1, order};
+    tolerance *= rate(basis);
+  }
+  return {0, examined};
 }
 
 Germ germ(const ExponentialBasis& basis, const ModeFunction& f, double tolerance) {
-  // Rates beyond those that f itself contains do not enter: each Taylor coefficient has its own amplitudes.
-  constexpr int orders = 4;
-  ModeFunction derivative = f;
-  double scale = tolerance;
-  double rate = basis.panel() > 0.0 ? 1.6 / basis.panel() : 1.0;
-  for (int order = 0; order < orders; ++order) {
-    const double value = at_start(basis, derivative);
-    if (std::abs(value) > graze * magnitude_sum(basis, derivative) + scale) return {value > 0.0 ? 1 : -1, order};
-    scale *= rate;
-    const ModeFunction previous = derivative;
-    differentiate(basis, previous, derivative);
-  }
-  return {0, orders};
+  Guard guard;
+  guard.value = f;
+  prepare(basis, guard);
+  return germ(basis, guard, tolerance);
 }
 
 }  // namespace dualdamp::core

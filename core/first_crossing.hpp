@@ -39,12 +39,14 @@ struct Guard {
   // Filled by prepare().
   ModeFunction slope;
   ModeFunction curvature;
-  ModeFunction sixth;      ///< moduli of the sixth derivative's coefficients
+  ModeFunction sixth;      ///< sixth derivative, or coefficients of the same moduli
   double amplitude = 0.0;  ///< sum of |c_k|
 };
 
 /// Fills the derived members of `guard` from `value`.
 void prepare(const ExponentialBasis& basis, Guard& guard);
+/// The same where `slope` is known already.
+void prepare_with_slope(const ExponentialBasis& basis, Guard& guard);
 
 struct Crossing {
   bool found = false;
@@ -80,5 +82,7 @@ struct Germ {
 };
 
 [[nodiscard]] Germ germ(const ExponentialBasis& basis, const ModeFunction& f, double tolerance);
+/// Of a prepared guard.
+[[nodiscard]] Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance);
 
 }  // namespace dualdamp::core

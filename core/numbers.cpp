@@ -31,8 +31,8 @@ NumberText without_digit(std::string_view text, std::size_t sign) {
     return refused("has no digit before its point", word_length(text));
   if (text.size() > 1 && text[0] == '+' && (is_digit(text[1]) || text[1] == '.'))
     return refused("has a leading plus sign", word_length(text));
-  for (const std::string_view name : {"nan", "NaN", ".nan", ".NaN", "NAN", ".NAN", "inf", "Inf", ".inf", ".Inf", "INF",
-                                      ".INF", "infinity", "Infinity"})
+  for (const std::string_view name : {"nan", "NaN", ".nan", ".NaN", "NAN", ".NAN", "inf", "Inf", ".inf", ".Inf",
+                                      "INF", ".INF", "infinity", "Infinity"})
     if (rest.substr(0, word_length(rest)) == name) return refused("is not finite", word_length(text));
   return refused("is missing", 0);
 }
@@ -40,7 +40,8 @@ NumberText without_digit(std::string_view text, std::size_t sign) {
 NumberText converted(std::string_view digits) {
   double value = 0.0;
   const std::from_chars_result result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool nonzero = digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
+  const bool nonzero =
+      digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
   if (nonzero && (result.ec == std::errc::result_out_of_range || value == 0.0 || !std::isfinite(value)))
     return refused("is outside the range of double precision", digits.size());
   return {value, digits.size(), {}};
@@ -67,7 +68,8 @@ NumberText read_number(std::string_view text) {
     end = fraction;
   }
   if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
-    const std::size_t exponent_sign = end + 1 < text.size() && (text[end + 1] == '+' || text[end + 1] == '-') ? 1 : 0;
+    const std::size_t exponent_sign =
+        end + 1 < text.size() && (text[end + 1] == '+' || text[end + 1] == '-') ? 1 : 0;
     const std::size_t exponent = skip_digits(text, end + 1 + exponent_sign);
     // Without digits the letter belongs to what follows: a unit may begin with e.
     if (exponent > end + 1 + exponent_sign) end = exponent;

@@ -2,8 +2,8 @@
 /// Decimal numbers as text: one strict grammar in, the shortest text that reads back to the same bits out.
 ///
 /// Grammar (that of JSON):  -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?
-/// So `5`, `-0.5`, `1e-3`, `1.0e-3` are numbers; `+1`, `010`, `.5`, `1.`, `0x10`, `nan`, `inf`, `1_000` are not, and
-/// neither is a number that double precision turns into zero (`1e-400`) or infinity (`1e400`).
+/// So `5`, `-0.5`, `1e-3`, `1.0e-3` are numbers; `+1`, `010`, `.5`, `1.`, `0x10`, `nan`, `inf`, `1_000` are not,
+/// and neither is a number that double precision turns into zero (`1e-400`) or infinity (`1e400`).
 
 #include <cstddef>
 #include <optional>

@@ -24,19 +24,19 @@ struct Library {
 
 /// Where an artefact comes from, beside the program itself (`core::build_info()`, `libraries()`).
 struct Provenance {
-  std::string source;            ///< the scenario file as named by the user
-  std::string source_sha256;     ///< of its bytes
-  std::string scenario;          ///< the resolved scenario as JSON on one line
-  std::string scenario_sha256;   ///< of `scenario`
-  std::string data_sha256;       ///< of the measured data, when there is any
+  std::string source;                  ///< the scenario file as named by the user
+  std::string source_sha256;           ///< of its bytes
+  std::string scenario;                ///< the resolved scenario as JSON on one line
+  std::string scenario_sha256;         ///< of `scenario`
+  std::string data_sha256;             ///< of the measured data, when there is any
   std::vector<std::string> overrides;  ///< `--set` texts in order
   double tolerance = 0.0;
-  std::string started;           ///< UTC
-  double duration = 0.0;         ///< s
+  std::string started;    ///< UTC
+  double duration = 0.0;  ///< s
 };
 
-/// Name and value in the order to print, program and libraries first: the comment head of a table and the provenance
-/// block of a result are this list.
+/// Name and value in the order to print, program and libraries first: the comment head of a table and the
+/// provenance block of a result are this list.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> lines(const Provenance& provenance);
 
 }  // namespace dualdamp::core

@@ -32,7 +32,10 @@ const std::vector<Dimension>& dimensions() {
       {"m", "a length", "3 mm", {"m", "mm", "um", "µm", "nm", "cm", "km", "in", "ft"}},
       {"s", "a time", "20 s", {"s", "ms", "us", "µs", "min", "h"}},
       {"N", "a force", "2 N", {"N", "mN", "kN", "MN", "lbf"}},
-      {"N/m", "a stiffness", "1568 N/m", {"N/m", "kN/m", "MN/m", "N/mm", "kN/mm", "N/um", "N/µm", "N/cm", "lbf/in"}},
+      {"N/m",
+       "a stiffness",
+       "1568 N/m",
+       {"N/m", "kN/m", "MN/m", "N/mm", "kN/mm", "N/um", "N/µm", "N/cm", "lbf/in"}},
       {"N.s/m",
        "a damping coefficient",
        "4 N.s/m",
@@ -196,7 +199,8 @@ class UnitSystem {
   using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
   UnitSystem() : system_((ut_set_error_message_handler(ut_ignore), ut_read_xml(nullptr)), &ut_free_system) {
-    if (!system_) throw std::runtime_error("the unit database of udunits2 cannot be read; is libudunits2-data installed?");
+    if (!system_)
+      throw std::runtime_error("the unit database of udunits2 cannot be read; is libudunits2-data installed?");
   }
 
   [[nodiscard]] Unit parse(const std::string& text) const {
@@ -207,8 +211,8 @@ class UnitSystem {
   static bool contains_angle(const Unit& unit) {
     std::array<char, 256> buffer{};
     const int length = ut_format(unit.get(), buffer.data(), buffer.size(), UT_ASCII | UT_DEFINITION);
-    return length < 0 || std::string_view(buffer.data(), static_cast<std::size_t>(length)).find("rad") !=
-                             std::string_view::npos;
+    return length < 0 ||
+           std::string_view(buffer.data(), static_cast<std::size_t>(length)).find("rad") != std::string_view::npos;
   }
 
   [[nodiscard]] Answer convert(const std::string& unit_text, const std::string& si_text) const {
@@ -220,8 +224,9 @@ class UnitSystem {
     if (!converter) return {true, std::nullopt};
     const double factor = cv_convert_double(converter.get(), 1.0);
     // udunits2 also converts seconds to hertz (a reciprocal) and degrees Celsius to kelvin (an offset).
-    const bool linear = cv_convert_double(converter.get(), 0.0) == 0.0 &&
-                        std::abs(cv_convert_double(converter.get(), 2.0) - 2.0 * factor) <= 1e-12 * std::abs(factor);
+    const bool linear =
+        cv_convert_double(converter.get(), 0.0) == 0.0 &&
+        std::abs(cv_convert_double(converter.get(), 2.0) - 2.0 * factor) <= 1e-12 * std::abs(factor);
     if (!linear || !std::isfinite(factor) || factor <= 0.0) return {true, std::nullopt};
     return {true, rounded(factor)};
   }
@@ -260,7 +265,8 @@ QuantityText refused(std::string fault) { return {std::nullopt, std::move(fault)
 std::string similar_unit(std::string_view unit, std::string_view si_unit) {
   const auto lower = [](std::string_view text) {
     std::string result(text);
-    std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(result, result.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return result;
   };
   for (const std::string_view candidate : usual_units(si_unit))
@@ -286,8 +292,9 @@ UnitAnswer factor_of(std::string_view text, std::string_view si_unit) {
   if (unit.empty() || unit == si_unit) return {Factor{}, {}};
   constexpr std::size_t max_length = 64;
   if (unit.size() > max_length || !UnitGrammar(unit).accepts())
-    return {std::nullopt, quoted(trimmed(text)) +
-                              " is not a unit: a product of unit names with integer powers is needed, such as 'N.s/m'"};
+    return {std::nullopt,
+            quoted(trimmed(text)) +
+                " is not a unit: a product of unit names with integer powers is needed, such as 'N.s/m'"};
   const UnitSystem::Answer answer = UnitSystem::instance().factor(unit, std::string(si_unit));
   if (answer.factor) return {answer.factor, {}};
   if (!answer.known) return {std::nullopt, "the unit " + quoted(trimmed(text)) + " is not known"};

@@ -6,13 +6,14 @@
 /// angle), "rad/s" (a frequency), ...
 ///
 /// Angles and frequencies are dimensions of their own, because udunits2 takes a radian for the number 1:
-/// * a frequency is written in Hz, mHz, kHz, rpm or rad/s, and Hz means 2 pi rad/s; a bare number and 1/s are refused;
+/// * a frequency is written in Hz, mHz, kHz, rpm or rad/s, and Hz means 2 pi rad/s; a bare number and 1/s are
+/// refused;
 /// * an angle unit is refused wherever no angle is asked for, and asked for wherever there is one.
-/// Units are products of powers with integer exponents; `m^0.5`, `m^1/2`, offsets (`degC`) and logarithms are refused.
-/// The greek letter mu, the degree sign, raised 2 and 3 and the middle dot may be typed.
+/// Units are products of powers with integer exponents; `m^0.5`, `m^1/2`, offsets (`degC`) and logarithms are
+/// refused. The greek letter mu, the degree sign, raised 2 and 3 and the middle dot may be typed.
 ///
-/// Cost: udunits2's database is read once, at the first unit that is not in plain SI spelling. Safe to call from several
-/// threads.
+/// Cost: udunits2's database is read once, at the first unit that is not in plain SI spelling. Safe to call from
+/// several threads.
 
 #include <optional>
 #include <string>
