@@ -150,14 +150,34 @@ Affine ExactEngine::total_limit() const {
   return total;
 }
 
+void ExactEngine::collect_law_guards() {
+  law_guards_.clear();
+  law_guard_counts_.clear();
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    const std::size_t before = law_guards_.size();
+    model_.friction[i].affine_guards(memories_[i], now(), direction_, law_guards_);
+    law_guard_counts_.push_back(law_guards_.size() - before);
+  }
+}
+
+/// Whether anything in the phase grows with time: modes without that element are cheaper.
+bool ExactEngine::ramped() const {
+  return drive_.ramped() || total_.force.rate != 0.0 || total_limit().rate != 0.0 ||
+         std::any_of(law_guards_.begin(), law_guards_.end(), [](const Affine& g) { return g.rate != 0.0; });
+}
+
 const LinearMode& ExactEngine::mode_for(double damping, double stiffness, const std::vector<double>& decays) {
+  const bool with_ramp = ramped();
   for (const auto& mode : modes_) {
-    if (mode->damping() == damping && mode->stiffness() == stiffness && mode->decays() == decays) return *mode;
+    if (mode->damping() == damping && mode->stiffness() == stiffness && mode->ramped() == with_ramp &&
+        mode->decays() == decays) {
+      return *mode;
+    }
   }
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& mode) { return mode.get() != mode_; });
   modes_.push_back(std::make_unique<LinearMode>(model_.oscillator.mass, damping, stiffness, drive_.frequencies(),
-                                                true, decays));
+                                                with_ramp, decays));
   return *modes_.back();
 }
 
@@ -198,28 +218,45 @@ void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFu
   core::accumulate(basis, -direction, pull, guard);
 }
 
+/// The pull at this instant; total_ holds the laws that do not hold the mass.
+double ExactEngine::pull_now() const {
+  double pull = drive_.force_constant() - total_.force.constant -
+                (model_.oscillator.stiffness + total_.force.position) * x_;
+  for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) pull += drive_.force_phasor(j).real();
+  for (const double transient : total_.transients) pull -= transient;
+  return pull;
+}
+
 /// Decides what happens at v = 0: rest, or slip in the direction of the pull.
 void ExactEngine::settle() {
-  ModeFunction pull;
-  const LinearMode* before = mode_;
   direction_ = Direction::rest;
-  mode_ = &pull_on_mode(pull);
+  sum_forces(false, total_);
+  const double pull = pull_now();
   const double level = total_limit().constant;
   const double scale = force_scale() + level;
-  const double strength = core::at_start(mode_->basis(), pull);
-  Direction direction = strength > 0.0 ? Direction::forward : Direction::backward;
-  if (std::abs(strength) < level - clearly * scale) {
+  Direction direction = pull > 0.0 ? Direction::forward : Direction::backward;
+  if (std::abs(pull) < level - clearly * scale) {
     direction = Direction::rest;
-  } else if (std::abs(strength) <= level + clearly * scale) {
-    direction = Direction::rest;
-    for (const Direction candidate : {Direction::forward, Direction::backward}) {
-      ModeFunction guard;
-      limit_guard(pull, friction::sign(candidate), guard);
-      if (core::germ(mode_->basis(), guard, rounding * scale).sign < 0) direction = candidate;
-    }
+  } else if (std::abs(pull) <= level + clearly * scale) {
+    direction = settle_closely(rounding * scale);
   }
-  mode_ = before;
   change_direction(direction);
+}
+
+/// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
+Direction ExactEngine::settle_closely(double tolerance) {
+  const LinearMode* present = mode_;
+  collect_law_guards();
+  ModeFunction pull;
+  mode_ = &pull_on_mode(pull);
+  Direction direction = Direction::rest;
+  for (const Direction candidate : {Direction::forward, Direction::backward}) {
+    ModeFunction guard;
+    limit_guard(pull, friction::sign(candidate), guard);
+    if (core::germ(mode_->basis(), guard, tolerance).sign < 0) direction = candidate;
+  }
+  mode_ = present;
+  return direction;
 }
 
 void ExactEngine::change_direction(Direction direction) {
@@ -256,6 +293,7 @@ void ExactEngine::lay_rest() {
                                     .by_position = direction * stiffness,
                                     .tolerance = rounding * force_scale_});
     limit_guard(pull, direction, guard.value);
+    core::prepare(basis, guard);
   }
 }
 
@@ -276,15 +314,17 @@ void ExactEngine::lay_slip() {
                                   .tolerance = rounding * force_scale_ / o.mass * basis.panel()});
   core::clear(basis, guard.value);
   core::accumulate(basis, sign, velocity_, guard.value);
+  core::clear(basis, guard.slope);
+  core::accumulate(basis, sign, acceleration_, guard.slope);
+  core::prepare_with_slope(basis, guard);
 }
 
 void ExactEngine::add_law_guards() {
   const core::ExponentialBasis& basis = mode_->basis();
+  std::size_t next = 0;
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    affine_guards_.clear();
-    model_.friction[i].affine_guards(memories_[i], now(), direction_, affine_guards_);
-    for (std::size_t j = 0; j < affine_guards_.size(); ++j) {
-      const Affine& g = affine_guards_[j];
+    for (std::size_t j = 0; j < law_guard_counts_[i]; ++j) {
+      const Affine& g = law_guards_[next++];
       core::Guard& guard = new_guard({.kind = Owner::Kind::law,
                                       .law = static_cast<int>(i),
                                       .guard = static_cast<int>(j),
@@ -301,19 +341,20 @@ void ExactEngine::add_law_guards() {
       mode_->represent(own, guard.value);
       core::accumulate(basis, g.position, motion_, guard.value);
       core::accumulate(basis, g.velocity, velocity_, guard.value);
+      core::prepare(basis, guard);
     }
   }
 }
 
 void ExactEngine::lay_phase() {
   guard_count_ = 0;
+  collect_law_guards();
   if (direction_ == Direction::rest) {
     lay_rest();
   } else {
     lay_slip();
   }
   add_law_guards();
-  for (std::size_t i = 0; i < guard_count_; ++i) core::prepare(mode_->basis(), guards_[i]);
 }
 
 /// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
@@ -322,7 +363,7 @@ bool ExactEngine::find_violated() {
   for (std::size_t i = 0; i < guard_count_; ++i) {
     core::Guard& guard = guards_[i];
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owners_[i].tolerance) continue;
-    const core::Germ germ = core::germ(basis, guard.value, owners_[i].tolerance);
+    const core::Germ germ = core::germ(basis, guard, owners_[i].tolerance);
     if (germ.sign < 0) {
       crossing_.found = true;
       crossing_.guard = static_cast<int>(i);

@@ -94,6 +94,8 @@ class ExactEngine {
   void place(double x, double v);
   void sum_forces(bool with_holding_laws, Total& total) const;
   [[nodiscard]] friction::Affine total_limit() const;
+  void collect_law_guards();
+  [[nodiscard]] bool ramped() const;
   const LinearMode& mode_for(double damping, double stiffness, const std::vector<double>& decays);
   void load_forcing(const Total& total, double extra_constant);
   const LinearMode& pull_on_mode(core::ModeFunction& pull);
@@ -105,6 +107,8 @@ class ExactEngine {
   core::Guard& new_guard(const Owner& owner);
   bool find_violated();
   void settle();
+  friction::Direction settle_closely(double tolerance);
+  [[nodiscard]] double pull_now() const;
   void change_direction(friction::Direction direction);
   EventKind act(const Owner& owner);
   void propagate();
@@ -135,7 +139,8 @@ class ExactEngine {
   std::vector<core::Guard> guards_;
   std::vector<Owner> owners_;
   std::size_t guard_count_ = 0;
-  std::vector<friction::Affine> affine_guards_;
+  std::vector<friction::Affine> law_guards_;   ///< of all laws
+  std::vector<std::size_t> law_guard_counts_;  ///< of each law
   core::Crossing crossing_;
   std::vector<core::Grazing> grazings_;
   core::SearchCount count_;

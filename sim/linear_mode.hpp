@@ -30,6 +30,7 @@ class LinearMode {
              std::span<const double> decays = {});
 
   [[nodiscard]] const core::ExponentialBasis& basis() const { return basis_; }
+  [[nodiscard]] bool ramped() const { return ramped_; }
   [[nodiscard]] double damping() const { return damping_; }
   [[nodiscard]] double stiffness() const { return stiffness_; }
   [[nodiscard]] const std::vector<double>& decays() const { return decays_; }
