@@ -14,8 +14,8 @@ constexpr int max_nodes = 6;
 /// remainder of a quintic interpolant, (|z| h)^6 / 46080, stays near 1e-3.
 constexpr double panel_angle = 1.6;
 
-/// Below this |z delta| seven Taylor terms of exp are exact to rounding.
-constexpr double shift_limit = 0.02;
+/// Below this |z delta| five Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
+constexpr double shift_limit = 1e-3;
 
 /// Nodes of one divided difference of z -> exp(z s).
 struct Nodes {
@@ -78,9 +78,9 @@ Complex divided_exponential(const Nodes& nodes, double s) {
   return (divided_exponential(without(nodes, far_b), s) - divided_exponential(without(nodes, far_a), s)) / gap;
 }
 
-/// exp(z delta) - 1 for |z delta| < shift_limit.
+/// exp(w) - 1 for |w| < shift_limit.
 Complex small_exponential(Complex w) {
-  return w * (1.0 + w / 2.0 * (1.0 + w / 3.0 * (1.0 + w / 4.0 * (1.0 + w / 5.0 * (1.0 + w / 6.0 * (1.0 + w / 7.0))))));
+  return w * (1.0 + w * (1.0 / 2.0 + w * (1.0 / 6.0 + w * (1.0 / 24.0 + w * (1.0 / 120.0)))));
 }
 
 }  // namespace
@@ -126,14 +126,16 @@ void ExponentialBasis::evaluate(double s, Values& values) const {
       continue;
     }
     const double size = re_[k] == 0.0 ? 1.0 : std::exp(re_[k] * s);
-    values.re[k] = im_[k] == 0.0 ? size : size * std::cos(im_[k] * s);
-    values.im[k] = im_[k] == 0.0 ? 0.0 : size * std::sin(im_[k] * s);
+    const Complex value = im_[k] == 0.0 ? Complex(size) : std::polar(size, im_[k] * s);
+    values.re[k] = value.real();
+    values.im[k] = value.imag();
   }
 }
 
 bool ExponentialBasis::shift(double delta, Values& values) const {
   if (has_chains_ || !(fastest_ * std::abs(delta) < shift_limit)) return false;
   for (std::size_t k = 0; k < index(size_); ++k) {
+    if (fourth_power_[k] == 0.0) continue;
     const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta);
     const Complex old(values.re[k], values.im[k]);
     const Complex value = old + old * gain;
@@ -176,6 +178,13 @@ void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFun
   }
 }
 
+void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from, ExponentialBasis::Values& to) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    to.re[k] = from.re[k];
+    to.im[k] = from.im[k];
+  }
+}
+
 double evaluate(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values) {
   double sum = 0.0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
@@ -192,28 +201,44 @@ double at_start(const ExponentialBasis& basis, const ModeFunction& f) {
   return sum;
 }
 
+namespace {
+
+/// Bound of the chain element k. Two hold and the smaller is taken:
+///   Hermite and Genocchi:  |E| <= s^n/n! max exp(Re z s) over the nodes, good while s is small;
+///   E' = z E + E_parent:   |E| <= G |E(begin)| + max |E_parent| int exp(Re z u) du, good behind a fast decay.
+double chain_bound(const ExponentialBasis& basis, int k, double at_begin, double parent_bound, double begin,
+                   double width) {
+  double slowest = basis.exponent(k).real();
+  double power = 1.0;
+  int n = 0;
+  for (int p = basis.parent(k); p != ExponentialBasis::no_parent; p = basis.parent(p)) {
+    slowest = std::max(slowest, basis.exponent(p).real());
+    power *= (begin + width) / ++n;
+  }
+  const double by_nodes = power * std::exp(slowest * (slowest > 0.0 ? begin + width : begin));
+  const double decay = -basis.exponent(k).real();
+  const double gain = decay < 0.0 ? std::exp(-decay * width) : 1.0;
+  const double memory = decay * width > 1.0 ? 1.0 / decay : width;
+  return std::min(by_nodes, gain * (at_begin + memory * parent_bound));
+}
+
+}  // namespace
+
 double bound(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values,
              double begin, double width) {
+  std::array<double, ExponentialBasis::capacity> element;
   double sum = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
+    element[i] = std::abs(values.re[i]) + std::abs(values.im[i]);
+    if (basis.parent(k) != ExponentialBasis::no_parent) {
+      const double parent_bound = element[static_cast<std::size_t>(basis.parent(k))];
+      element[i] = chain_bound(basis, k, element[i], parent_bound, begin, width);
+    } else if (basis.growth(k) > 0.0) {
+      element[i] *= std::exp(basis.growth(k) * width);
+    }
     const double size = std::abs(f.re[i]) + std::abs(f.im[i]);
-    if (size == 0.0) continue;
-    if (basis.parent(k) == ExponentialBasis::no_parent) {
-      const double rate = basis.growth(k);
-      const double growth = rate > 0.0 ? std::exp(rate * width) : 1.0;
-      sum += size * growth * (std::abs(values.re[i]) + std::abs(values.im[i]));
-      continue;
-    }
-    // Hermite and Genocchi: |E| <= s^n/n! max exp(Re z s) over the nodes. Decay is at most as fast as the slowest.
-    double slowest = basis.exponent(k).real();
-    double power = 1.0;
-    int n = 0;
-    for (int p = basis.parent(k); p != ExponentialBasis::no_parent; p = basis.parent(p)) {
-      slowest = std::max(slowest, basis.exponent(p).real());
-      power *= (begin + width) / ++n;
-    }
-    sum += size * power * std::exp(slowest * (slowest > 0.0 ? begin + width : begin));
+    if (size > 0.0) sum += size * element[i];
   }
   return sum;
 }

@@ -46,8 +46,8 @@ class ExponentialBasis {
   /// E_k(s) for all k; s >= 0.
   void evaluate(double s, Values& values) const;
 
-  /// E_k(s + delta) from E_k(s), for |z_k delta| << 1: exact to rounding for |z_k delta| < shift_limit.
-  /// Returns false, values untouched, when delta is too large for that or the basis has chains.
+  /// E_k(s + delta) from E_k(s), exact to rounding, for |z_k delta| < 1e-3.
+  /// Returns false, values untouched, when delta is larger or the basis has chains.
   [[nodiscard]] bool shift(double delta, Values& values) const;
 
   /// The width [s] of a search panel that suits the fastest element, and the step over it:
@@ -98,6 +98,8 @@ void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFun
 /// Re sum c_k E_k for values of the elements.
 [[nodiscard]] double evaluate(const ExponentialBasis& basis, const ModeFunction& f,
                               const ExponentialBasis::Values& values);
+/// Copies the entries that count.
+void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from, ExponentialBasis::Values& to);
 /// f(0): the plain elements' coefficients summed.
 [[nodiscard]] double at_start(const ExponentialBasis& basis, const ModeFunction& f);
 /// sum |c_k| max |E_k| over [begin, begin + width], a bound of |f| there; `values` = E_k(begin).

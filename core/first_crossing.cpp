@@ -13,13 +13,6 @@ constexpr double graze = 16.0 * epsilon;
 constexpr int max_depth = 60;
 constexpr int taylor_terms = 9;
 
-/// Elements that grow, or chains whose growth only bound() knows.
-bool grows(const ExponentialBasis& basis) {
-  bool result = basis.has_chains();
-  for (int k = 0; k < basis.size(); ++k) result = result || basis.growth(k) > 0.0;
-  return result;
-}
-
 /// A guard's value and first two derivatives at one time.
 struct Jet {
   double s = 0.0;
@@ -93,13 +86,19 @@ class PanelSearch {
  public:
   PanelSearch(const ExponentialBasis& basis, const Guard& guard, int index, std::vector<Grazing>& grazings,
               SearchCount& count)
-      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count), decays_(!grows(basis)) {}
+      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count) {}
 
   /// The jet from values of the basis; close to a known zero from the Taylor series that has it exactly.
   [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) const {
     if (near_start(s)) return taylor_jet(s);
-    return {s, evaluate(basis_, guard_.value, values), evaluate(basis_, guard_.slope, values),
-            evaluate(basis_, guard_.curvature, values), 0};
+    Jet j;
+    j.s = s;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(basis_.size()); ++k) {
+      j.value += guard_.value.re[k] * values.re[k] - guard_.value.im[k] * values.im[k];
+      j.slope += guard_.slope.re[k] * values.re[k] - guard_.slope.im[k] * values.im[k];
+      j.curvature += guard_.curvature.re[k] * values.re[k] - guard_.curvature.im[k] * values.im[k];
+    }
+    return j;
   }
 
   [[nodiscard]] Jet jet(double s) const {
@@ -128,9 +127,15 @@ class PanelSearch {
 
   /// Bounds for the panel [a, a + h] from the values of the basis at a.
   void bound_panel(double a, double h, const ExponentialBasis::Values& values) {
+    if (basis_.even()) {
+      sixth_ = guard_.sixth_bound;
+      curvature_ = guard_.curvature_bound;
+      amplitude_ = guard_.amplitude;
+      return;
+    }
     sixth_ = bound(basis_, guard_.sixth, values, a, h);
     curvature_ = bound(basis_, guard_.curvature, values, a, h);
-    amplitude_ = decays_ ? guard_.amplitude : bound(basis_, guard_.value, values, a, h);
+    amplitude_ = bound(basis_, guard_.value, values, a, h);
   }
 
   /// First root in (a, b), or a negative number.
@@ -138,7 +143,7 @@ class PanelSearch {
   /// The elements at the root last returned.
   void values_at(double root, ExponentialBasis::Values& values) const {
     if (root == polished_) {
-      values = root_values_;
+      copy(basis_, root_values_, values);
     } else {
       basis_.evaluate(root, values);
     }
@@ -162,7 +167,6 @@ class PanelSearch {
   int index_;
   std::vector<Grazing>& grazings_;
   SearchCount& count_;
-  bool decays_;
   double sixth_ = 0.0;
   double curvature_ = 0.0;
   double amplitude_ = 0.0;
@@ -203,8 +207,8 @@ Jet PanelSearch::polish(double s) {
     if (!(std::abs(step) > 2.0 * epsilon * s) || !(s - step >= 0.0)) break;
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
-    // Convergence is cubic: behind a small step nothing is left to correct, only the slope is used.
-    const bool converged = std::abs(step) * 1.6 < 1e-6 * basis_.panel();
+    // Convergence is cubic: behind a step of 1e-6 panels nothing is left to correct, only the slope is used.
+    const bool converged = std::abs(step) < 3e-6 * basis_.panel();
     j = jet(s, root_values_);
     if (converged) break;
   }
@@ -237,7 +241,7 @@ double interpolant_root(const Jet& a, const Jet& b) {
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     const double step = next - t;
     t = next;
-    if (std::abs(step) < 1e-7) break;
+    if (std::abs(step) < 1e-4) break;
   }
   return t;
 }
@@ -398,10 +402,15 @@ void prepare_with_slope(const ExponentialBasis& basis, Guard& guard) {
     differentiate(basis, third, guard.sixth);
     return;
   }
+  guard.curvature_bound = guard.sixth_bound = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     guard.sixth.re[i] = guard.curvature.re[i] * basis.fourth_power(k);
     guard.sixth.im[i] = guard.curvature.im[i] * basis.fourth_power(k);
+    const double modulus = std::sqrt(guard.curvature.re[i] * guard.curvature.re[i] +
+                                     guard.curvature.im[i] * guard.curvature.im[i]);
+    guard.curvature_bound += modulus;
+    guard.sixth_bound += modulus * basis.fourth_power(k);
   }
 }
 
@@ -454,7 +463,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     current = 1 - current;
     a = b;
   }
-  crossing.values = ends[static_cast<std::size_t>(current)];
+  copy(basis, ends[static_cast<std::size_t>(current)], crossing.values);
 }
 
 namespace {

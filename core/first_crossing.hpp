@@ -39,8 +39,10 @@ struct Guard {
   // Filled by prepare().
   ModeFunction slope;
   ModeFunction curvature;
-  ModeFunction sixth;      ///< sixth derivative, or coefficients of the same moduli
+  ModeFunction sixth;      ///< sixth derivative, or coefficients of the same moduli; unused on an even basis
   double amplitude = 0.0;  ///< sum of |c_k|
+  double curvature_bound = 0.0;  ///< of |g''|, on an even basis for all s
+  double sixth_bound = 0.0;      ///< of |g^(6)|, likewise
 };
 
 /// Fills the derived members of `guard` from `value`.

@@ -36,20 +36,18 @@ Drive::Drive(const Oscillator& oscillator, const Excitation& excitation)
     force_from_rate_ = base_ ? through_damper * ramp_ : 0.0;
   }
   turns_.assign(frequencies_.size(), 1.0);
+  steady_scale_ = std::abs(offset_) + std::abs(force_from_rate_);
+  for (const Complex& phasor : force_) steady_scale_ += std::abs(phasor);
 }
 
 void Drive::reset(double t) {
-  turns_.assign(turns_.size(), 1.0);
+  for (std::size_t j = 0; j < turns_.size(); ++j) turns_[j] = std::polar(1.0, frequencies_[j] * t);
   ramp_time_ = t;
 }
 
 double Drive::force_constant() const { return offset_ + force_ramp_ * ramp_time_ + force_from_rate_; }
 
-double Drive::force_scale() const {
-  double sum = std::abs(offset_) + std::abs(force_ramp_ * ramp_time_) + std::abs(force_from_rate_);
-  for (const Complex& phasor : force_) sum += std::abs(phasor);
-  return sum;
-}
+double Drive::force_scale() const { return steady_scale_ + std::abs(force_ramp_ * ramp_time_); }
 
 Drive::Value Drive::at(double s) const {
   double level = offset_ + ramp_ * (ramp_time_ + s);

@@ -19,7 +19,7 @@ class Drive {
   [[nodiscard]] double period() const { return period_; }
   [[nodiscard]] bool ramped() const { return ramp_ != 0.0; }
 
-  /// Sets the drive to the start of a period, or for a ramp to time t [s].
+  /// Sets the drive to time t [s] after the start of a period, or of the ramp.
   void reset(double t);
   /// Turns phasor j by exp(i w_j s).
   void turn(std::size_t j, core::Complex rotation) { turns_[j] *= rotation; }
@@ -52,6 +52,7 @@ class Drive {
   double ramp_time_ = 0.0;   ///< s
   double force_ramp_ = 0.0;  ///< N/s
   double force_from_rate_ = 0.0;  ///< N, from c y' of a base ramp
+  double steady_scale_ = 0.0;     ///< N, sum of moduli of all parts but the ramp
   bool base_ = false;
 };
 

@@ -162,7 +162,8 @@ void ExactEngine::collect_law_guards() {
 
 /// Whether anything in the phase grows with time: modes without that element are cheaper.
 bool ExactEngine::ramped() const {
-  return drive_.ramped() || total_.force.rate != 0.0 || total_limit().rate != 0.0 ||
+  return drive_.ramped() || total_.force.rate != 0.0 ||
+         (direction_ == Direction::rest && total_limit().rate != 0.0) ||
          std::any_of(law_guards_.begin(), law_guards_.end(), [](const Affine& g) { return g.rate != 0.0; });
 }
 
@@ -377,19 +378,18 @@ bool ExactEngine::find_violated() {
 }
 
 /// Ends the phase after s: position, velocity, drive and the laws' own states.
-void ExactEngine::advance(double s) {
+void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
   const friction::Instant before = now();
   if (direction_ != Direction::rest) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
     v_ = core::evaluate(basis, velocity_, crossing_.values);
   }
-  const bool periodic = std::isfinite(drive_.period());
   local_time_ += s;
-  if (periodic && local_time_ >= drive_.period()) {
-    local_time_ = 0.0;
+  if (to_period_end || local_time_ >= drive_.period()) {
+    local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
     ++cycle_;
-    drive_.reset(0.0);
+    drive_.reset(local_time_);
   } else {
     for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) {
       const auto k = static_cast<std::size_t>(mode_->harmonic_element(j));
@@ -452,8 +452,14 @@ void ExactEngine::apply_saltation() {
 }
 
 const Interval* ExactEngine::next(double horizon) {
-  const double period_left = drive_.period() - local_time_;
-  const double left = std::min(horizon - time(), period_left);
+  const double begin = cycle_ == 0 ? 0.0 : static_cast<double>(cycle_) * drive_.period();
+  return step(std::min((horizon - begin) - local_time_, drive_.period()), false);
+}
+
+const Interval* ExactEngine::next_in_period() { return step(drive_.period() - local_time_, true); }
+
+/// One phase, at most `left` long; `to_period_end`: `left` ends exactly at a period boundary.
+const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (!outcome_.ok() || !(left > 0.0)) return nullptr;
   lay_phase();
   if (tracking_) apply_saltation();
@@ -474,12 +480,11 @@ const Interval* ExactEngine::next(double horizon) {
   interval_->force = total_;
   interval_->ending.reset();
   if (tracking_) propagate();
-  const bool whole = !crossing_.found && left == period_left;
   const core::Crossing& end = crossing_;
   if (tracking_ && end.found) {
     prepare_saltation(owners_[static_cast<std::size_t>(end.guard)], guards_[static_cast<std::size_t>(end.guard)]);
   }
-  advance(whole ? period_left : end.s);
+  advance(end.s, to_period_end && !end.found);
   if (!std::isfinite(x_) || !std::isfinite(v_)) {
     outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
     return nullptr;

@@ -7,8 +7,7 @@
 ///   slip      otherwise, in the direction of the pull.
 /// A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times.
 ///
-/// Under a harmonic excitation time is kept modulo one forcing period, so that long runs lose no phase: intervals
-/// also end at period boundaries.
+/// Under a harmonic excitation time is kept modulo one forcing period, so that long runs lose no phase.
 ///
 /// Cost: for Coulomb friction about one exp, two sincos and a few dozen multiplications an event; no allocation
 /// after the first period.
@@ -41,10 +40,12 @@ class ExactEngine {
   /// Same, keeping what the laws remember: closes a period.
   void restart(double x, double v);
 
-  /// The next interval, ending at an event, a period boundary or `horizon` [s], whichever is first. Valid until the
-  /// next call. A null pointer: nothing more before the horizon, or outcome() is not ok(). Under a harmonic
-  /// excitation the horizon may be infinite.
+  /// The next interval, ending at an event or at `horizon` [s], whichever is first, and not longer than one forcing
+  /// period. Valid until the next call. A null pointer: the horizon is reached, or outcome() is not ok().
   [[nodiscard]] const Interval* next(double horizon);
+  /// The same up to the end of the present forcing period, where time and phase are set exactly: the period map.
+  /// A null pointer only when outcome() is not ok(): watch cycle().
+  [[nodiscard]] const Interval* next_in_period();
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
   [[nodiscard]] double time() const;                       ///< s
@@ -114,7 +115,8 @@ class ExactEngine {
   void propagate();
   void prepare_saltation(const Owner& owner, const core::Guard& guard);
   void apply_saltation();
-  void advance(double s);
+  [[nodiscard]] const Interval* step(double left, bool to_period_end);
+  void advance(double s, bool to_period_end);
   [[nodiscard]] double force_scale() const;
 
   Model model_;

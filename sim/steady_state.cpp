@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "sim/exact_engine.hpp"
@@ -81,7 +80,7 @@ Passage OrbitFinder::pass() {
   engine_.reset_sensitivity();
   const long cycle = engine_.cycle();
   while (engine_.cycle() == cycle) {
-    const Interval* interval = engine_.next(std::numeric_limits<double>::infinity());
+    const Interval* interval = engine_.next_in_period();
     if (interval == nullptr) break;
     passage.moves = passage.moves || interval->direction != Direction::rest;
     passage.size = std::max(passage.size, std::abs(engine_.position()));
@@ -194,7 +193,7 @@ void OrbitFinder::describe(SteadyState& result, const Model& model) {
   bool rests_at_start = false;
   bool first = true;
   while (engine_.cycle() == 0) {
-    const Interval* interval = engine_.next(std::numeric_limits<double>::infinity());
+    const Interval* interval = engine_.next_in_period();
     if (interval == nullptr) break;
     extremes.observe(*interval);
     energy.observe(*interval);
