@@ -56,7 +56,8 @@ bool Range::contains(double value) const {
 std::string Range::describe(std::string_view unit) const {
   std::string text;
   if (std::isfinite(low)) text = (low_open ? "> " : ">= ") + with_unit(low, unit);
-  if (std::isfinite(high)) text += (text.empty() ? "" : " and ") + std::string(high_open ? "< " : "<= ") + with_unit(high, unit);
+  if (std::isfinite(high))
+    text += (text.empty() ? "" : " and ") + std::string(high_open ? "< " : "<= ") + with_unit(high, unit);
   return text.empty() ? "any finite value" : text;
 }
 

@@ -1,0 +1,137 @@
+#include "cli/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+#include "core/build_info.hpp"
+#include "core/diagnostics.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+constexpr auto usage = static_cast<int>(core::ExitStatus::usage);
+
+std::string version_text() {
+  const core::BuildInfo build = core::build_info();
+  std::ostringstream text;
+  text << "dualdamp " << build.version << " (" << build.commit << ", " << build.compiler << ", " << build.build_type
+       << ")";
+  return text.str();
+}
+
+void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet) {
+  command.add_option("--out", out, "Directory for the results; created if missing")->type_name("DIR");
+  command.add_flag("--json", json, "Print one JSON document and nothing else");
+  command.add_flag("--quiet", quiet, "No messages on stderr but errors");
+}
+
+class Parser {
+ public:
+  Parser() {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", version_text());
+    app_.footer(
+        "Exit status: 0 done, 1 a requested check failed, 2 wrong usage, 3 invalid scenario or data,\n"
+        "4 numerical failure, 70 a bug of this program, 130 interrupted.");
+    add_run();
+    add_check();
+    add_identify();
+    add_lists();
+  }
+
+  Command parse(int argc, const char* const* argv) {
+    const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      std::ostringstream out;
+      std::ostringstream errors;
+      const int status = app_.exit(error, out, errors);
+      if (status == 0) return Leave{out.str(), 0, false};
+      return Leave{error.what(), usage, json};
+    }
+    return chosen();
+  }
+
+ private:
+  void add_run() {
+    run_command_ = app_.add_subcommand("run", "Run scenario files");
+    run_command_->add_option("FILE", run_.files, "Scenario files")->required()->type_name("");
+    add_output_options(*run_command_, run_.out, run_.json, run_.quiet);
+    run_command_
+        ->add_option("--set", run_.set,
+                     "Replace or add a value before the file is checked: --set system.mass='2 kg'")
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUE");
+    constexpr int max_jobs = 1024;
+    run_command_->add_option("--jobs", run_.jobs, "Files to run at the same time")
+        ->check(CLI::Range(1, max_jobs))
+        ->type_name("N");
+    run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and say what would be run");
+  }
+
+  void add_check() {
+    check_command_ = app_.add_subcommand("check", "Check scenario files without running them");
+    check_command_->add_option("FILE", check_.files, "Scenario files")->required()->type_name("");
+  }
+
+  void add_identify() {
+    identify_command_ = app_.add_subcommand("identify", "Identify friction from measured data, without a scenario");
+    CLI::App& command = *identify_command_;
+    command.add_option("DATA", identify_.data, "CSV file: columns Y and x, or t and x")->required()->type_name("");
+    command.add_option("--mass", identify_.mass, "Mass, such as '1.042 kg'")->required()->type_name("QUANTITY");
+    command.add_option("--stiffness", identify_.stiffness, "Stiffness, such as '1568 N/m'")
+        ->required()
+        ->type_name("QUANTITY");
+    command
+        .add_option("--frequency", identify_.frequency,
+                    "Forcing frequency, such as '6.17 Hz'; not for a free decay")
+        ->type_name("QUANTITY");
+    command.add_option("--method", identify_.methods, "A method to use; default: all that fit the data")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    add_output_options(command, identify_.out, identify_.json, identify_.quiet);
+  }
+
+  void add_lists() {
+    laws_command_ = app_.add_subcommand("laws", "List the friction laws, or explain one");
+    laws_command_->add_option("NAME", laws_.name, "A law")->type_name("");
+    methods_command_ = app_.add_subcommand("methods", "List the identification methods, or explain one");
+    methods_command_->add_option("NAME", methods_.name, "A method")->type_name("");
+    schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
+    schema_command_->add_flag("--markdown", schema_.markdown, "The reference page instead");
+  }
+
+  [[nodiscard]] Command chosen() const {
+    if (run_command_->parsed()) return run_;
+    if (check_command_->parsed()) return check_;
+    if (identify_command_->parsed()) return identify_;
+    if (laws_command_->parsed()) return laws_;
+    if (methods_command_->parsed()) return methods_;
+    return schema_;
+  }
+
+  CLI::App app_{"How far can a friction estimate be trusted when the friction is not what the estimator assumes?",
+                "dualdamp"};
+  CLI::App* run_command_ = nullptr;
+  CLI::App* check_command_ = nullptr;
+  CLI::App* identify_command_ = nullptr;
+  CLI::App* laws_command_ = nullptr;
+  CLI::App* methods_command_ = nullptr;
+  CLI::App* schema_command_ = nullptr;
+  RunCommand run_;
+  CheckCommand check_;
+  IdentifyCommand identify_;
+  LawsCommand laws_;
+  MethodsCommand methods_;
+  SchemaCommand schema_;
+};
+
+}  // namespace
+
+Command parse(int argc, const char* const* argv) { return Parser().parse(argc, argv); }
+
+}  // namespace dualdamp::cli

@@ -1,0 +1,300 @@
+#include "cli/commands.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "cli/interrupt.hpp"
+#include "cli/lists.hpp"
+#include "cli/print.hpp"
+#include "core/build_info.hpp"
+#include "scenarios/output.hpp"
+#include "scenarios/run.hpp"
+#include "scenarios/scenario.hpp"
+#include "scenarios/schema.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using core::ExitStatus;
+using scenarios::LoadOptions;
+using scenarios::Scenario;
+
+/// What one scenario has to say, kept until it is its turn.
+struct Report {
+  ExitStatus status = ExitStatus::done;
+  std::string text;      ///< for stdout
+  std::string json;      ///< instead, when JSON is wanted
+  std::string messages;  ///< for stderr
+  std::string errors;    ///< for stderr, also when quiet
+};
+
+struct Style {
+  bool json = false;
+  bool quiet = false;
+};
+
+Report refused(ExitStatus status, const std::vector<core::Diagnostic>& problems) {
+  Report report;
+  report.status = status;
+  report.json = scenarios::json_refusal(status, problems);
+  for (const core::Diagnostic& problem : problems) report.errors += core::format(problem) + "\n";
+  return report;
+}
+
+Report refused(ExitStatus status, const std::string& message) {
+  return refused(status, {core::Diagnostic{{}, message, {}, {}, {}}});
+}
+
+Report bug(const std::string& what) {
+  return refused(ExitStatus::internal_bug, "this is a bug of dualdamp " + std::string(core::build_info().version) +
+                                               ": " + what +
+                                               "; please report it with the scenario and the commit " +
+                                               std::string(core::build_info().commit));
+}
+
+/// Runs `work`, which returns a Report, and turns what it throws into one.
+template <typename Work>
+Report guarded(Work work) {
+  try {
+    return work();
+  } catch (const core::InputError& error) {
+    return refused(ExitStatus::invalid_input, error.diagnostics());
+  } catch (const scenarios::OutputError& error) {
+    return refused(ExitStatus::usage, error.what());
+  } catch (const std::exception& error) {
+    return bug(error.what());
+  }
+}
+
+/// Throws where results cannot go, before anything is computed.
+void refuse_unusable(const std::string& directory) {
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
+    throw scenarios::OutputError("cannot write results to " + directory + ": it is not a directory");
+}
+
+Report run_and_write(const Scenario& scenario, const std::string& directory) {
+  refuse_unusable(directory);
+  const scenarios::RunResult result = scenarios::run(scenario);
+  const std::vector<scenarios::OutputFile> files = scenarios::output_files(scenario, result);
+
+  Report report;
+  report.status = result.status;
+  report.json = files.back().content;
+  report.text = readable(scenario, result);
+  if (!result.failure.empty()) report.errors = scenario.file + ": error: " + result.failure + "\n";
+  for (const std::string& warning : result.warnings)
+    report.messages += scenario.file + ": warning: " + warning + "\n";
+  {
+    const std::lock_guard lock(output_mutex());
+    scenarios::write_files(directory, files);
+  }
+  for (const scenarios::OutputFile& file : files)
+    report.messages += "wrote " + (fs::path(directory) / file.name).string() + "\n";
+  return report;
+}
+
+Report checked(const Scenario& scenario, const std::string& directory) {
+  Report report;
+  report.text = scenario.file + ": valid: " + scenario.analysis_name;
+  if (!directory.empty()) report.text += ", results would go to " + directory;
+  report.text += "\n";
+  report.json = scenarios::json_checked(scenario);
+  return report;
+}
+
+std::string output_directory(const RunCommand& command, const std::string& file) {
+  if (!command.out.empty() && command.files.size() == 1) return command.out;
+  const fs::path base = command.out.empty() ? "results" : command.out;
+  return (base / fs::path(file).stem()).string();
+}
+
+Report run_file(const RunCommand& command, const std::string& file) {
+  return guarded([&] {
+    LoadOptions options;
+    for (const std::string& assignment : command.set) options.set.push_back({assignment});
+    const Scenario scenario = scenarios::load_scenario(file, options);
+    const std::string directory = output_directory(command, file);
+    return command.dry_run ? checked(scenario, directory) : run_and_write(scenario, directory);
+  });
+}
+
+/// stdout may be full or closed; a result that did not arrive is not a result.
+int finish(ExitStatus status) {
+  std::cout.flush();
+  if (std::cout) return static_cast<int>(status);
+  std::cerr << "error: cannot write to standard output\n";
+  return static_cast<int>(ExitStatus::usage);
+}
+
+void print(const Report& report, const Style& style) {
+  if (!style.json && !report.text.empty()) std::cout << report.text << std::flush;
+  std::cerr << report.errors;
+  if (!style.quiet) std::cerr << report.messages;
+}
+
+int say(const Report& report, const Style& style) {
+  if (style.json) std::cout << report.json;
+  print(report, style);
+  return finish(report.status);
+}
+
+/// Prints reports in the order of the files, each as soon as those before it are there.
+class InOrder {
+ public:
+  InOrder(std::size_t count, Style style) : reports_(count), ready_(count, false), style_(style) {}
+
+  void put(std::size_t index, Report report) {
+    const std::lock_guard lock(mutex_);
+    reports_[index] = std::move(report);
+    ready_[index] = true;
+    for (; next_ < reports_.size() && ready_[next_]; ++next_) {
+      if (next_ > 0 && !style_.json) std::cout << "\n";
+      print(reports_[next_], style_);
+    }
+  }
+
+  /// One document; a list of them for several files.
+  [[nodiscard]] std::string json() const {
+    if (reports_.size() == 1) return reports_.front().json;
+    std::string text = "[\n";
+    for (std::size_t i = 0; i < reports_.size(); ++i) text += (i == 0 ? "" : ",\n") + reports_[i].json;
+    return text + "]\n";
+  }
+
+  [[nodiscard]] ExitStatus worst() const { return std::ranges::max_element(reports_, {}, &Report::status)->status; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Report> reports_;
+  std::vector<bool> ready_;
+  std::size_t next_ = 0;
+  Style style_;
+};
+
+/// Two files with one result directory would overwrite each other.
+std::string clash(const RunCommand& command) {
+  std::map<std::string, std::string> owners;
+  for (const std::string& file : command.files) {
+    const auto [owner, is_new] = owners.emplace(output_directory(command, file), file);
+    if (!is_new) return owner->second + " and " + file + " would both write to " + owner->first;
+  }
+  return {};
+}
+
+int execute(const RunCommand& command) {
+  const Style style{command.json, command.quiet};
+  for (const std::string& assignment : command.set)
+    if (assignment.find('=') == std::string::npos)
+      return say(refused(ExitStatus::usage, "--set needs PATH=VALUE, not '" + assignment + "'"), style);
+  if (const std::string problem = clash(command); !problem.empty())
+    return say(refused(ExitStatus::usage, problem), style);
+
+  InOrder reports(command.files.size(), style);
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < command.files.size(); i = next++)
+      reports.put(i, run_file(command, command.files[i]));
+  };
+  {
+    const std::size_t workers = std::min(static_cast<std::size_t>(command.jobs), command.files.size());
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
+    work();
+  }
+  if (command.json) std::cout << reports.json();
+  return finish(reports.worst());
+}
+
+int execute(const CheckCommand& command) {
+  InOrder reports(command.files.size(), {});
+  for (std::size_t i = 0; i < command.files.size(); ++i)
+    reports.put(i, guarded([&] { return checked(scenarios::load_scenario(command.files[i]), {}); }));
+  return finish(reports.worst());
+}
+
+/// A text as YAML, whatever characters a file name holds.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  return result + "'";
+}
+
+/// The command line as a scenario: same checks, same messages, same results.
+Scenario scenario_of(const IdentifyCommand& command) {
+  LoadOptions options;
+  options.data_anywhere = true;
+  options.set = {{"system.mass=" + command.mass, "--mass"},
+                 {"system.stiffness=" + command.stiffness, "--stiffness"},
+                 {"analysis.data=" + quoted(command.data), "DATA"}};
+  if (!command.frequency.empty()) {
+    options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
+    options.set.push_back({"excitation.frequency=" + command.frequency, "--frequency"});
+  }
+  if (!command.methods.empty()) {
+    std::string names;
+    for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);
+    options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
+  }
+  Scenario scenario =
+      scenarios::parse_scenario("schema: dualdamp/1\nanalysis: {type: identify}\n", "command line", options);
+  scenario.file = command.data;
+  return scenario;
+}
+
+int execute(const IdentifyCommand& command) {
+  const Style style{command.json, command.quiet};
+  return say(guarded([&] {
+               const fs::path standard = fs::path("results") / fs::path(command.data).stem();
+               return run_and_write(scenario_of(command), command.out.empty() ? standard.string() : command.out);
+             }),
+             style);
+}
+
+Report of_list(const Listing& listing) {
+  if (!listing.found) return refused(ExitStatus::usage, listing.text);
+  Report report;
+  report.text = listing.text;
+  return report;
+}
+
+int execute(const LawsCommand& command) { return say(of_list(list_laws(command.name)), {}); }
+
+int execute(const MethodsCommand& command) { return say(of_list(list_methods(command.name)), {}); }
+
+int execute(const SchemaCommand& command) {
+  Report report;
+  report.text = command.markdown ? scenarios::reference_page() : scenarios::json_schema();
+  return say(report, {});
+}
+
+int execute(const Leave& leave) {
+  if (leave.status == 0) {
+    std::cout << leave.message << (leave.message.ends_with('\n') ? "" : "\n");
+    return finish(ExitStatus::done);
+  }
+  Report report = refused(ExitStatus::usage, leave.message);
+  report.errors += "see: dualdamp --help\n";
+  return say(report, {leave.json, false});
+}
+
+}  // namespace
+
+int execute(const Command& command) noexcept {
+  try {
+    return std::visit([](const auto& chosen) { return execute(chosen); }, command);
+  } catch (const std::exception& error) {
+    std::cerr << bug(error.what()).errors;
+    return static_cast<int>(ExitStatus::internal_bug);
+  }
+}
+
+}  // namespace dualdamp::cli

@@ -1,0 +1,11 @@
+#pragma once
+/// What the program does for each command. Results go to stdout or to files, messages to stderr.
+
+#include "cli/arguments.hpp"
+
+namespace dualdamp::cli {
+
+/// Exit status of the program. Never throws.
+[[nodiscard]] int execute(const Command& command) noexcept;
+
+}  // namespace dualdamp::cli

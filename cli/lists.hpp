@@ -1,0 +1,18 @@
+#pragma once
+/// The registries for people: `dualdamp laws` and `dualdamp methods`.
+
+#include <string>
+
+namespace dualdamp::cli {
+
+struct Listing {
+  std::string text;  ///< the list, or why there is none
+  bool found = true;
+};
+
+/// All laws, or what `name` is.
+[[nodiscard]] Listing list_laws(const std::string& name);
+/// All methods, or what `name` is.
+[[nodiscard]] Listing list_methods(const std::string& name);
+
+}  // namespace dualdamp::cli

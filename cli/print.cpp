@@ -1,0 +1,101 @@
+#include "cli/print.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+constexpr std::size_t max_rows = 20;
+constexpr int digits = 9;
+
+struct Block {
+  std::vector<std::string> cells;  ///< the head first
+  bool is_number = false;
+};
+
+/// Characters, not bytes: a micro sign is one column wide.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+Block block(const scenarios::Column& column, std::size_t rows) {
+  Block result;
+  result.is_number = column.texts.empty();
+  result.cells.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (!result.is_number)
+      result.cells.push_back(column.texts[i]);
+    else
+      result.cells.push_back(std::isfinite(column.numbers[i]) ? core::format_number(column.numbers[i], digits)
+                                                              : "-");
+  }
+  return result;
+}
+
+std::string aligned(const std::vector<Block>& blocks) {
+  std::string text;
+  const std::size_t lines = blocks.empty() ? 0 : blocks.front().cells.size();
+  for (std::size_t line = 0; line < lines; ++line) {
+    std::string row;
+    for (const Block& block : blocks) {
+      std::size_t widest = 0;
+      for (const std::string& cell : block.cells) widest = std::max(widest, width(cell));
+      const std::string padding(widest - width(block.cells[line]), ' ');
+      row += "  " + (block.is_number ? padding + block.cells[line] : block.cells[line] + padding);
+    }
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string checks_table(const std::vector<scenarios::Check>& checks) {
+  scenarios::Table table{"checks", {{"value"}, {"paper"}, {"here"}, {"difference"}, {"ok"}, {"source"}}};
+  for (const scenarios::Check& check : checks) {
+    const auto found = core::parse_number(check.found);
+    table.columns[0].texts.push_back(check.path);
+    table.columns[1].texts.push_back(check.expected);
+    table.columns[2].texts.push_back(found.value ? core::format_number(*found.value, digits) : check.found);
+    table.columns[3].texts.push_back(check.difference ? core::format_number(*check.difference, 3) : "-");
+    table.columns[4].texts.push_back(check.ok ? "yes" : "NO");
+    table.columns[5].texts.push_back(check.source);
+  }
+  std::vector<Block> blocks;
+  for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, checks.size()));
+  return aligned(blocks);
+}
+
+}  // namespace
+
+std::string readable(const scenarios::Table& table) {
+  const std::size_t all = table.columns.empty() ? 0 : table.columns.front().size();
+  const std::size_t rows = std::min(all, max_rows);
+  std::vector<Block> blocks;
+  for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, rows));
+  std::string text = aligned(blocks);
+  if (rows < all) text += "  ... " + std::to_string(all - rows) + " more rows in " + table.name + ".csv\n";
+  return text;
+}
+
+std::string readable(const scenarios::Scenario& scenario, const scenarios::RunResult& result) {
+  std::string text = scenario.file + ": " + scenario.analysis_name;
+  if (!scenario.title.empty()) text += ": " + scenario.title;
+  text += "\n";
+  if (!result.summary.columns.empty() && result.summary.columns.front().size() > 0) {
+    std::vector<Block> blocks;
+    for (const scenarios::Column& column : result.summary.columns)
+      blocks.push_back(block(column, result.summary.columns.front().size()));
+    blocks[1].is_number = true;  // lined up at the right like numbers
+    text += "\n" + aligned(blocks);
+  }
+  for (const scenarios::Table& table : result.tables)
+    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + readable(table);
+  if (!result.checks.empty()) text += "\n" + checks_table(result.checks);
+  return text;
+}
+
+}  // namespace dualdamp::cli

@@ -1,0 +1,371 @@
+#include "scenarios/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// JSON knows no infinity; a number that does not exist is null.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json finite(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(finite(value));
+  return list;
+}
+
+Json energy_json(const sim::Energy& energy) {
+  return {{"input", finite(energy.input)},
+          {"friction", finite(energy.friction)},
+          {"viscous", finite(energy.viscous)},
+          {"stored", finite(energy.stored)},
+          {"defect", finite(energy.defect)}};
+}
+
+template <typename Item, typename Get>
+Column column(std::string name, std::string unit, const std::vector<Item>& items, Get get) {
+  Column result{std::move(name), std::move(unit), {}, {}};
+  for (const Item& item : items) result.numbers.push_back(std::invoke(get, item));
+  return result;
+}
+
+template <typename Item, typename Get>
+Column text_column(std::string name, const std::vector<Item>& items, Get get) {
+  Column result{std::move(name), {}, {}, {}};
+  for (const Item& item : items) result.texts.emplace_back(std::invoke(get, item));
+  return result;
+}
+
+Table event_table(const std::vector<sim::Event>& events) {
+  return {"events",
+          {column("t", "s", events, &sim::Event::t),
+           text_column("kind", events, [](const sim::Event& event) { return sim::name(event.kind); }),
+           column("x", "m", events, &sim::Event::x), column("v", "m/s", events, &sim::Event::v)}};
+}
+
+Table history_table(const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
+  using Type = sim::ExcitationType;
+  Table table{"history", {column("t", "s", samples, &sim::Sample::t)}, true};
+  if (excitation.type == Type::base_harmonic || excitation.type == Type::base_ramp)
+    table.columns.push_back(column("y", "m", samples, &sim::Sample::y));
+  table.columns.push_back(column("x", "m", samples, &sim::Sample::x));
+  table.columns.push_back(column("v", "m/s", samples, &sim::Sample::v));
+  table.columns.push_back(column("a", "m/s^2", samples, &sim::Sample::a));
+  table.columns.push_back(column("force", "N", samples, &sim::Sample::force));
+  if (excitation.type == Type::force_harmonic || excitation.type == Type::force_ramp)
+    table.columns.push_back(column("external", "N", samples, &sim::Sample::external));
+  return table;
+}
+
+/// A point of a curve: `key` is what it runs over.
+Json point_json(const sim::CurvePoint& point, CurveOver over) {
+  const sim::SteadyState& state = point.state;
+  const bool ok = state.outcome.ok();
+  const auto number = [&](double value) { return ok ? finite(value) : Json(nullptr); };
+  const auto count = [&](std::size_t value) { return ok ? Json(value) : Json(nullptr); };
+  Json json;
+  if (over == CurveOver::amplitude)
+    json["Y"] = point.Y;
+  else
+    json["omega"] = point.omega;
+  json["x"] = number(state.amplitude);
+  if (over == CurveOver::frequency) json["phase"] = number(state.phase);
+  json["stops"] = count(static_cast<std::size_t>(state.stops_per_cycle));
+  json["sticks"] = count(state.sticks.size());
+  json["stable"] = ok ? Json(state.stable()) : Json(nullptr);
+  if (!ok) json["reason"] = state.outcome.reason;
+  return json;
+}
+
+Table curve_table(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit) {
+  const auto when_ok = [](auto get) {
+    return [get](const sim::CurvePoint& point) { return point.state.outcome.ok() ? get(point.state) : none; };
+  };
+  using State = sim::SteadyState;
+  Table table{"curve", {}};
+  if (over == CurveOver::amplitude)
+    table.columns.push_back(column("Y", unit, points, &sim::CurvePoint::Y));
+  else
+    table.columns.push_back(column("omega", "rad/s", points, &sim::CurvePoint::omega));
+  table.columns.push_back(column("x", "m", points, when_ok([](const State& state) { return state.amplitude; })));
+  if (over == CurveOver::frequency)
+    table.columns.push_back(
+        column("phase", "rad", points, when_ok([](const State& state) { return state.phase; })));
+  table.columns.push_back(column(
+      "stops", "", points, when_ok([](const State& state) { return static_cast<double>(state.stops_per_cycle); })));
+  table.columns.push_back(column(
+      "sticks", "", points, when_ok([](const State& state) { return static_cast<double>(state.sticks.size()); })));
+  table.columns.push_back(
+      column("stable", "", points, when_ok([](const State& state) { return state.stable() ? 1.0 : 0.0; })));
+  const auto is_ok = [](const sim::CurvePoint& point) { return point.state.outcome.ok(); };
+  if (!std::ranges::all_of(points, is_ok))
+    table.columns.push_back(
+        text_column("reason", points, [](const sim::CurvePoint& point) { return point.state.outcome.reason; }));
+  return table;
+}
+
+Json parameters_json(const identify::ParameterSet& set) {
+  return {{"zeta", finite(set.zeta)}, {"c", finite(set.c)}, {"x_f", finite(set.x_f)}, {"F0", finite(set.F0)}};
+}
+
+Json interval_json(const identify::ParameterIntervals& intervals) {
+  const auto pair = [](const std::array<double, 2>& ends) {
+    return Json::array({finite(ends[0]), finite(ends[1])});
+  };
+  return {{"zeta", pair(intervals.zeta)},
+          {"c", pair(intervals.c)},
+          {"x_f", pair(intervals.x_f)},
+          {"F0", pair(intervals.F0)}};
+}
+
+Json lack_of_fit_json(const identify::LackOfFit& test) {
+  return {{"test", test.test},
+          {"statistic", finite(test.statistic)},
+          {"freedom", test.freedom},
+          {"p_value", finite(test.p_value)},
+          {"effect", finite(test.effect)},
+          {"fired", test.fired},
+          {"level", test.level},
+          {"least_effect", test.least_effect}};
+}
+
+Json line_json(const identify::LineFit& line) {
+  return {{"slope", finite(line.slope)},
+          {"intercept", finite(line.intercept)},
+          {"residual_deviation", finite(line.residual_deviation)},
+          {"G", finite(line.G)},
+          {"residuals", finite(line.residuals)}};
+}
+
+Json decay_json(const identify::DecayFit& decay) {
+  return {{"R", finite(decay.R)},
+          {"first_amplitude", finite(decay.first_amplitude)},
+          {"offset", finite(decay.offset)},
+          {"residual_deviation", finite(decay.residual_deviation)},
+          {"residuals", finite(decay.residuals)}};
+}
+
+Json diagnostics_json(const identify::Estimate& estimate) {
+  Json json;
+  json["reason"] = estimate.outcome.ok() ? estimate.reason : estimate.outcome.reason;
+  json["used"] = estimate.used;
+  json["excluded"] = Json::array();
+  for (const identify::Exclusion& exclusion : estimate.excluded)
+    json["excluded"].push_back({{"number", exclusion.number}, {"reason", exclusion.reason}});
+  if (estimate.covariance) {
+    const Eigen::Matrix2d& c = *estimate.covariance;
+    json["covariance"] = {{finite(c(0, 0)), finite(c(0, 1))}, {finite(c(1, 0)), finite(c(1, 1))}};
+  }
+  if (estimate.correlation) json["correlation"] = finite(*estimate.correlation);
+  if (estimate.lack_of_fit) json["lack_of_fit"] = lack_of_fit_json(*estimate.lack_of_fit);
+  if (!estimate.subsets.empty()) {
+    json["subsets"] = Json::array();
+    for (const identify::SubsetFit& subset : estimate.subsets) {
+      Json item = {{"label", subset.label}, {"used", subset.used}};
+      item.update(parameters_json(subset.value));
+      json["subsets"].push_back(std::move(item));
+    }
+  }
+  if (estimate.line) json["line"] = line_json(*estimate.line);
+  if (estimate.decay) json["decay"] = decay_json(*estimate.decay);
+  json["warnings"] = estimate.warnings;
+  return json;
+}
+
+Json estimate_json(const identify::Estimate& estimate) {
+  const bool exists = estimate.outcome.ok();
+  const identify::ParameterSet nothing{none, none, none, none};
+  Json json = {{"method", estimate.method}};
+  json.update(parameters_json(exists ? estimate.value : nothing));
+  json["std"] = exists && estimate.std ? parameters_json(*estimate.std) : Json(nullptr);
+  json["interval95"] = exists && estimate.interval95 ? interval_json(*estimate.interval95) : Json(nullptr);
+  json["diagnostics"] = diagnostics_json(estimate);
+  json["usable"] = estimate.usable;
+  return json;
+}
+
+Table estimate_table(const std::vector<identify::Estimate>& estimates) {
+  using identify::Estimate;
+  using identify::ParameterSet;
+  const auto value = [](double ParameterSet::* member) {
+    return [member](const Estimate& estimate) { return estimate.outcome.ok() ? estimate.value.*member : none; };
+  };
+  const auto error = [](double ParameterSet::* member) {
+    return [member](const Estimate& estimate) {
+      return estimate.outcome.ok() && estimate.std ? (*estimate.std).*member : none;
+    };
+  };
+  return {
+      "estimates",
+      {text_column("method", estimates, &Estimate::method),
+       text_column("usable", estimates, [](const Estimate& estimate) { return estimate.usable ? "yes" : "no"; }),
+       column("zeta", "", estimates, value(&ParameterSet::zeta)),
+       column("zeta_std", "", estimates, error(&ParameterSet::zeta)),
+       column("c", "N.s/m", estimates, value(&ParameterSet::c)),
+       column("c_std", "N.s/m", estimates, error(&ParameterSet::c)),
+       column("x_f", "m", estimates, value(&ParameterSet::x_f)),
+       column("x_f_std", "m", estimates, error(&ParameterSet::x_f)),
+       column("F0", "N", estimates, value(&ParameterSet::F0)),
+       column("F0_std", "N", estimates, error(&ParameterSet::F0))}};
+}
+
+/// e_0, e_1, ... of the decrement law.
+std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f, std::size_t count) {
+  std::vector<double> extremes;
+  double magnitude = std::abs(decay.first_amplitude);
+  double sign = decay.first_amplitude < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    extremes.push_back(decay.offset + sign * magnitude);
+    magnitude = decay.R * magnitude - x_f * (1.0 + decay.R);
+    sign = -sign;
+  }
+  return extremes;
+}
+
+/// The data beside what the first estimate with a curve makes of them; a usable one comes first.
+Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
+  const auto has_curve = [](const identify::Estimate& estimate) {
+    return estimate.outcome.ok() && (estimate.line || estimate.decay);
+  };
+  auto chosen = std::ranges::find_if(
+      estimates, [&](const identify::Estimate& estimate) { return estimate.usable && has_curve(estimate); });
+  if (chosen == estimates.end()) chosen = std::ranges::find_if(estimates, has_curve);
+  if (chosen == estimates.end()) return nullptr;
+
+  Json points = Json::array();
+  if (chosen->line && record.pairs) {
+    for (const identify::Pair& pair : record.pairs->pairs)
+      points.push_back({{"number", pair.number},
+                        {"Y", pair.Y},
+                        {"x", pair.x},
+                        {"fitted", finite(chosen->line->intercept + chosen->line->slope * pair.Y)}});
+  } else if (chosen->decay && record.decay) {
+    const std::vector<double>& extremes = record.decay->extremes;
+    const std::vector<double> fitted = fitted_extremes(*chosen->decay, chosen->value.x_f, extremes.size());
+    for (std::size_t i = 0; i < extremes.size(); ++i)
+      points.push_back({{"number", i + 1}, {"x", extremes[i]}, {"fitted", finite(fitted[i])}});
+  }
+  return {{"method", chosen->method}, {"points", points}};
+}
+
+Answer failed(const std::string& reason) {
+  Answer answer;
+  answer.failure = reason;
+  return answer;
+}
+
+}  // namespace
+
+Answer answer(const sim::History& history, const sim::Excitation& excitation) {
+  if (!history.outcome.ok()) return failed(history.outcome.reason);
+  Answer answer;
+  Json events = Json::array();
+  for (const sim::Event& event : history.events)
+    events.push_back(
+        {{"t", finite(event.t)}, {"kind", sim::name(event.kind)}, {"x", finite(event.x)}, {"v", finite(event.v)}});
+  answer.result["events"] = std::move(events);
+  answer.result["final"] = {
+      {"t", finite(history.final.t)}, {"x", finite(history.final.x)}, {"v", finite(history.final.v)}};
+  answer.result["energy"] = energy_json(history.energy);
+  answer.result["search"] = {
+      {"searches", history.searches}, {"panels", history.panels}, {"grazings", history.grazings}};
+  answer.tables.push_back(event_table(history.events));
+  if (!history.samples.empty()) answer.tables.push_back(history_table(history.samples, excitation));
+  return answer;
+}
+
+Answer answer(const sim::SteadyState& state) {
+  if (!state.outcome.ok()) return failed(state.outcome.reason);
+  Answer answer;
+  answer.warnings = state.warnings;
+  Json& result = answer.result;
+  result["peak"] = finite(state.peak);
+  result["trough"] = finite(state.trough);
+  result["amplitude"] = finite(state.amplitude);
+  result["phase"] = finite(state.phase);
+  result["period"] = finite(state.period);
+  result["max_speed"] = finite(state.max_speed);
+  result["stops_per_cycle"] = state.stops_per_cycle;
+  result["sticks"] = Json::array();
+  for (const sim::Stick& stick : state.sticks)
+    result["sticks"].push_back({{"start", finite(stick.start)},
+                                {"duration", finite(stick.duration)},
+                                {"position", finite(stick.position)}});
+  result["multipliers"] = Json::array();
+  for (const std::complex<double>& multiplier : state.multipliers)
+    result["multipliers"].push_back({finite(multiplier.real()), finite(multiplier.imag())});
+  result["stable"] = state.stable();
+  result["energy"] = energy_json(state.energy);
+  if (!state.sticks.empty())
+    answer.tables.push_back({"sticks",
+                             {column("start", "s", state.sticks, &sim::Stick::start),
+                              column("duration", "s", state.sticks, &sim::Stick::duration),
+                              column("position", "m", state.sticks, &sim::Stick::position)}});
+  return answer;
+}
+
+Answer answer(const sim::FreeDecay& decay) {
+  if (!decay.outcome.ok()) return failed(decay.outcome.reason);
+  Answer answer;
+  answer.result["peaks"] = Json::array();
+  for (const sim::Extreme& peak : decay.peaks)
+    answer.result["peaks"].push_back({{"t", finite(peak.t)}, {"x", finite(peak.x)}});
+  answer.result["came_to_rest"] = decay.came_to_rest;
+  answer.tables.push_back(
+      {"peaks",
+       {column("t", "s", decay.peaks, &sim::Extreme::t), column("x", "m", decay.peaks, &sim::Extreme::x)}});
+  return answer;
+}
+
+Answer answer(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit) {
+  Answer answer;
+  std::size_t good = 0;
+  Json list = Json::array();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const sim::SteadyState& state = points[i].state;
+    list.push_back(point_json(points[i], over));
+    const std::string where = "points[" + std::to_string(i) + "]: ";
+    if (state.outcome.ok())
+      ++good;
+    else
+      answer.warnings.push_back(where + state.outcome.reason);
+    for (const std::string& warning : state.warnings) answer.warnings.push_back(where + warning);
+  }
+  if (good == 0)
+    return failed("no point of the curve has a number; the first: " + points.front().state.outcome.reason);
+  answer.result["points"] = std::move(list);
+  answer.tables.push_back(curve_table(points, over, unit));
+  return answer;
+}
+
+Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
+  Answer answer;
+  Json list = Json::array();
+  std::string reasons;
+  bool any = false;
+  for (const identify::Estimate& estimate : estimates) {
+    list.push_back(estimate_json(estimate));
+    any = any || estimate.outcome.ok();
+    if (!estimate.outcome.ok())
+      reasons += (reasons.empty() ? "" : "; ") + estimate.method + ": " + estimate.outcome.reason;
+    else if (!estimate.usable)
+      answer.warnings.push_back(estimate.method + " is not usable: " + estimate.reason);
+    for (const std::string& warning : estimate.warnings)
+      answer.warnings.push_back(estimate.method + ": " + warning);
+  }
+  if (!any) return failed("no estimate is possible; " + reasons);
+  if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);
+  answer.result["estimates"] = std::move(list);
+  answer.result["fit"] = fit_json(estimates, record);
+  answer.tables.push_back(estimate_table(estimates));
+  return answer;
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,34 @@
+#pragma once
+/// What an analysis answers: JSON, tables, warnings; one function a kind of result of `sim` and `identify`.
+
+#include <string>
+#include <vector>
+
+#include "identify/estimate.hpp"
+#include "identify/record.hpp"
+#include "scenarios/json.hpp"
+#include "scenarios/run.hpp"
+#include "sim/curves.hpp"
+#include "sim/simulate.hpp"
+
+namespace dualdamp::scenarios {
+
+struct Answer {
+  Json result;          ///< null: there is none
+  std::string failure;  ///< why not
+  std::vector<std::string> warnings;
+  std::vector<Table> tables;
+};
+
+[[nodiscard]] Answer answer(const sim::History& history, const sim::Excitation& excitation);
+[[nodiscard]] Answer answer(const sim::SteadyState& state);
+[[nodiscard]] Answer answer(const sim::FreeDecay& decay);
+
+enum class CurveOver { amplitude, frequency };
+
+/// `unit` of the amplitudes: m or N.
+[[nodiscard]] Answer answer(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit);
+
+[[nodiscard]] Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record);
+
+}  // namespace dualdamp::scenarios

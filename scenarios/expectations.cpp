@@ -1,0 +1,81 @@
+#include "scenarios/expectations.hpp"
+
+#include <cmath>
+
+#include "core/numbers.hpp"
+#include "scenarios/checks.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// The value at `points[0].x`; nullptr when the path leads nowhere.
+const Json* find(const Json& result, const std::string& path) {
+  const Json* value = &result;
+  std::size_t at = 0;
+  while (at < path.size()) {
+    if (path[at] == '[') {
+      const std::size_t end = path.find(']', at);
+      const std::size_t index = std::stoul(path.substr(at + 1, end - at - 1));
+      if (!value->is_array() || index >= value->size()) return nullptr;
+      value = &value->at(index);
+      at = end + 1;
+    } else {
+      if (path[at] == '.') ++at;
+      const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
+      const std::string key = path.substr(at, end - at);
+      if (!value->is_object() || !value->contains(key)) return nullptr;
+      value = &value->at(key);
+      at = end;
+    }
+  }
+  return value;
+}
+
+std::string shown(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? core::format_number(value.get<double>()) : value.dump();
+}
+
+std::string shown(const std::variant<double, bool, std::string>& value) {
+  if (const auto* number = std::get_if<double>(&value)) return core::format_number(*number);
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
+  return std::get<std::string>(value);
+}
+
+bool within(const Expectation& expectation, double expected, double difference) {
+  if (expectation.within) return std::abs(difference) <= *expectation.within;
+  if (expectation.within_relative) return std::abs(difference) <= *expectation.within_relative * std::abs(expected);
+  return difference == 0.0;
+}
+
+Check compare(const Expectation& expectation, const Json& value) {
+  Check check{expectation.path, shown(expectation.equals), shown(value), std::nullopt, false, expectation.source};
+  if (const auto* expected = std::get_if<double>(&expectation.equals)) {
+    if (!value.is_number()) return check;
+    check.difference = value.get<double>() - *expected;
+    check.ok = within(expectation, *expected, *check.difference);
+  } else if (const auto* truth = std::get_if<bool>(&expectation.equals)) {
+    check.ok = value.is_boolean() && value.get<bool>() == *truth;
+  } else {
+    check.ok = value.is_string() && value.get<std::string>() == std::get<std::string>(expectation.equals);
+  }
+  return check;
+}
+
+}  // namespace
+
+std::vector<Check> compare(const std::vector<Expectation>& expectations, const Json& result) {
+  std::vector<Check> checks;
+  std::vector<core::Diagnostic> problems;
+  for (const Expectation& expectation : expectations) {
+    if (const Json* value = find(result, expectation.path))
+      checks.push_back(compare(expectation, *value));
+    else
+      problems.push_back({expectation.place, "the result has no number '" + expectation.path + "'", {}, {}, {}});
+  }
+  if (!problems.empty()) throw core::InputError(std::move(problems));
+  return checks;
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,14 @@
+#pragma once
+/// Comparison of a result with the values a scenario expects.
+
+#include <vector>
+
+#include "scenarios/json.hpp"
+#include "scenarios/run.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Errors: `core::InputError` for a path that is not in the result.
+[[nodiscard]] std::vector<Check> compare(const std::vector<Expectation>& expectations, const Json& result);
+
+}  // namespace dualdamp::scenarios

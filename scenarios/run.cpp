@@ -1,0 +1,173 @@
+#include "scenarios/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/numbers.hpp"
+#include "scenarios/answer.hpp"
+#include "scenarios/expectations.hpp"
+#include "scenarios/format.hpp"
+#include "scenarios/formulas.hpp"
+#include "sim/curves.hpp"
+#include "sim/simulate.hpp"
+#include "sim/steady_state.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// Puts each kind of question to the module that answers it.
+class Runner {
+ public:
+  explicit Runner(const Scenario& scenario) : scenario_(scenario) { options_.tolerance = scenario.tolerance; }
+
+  Answer operator()(const Simulate& question) const {
+    sim::SimulateOptions options;
+    options.duration = question.duration;
+    options.sample_rate = question.sample_rate;
+    constexpr long max_events = 1'000'000;  // each is an item of the result
+    options.max_events = max_events;
+    return answer(sim::simulate(scenario_.model, options), scenario_.model.excitation);
+  }
+
+  Answer operator()(const SteadyStateQuestion& /*question*/) const {
+    return answer(sim::steady_state(scenario_.model, options_));
+  }
+
+  Answer operator()(const XyCurve& question) const {
+    const bool is_force = scenario_.model.excitation.type == sim::ExcitationType::force_harmonic;
+    return answer(sim::xy_curve(scenario_.model, question.amplitudes, options_), CurveOver::amplitude,
+                  is_force ? "N" : "m");
+  }
+
+  Answer operator()(const FrequencyResponse& question) const {
+    return answer(sim::frequency_response(scenario_.model, question.frequencies, options_), CurveOver::frequency,
+                  "");
+  }
+
+  Answer operator()(const FreeDecayQuestion& question) const {
+    return answer(sim::free_decay(scenario_.model, question.peaks));
+  }
+
+  Answer operator()(const Identify& question) const {
+    std::vector<std::string> warnings = question.data_warnings;
+    const identify::Record record =
+        std::visit([&](const auto& source) { return measure(source, warnings); }, question.source);
+    std::vector<identify::Estimate> estimates;
+    for (const identify::MethodEntry* method : question.methods)
+      estimates.push_back(method->run(record, question.constants, question.options));
+    Answer result = answer(estimates, record);
+    result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+    return result;
+  }
+
+  Answer operator()(const Formula& question) const {
+    Answer result;
+    result.result = find_formula(question.name)->evaluate(Json::parse(question.arguments));
+    if (std::ranges::all_of(result.result, [](const Json& value) { return value.is_null(); })) {
+      result.result = nullptr;
+      result.failure = "the formula has no value for these arguments";
+    }
+    return result;
+  }
+
+ private:
+  static identify::Record measure(const identify::Record& record, std::vector<std::string>& /*warnings*/) {
+    return record;
+  }
+
+  identify::Record measure(const XyCurve& question, std::vector<std::string>& warnings) const {
+    identify::PairRecord record;
+    int number = 0;
+    for (const sim::CurvePoint& point : sim::xy_curve(scenario_.model, question.amplitudes, options_)) {
+      ++number;
+      if (point.state.outcome.ok())
+        record.pairs.push_back({point.Y, point.state.amplitude, {}, number});
+      else
+        warnings.push_back("pair " + std::to_string(number) +
+                           " could not be measured: " + point.state.outcome.reason);
+    }
+    return {record, std::nullopt};
+  }
+
+  identify::Record measure(const FreeDecayQuestion& question, std::vector<std::string>& warnings) const {
+    const sim::FreeDecay decay = sim::free_decay(scenario_.model, question.peaks);
+    if (!decay.outcome.ok()) warnings.push_back("the decay could not be measured: " + decay.outcome.reason);
+    identify::DecayRecord record;
+    for (const sim::Extreme& extreme : decay.peaks) {
+      record.extremes.push_back(extreme.x);
+      record.times.push_back(extreme.t);
+    }
+    return {std::nullopt, record};
+  }
+
+  const Scenario& scenario_;
+  sim::SteadyStateOptions options_;
+};
+
+/// The numbers of the result that are no part of a list of records, in the order of the tables of the format.
+Table summary(const Scenario& scenario, const Json& result) {
+  Table table{"summary", {{"name"}, {"value"}, {"unit"}}};
+  const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
+    if (value.is_structured()) return;
+    constexpr int digits = 9;
+    table.columns[0].texts.push_back(name);
+    table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(value.get<double>(), digits)
+                                     : value.is_string()     ? value.get<std::string>()
+                                                             : value.dump());
+    table.columns[2].texts.push_back(unit == "1" ? "" : unit);
+  };
+  const auto* formula = std::get_if<Formula>(&scenario.analysis);
+  for (const ResultField& field : result_fields(scenario.analysis_name, formula == nullptr ? "" : formula->name)) {
+    const std::string stem = field.path.substr(0, field.path.find("[]"));
+    std::string pointer = "/" + stem;
+    std::ranges::replace(pointer, '.', '/');
+    const Json::json_pointer place(pointer);
+    if (!result.contains(place)) continue;
+    const Json& value = result.at(place);
+    if (stem == field.path) add(stem, value, field.unit);
+    if (field.path == stem + "[]")
+      for (std::size_t i = 0; i < value.size(); ++i)
+        add(stem + "[" + std::to_string(i) + "]", value.at(i), field.unit);
+  }
+  return table;
+}
+
+core::Provenance provenance_of(const Scenario& scenario) {
+  core::Provenance provenance;
+  provenance.source = scenario.file;
+  provenance.source_sha256 = scenario.file_sha256;
+  provenance.scenario = scenario.resolved;
+  provenance.scenario_sha256 = core::sha256(scenario.resolved);
+  if (const auto* identify = std::get_if<Identify>(&scenario.analysis))
+    provenance.data_sha256 = identify->data_sha256;
+  provenance.overrides = scenario.overrides;
+  provenance.tolerance = scenario.tolerance;
+  provenance.started = core::utc_now();
+  return provenance;
+}
+
+}  // namespace
+
+RunResult run(const Scenario& scenario) {
+  RunResult result;
+  result.provenance = provenance_of(scenario);
+  const auto start = std::chrono::steady_clock::now();
+  Answer answer = std::visit(Runner(scenario), scenario.analysis);
+  result.provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  result.warnings = std::move(answer.warnings);
+  if (answer.result.is_null()) {
+    result.status = core::ExitStatus::numerical_failure;
+    result.failure = std::move(answer.failure);
+    return result;
+  }
+  result.result = answer.result.dump();
+  result.summary = summary(scenario, answer.result);
+  result.tables = std::move(answer.tables);
+  result.checks = compare(scenario.expect, answer.result);
+  if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
+  return result;
+}
+
+}  // namespace dualdamp::scenarios

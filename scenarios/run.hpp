@@ -1,0 +1,58 @@
+#pragma once
+/// Runs a scenario: the question of the file put to `sim` and `identify`, the answer as JSON and tables.
+///
+/// A number that does not exist is null in the JSON and an empty field in a table, never a stand-in. A curve keeps
+/// its good points when others fail; when none is left, or the one number asked for does not exist, the status
+/// is 4.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.hpp"
+#include "core/provenance.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace dualdamp::scenarios {
+
+/// A column of a table holds numbers (NaN: no value) or texts.
+struct Column {
+  std::string name;
+  std::string unit;  ///< empty: no unit
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+
+  [[nodiscard]] std::size_t size() const { return texts.empty() ? numbers.size() : texts.size(); }
+};
+
+struct Table {
+  std::string name;  ///< of the file, without .csv
+  std::vector<Column> columns;
+  bool is_long = false;  ///< not for a terminal
+};
+
+/// One row of the comparison with expected values, as text for people and machines alike.
+struct Check {
+  std::string path;
+  std::string expected;
+  std::string found;
+  std::optional<double> difference;  ///< found - expected, of numbers
+  bool ok = false;
+  std::string source;
+};
+
+struct RunResult {
+  core::ExitStatus status = core::ExitStatus::done;  ///< done, check_failed or numerical_failure
+  std::string result = "null";                       ///< JSON
+  std::string failure;                               ///< why there is no result
+  std::vector<std::string> warnings;
+  Table summary;              ///< the single numbers of the result: name, value, unit
+  std::vector<Table> tables;  ///< its lists; each becomes a file
+  std::vector<Check> checks;
+  core::Provenance provenance;
+};
+
+/// Errors: `core::InputError` when an expected value turns out not to be in the result.
+[[nodiscard]] RunResult run(const Scenario& scenario);
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,218 @@
+#include "scenarios/schema.hpp"
+
+#include <cmath>
+
+#include "core/units.hpp"
+#include "scenarios/format.hpp"
+#include "scenarios/json.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Json object_schema(const Section& section, const Choice* choice, const std::string& name);
+
+/// Text as a regular expression that matches it.
+std::string literal(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view(".^$*+?()[]{}|\\").find(c) != std::string_view::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+/// Numbers of core/numbers.hpp within the range as far as their sign tells.
+std::string number_pattern(const friction::Range& range) {
+  const bool signless = range.low >= 0.0;
+  const std::string digits = "(0|[1-9][0-9]*)(\\.[0-9]+)?([eE][+-]?[0-9]+)?";
+  // A positive number has a digit other than 0 before its exponent.
+  const bool positive = range.low > 0.0 || (range.low == 0.0 && range.low_open);
+  return (signless ? "" : "-?") + std::string(positive ? "(?=[0-9.]*[1-9])" : "") + digits;
+}
+
+std::string quantity_pattern(const friction::Range& range, const std::string& unit) {
+  std::string units;
+  for (const std::string_view name : core::usual_units(unit))
+    if (name != "1") units += (units.empty() ? "" : "|") + literal(name);
+  if (units.empty()) units = "[^0-9 ].*";
+  return "^" + number_pattern(range) + " *(" + units + ")$";
+}
+
+void add_range(Json& schema, const friction::Range& range) {
+  if (std::isfinite(range.low)) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high)) schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
+}
+
+Json number_schema(const friction::Range& range) {
+  Json schema = {{"type", "number"}};
+  add_range(schema, range);
+  return schema;
+}
+
+Json integer_schema(const friction::Range& range) {
+  Json schema = {{"type", "integer"}};
+  add_range(schema, range);
+  return schema;
+}
+
+Json quantity_schema(const Field& field) {
+  Json forms = Json::array();
+  if (!field.words.empty()) forms.push_back({{"enum", field.words}});
+  bool bare = false;
+  for (const std::string& unit : field.units) {
+    bare = bare || unit != "rad/s";
+    forms.push_back({{"type", "string"}, {"pattern", quantity_pattern(field.range, unit)}});
+  }
+  if (bare) forms.push_back(number_schema(field.range));
+  return forms.size() == 1 ? forms.front() : Json{{"anyOf", forms}};
+}
+
+Json list_schema(const Field& field, Json item) {
+  Json schema = {
+      {"type", "array"}, {"items", std::move(item)}, {"minItems", field.min_items}, {"maxItems", field.max_items}};
+  if (field.kind == Kind::word_list) schema["uniqueItems"] = true;
+  return schema;
+}
+
+/// A map whose key tells which section holds: the key first, then the section it names. Editors complain about the
+/// one section that was meant, not about all.
+Json choice_schema(const Choice& choice, const std::string& name) {
+  if (choice.key.empty()) return object_schema(choice.variants.front().section, nullptr, name);
+  Json cases = Json::array();
+  for (const Variant& variant : choice.variants) {
+    Json section = object_schema(variant.section, &choice, variant.name);
+    section["description"] = variant.summary;
+    cases.push_back(
+        {{"if", {{"properties", {{choice.key, {{"const", variant.name}}}}}}}, {"then", std::move(section)}});
+  }
+  return {{"type", "object"},
+          {"required", Json::array({choice.key})},
+          {"properties", {{choice.key, {{"enum", choice.names()}}}}},
+          {"allOf", std::move(cases)}};
+}
+
+Json field_form(const Field& field) {
+  switch (field.kind) {
+    case Kind::text:
+      return {{"type", "string"}};
+    case Kind::word:
+      return {{"enum", field.words}};
+    case Kind::boolean:
+      return {{"type", "boolean"}};
+    case Kind::integer:
+      return integer_schema(field.range);
+    case Kind::quantity:
+      return quantity_schema(field);
+    case Kind::quantities:
+      return list_schema(field, quantity_schema(field));
+    case Kind::grid:
+      return {
+          {"anyOf", {list_schema(field, quantity_schema(field)), object_schema(grid_section(field), nullptr, "")}}};
+    case Kind::integers:
+      return list_schema(field, integer_schema(field.range));
+    case Kind::word_list:
+      return list_schema(field, {{"enum", field.words}});
+    case Kind::scalar:
+      return {{"type", {"number", "boolean", "string"}}};
+    case Kind::choice:
+      break;
+  }
+  Json one = choice_schema(*field.choice, field.name);
+  if (field.only_listed) return list_schema(field, std::move(one));
+  if (!field.listed) return one;
+  // Not anyOf: an editor should complain about the map or the list that is there.
+  Json list = list_schema(field, one);
+  return {{"type", {"object", "array"}},
+          {"if", {{"type", "object"}}},
+          {"then", std::move(one)},
+          {"else", std::move(list)}};
+}
+
+Json field_schema(const Field& field) {
+  Json schema = field_form(field);
+  schema["description"] = field.meaning;
+  if (!field.fallback.is_null()) schema["default"] = field.fallback;
+  return schema;
+}
+
+Json object_schema(const Section& section, const Choice* choice, const std::string& variant) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  if (choice != nullptr) {
+    properties[choice->key] = {{"const", variant}};
+    required.push_back(choice->key);
+  }
+  for (const Field& field : section.fields) {
+    properties[field.name] = field_schema(field);
+    if (field.is_required) required.push_back(field.name);
+  }
+  Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  Json conditions = Json::array();
+  for (const Alternatives& alternatives : section.alternatives) {
+    Json forms = Json::array();
+    for (const std::string& name : alternatives.names) forms.push_back({{"required", {name}}});
+    if (!alternatives.is_required) forms.push_back({{"not", {{"anyOf", forms}}}});
+    conditions.push_back({{"oneOf", std::move(forms)}});
+  }
+  if (!conditions.empty()) schema["allOf"] = std::move(conditions);
+  return schema;
+}
+
+Json has_type(const std::string& section, const std::string& type) {
+  return {{"required", {section}},
+          {"properties", {{section, {{"required", {"type"}}, {"properties", {{"type", {{"const", type}}}}}}}}}};
+}
+
+/// The condition under which a row of `needs()` holds.
+Json condition_of(const Needs& row) {
+  Json condition = has_type("analysis", row.analysis);
+  Json& analysis = condition["properties"]["analysis"];
+  if (row.measurement == "data") {
+    analysis["required"].push_back("data");
+  } else if (!row.measurement.empty()) {
+    analysis["required"].push_back("measurement");
+    analysis["properties"]["measurement"] = {{"required", {"type"}},
+                                             {"properties", {{"type", {{"const", row.measurement}}}}}};
+  }
+  return condition;
+}
+
+/// What the condition demands of the other sections.
+Json demands_of(const Needs& row) {
+  if (row.excitations.empty()) {
+    Json forbidden = Json::array();
+    for (const char* section : {"system", "excitation", "initial", "numerics"})
+      forbidden.push_back({{"required", {section}}});
+    return {{"not", {{"anyOf", forbidden}}}};
+  }
+  Json demands = {{"required", {"system"}},
+                  {"properties", {{"excitation", {{"properties", {{"type", {{"enum", row.excitations}}}}}}}}}};
+  const bool may_be_free = std::ranges::find(row.excitations, "none") != row.excitations.end();
+  if (!may_be_free) demands["required"].push_back("excitation");
+  if (row.damping)
+    demands["properties"]["system"] = {{"anyOf", {{{"required", {"damping"}}}, {{"required", {"damping_ratio"}}}}}};
+  Json drive = Json::array();
+  for (const std::string& type : row.excitations)
+    if (excitations().find(type)->section.find("frequency") != nullptr && !row.drive.empty())
+      drive.push_back(
+          {{"if", {{"properties", {{"type", {{"const", type}}}}}}}, {"then", {{"required", row.drive}}}});
+  if (!drive.empty()) demands["properties"]["excitation"]["allOf"] = std::move(drive);
+  return demands;
+}
+
+}  // namespace
+
+std::string json_schema() {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "dualdamp scenario"},
+                 {"description", "Made by 'dualdamp schema' from the tables of the scenario reader."}};
+  schema.update(object_schema(scenario_format(), nullptr, ""));
+  schema["allOf"] = Json::array();
+  for (const Needs& row : needs())
+    schema["allOf"].push_back({{"if", condition_of(row)}, {"then", demands_of(row)}});
+  return schema.dump(1) + "\n";
+}
+
+}  // namespace dualdamp::scenarios
