@@ -10,9 +10,9 @@ namespace {
 
 constexpr int max_nodes = 6;
 
-/// Panel width times the fastest |z|: wide enough for two panels in half a period, narrow enough that the
-/// remainder of a quintic interpolant, (|z| h)^6 / 46080, stays near 1e-3.
-constexpr double panel_angle = 1.6;
+/// Panel width times the fastest |z|: just over half a period, so that a resonant half cycle is one panel; the
+/// remainder of the quintic interpolant is then 2 % of the amplitude, small against the arch between two zeros.
+constexpr double panel_angle = 3.2;
 
 /// Below this |z delta| five Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
 constexpr double shift_limit = 1e-3;

@@ -53,6 +53,8 @@ class ExponentialBasis {
   /// The width [s] of a search panel that suits the fastest element, and the step over it:
   /// E_k(s + panel()) from E_k(s) by one complex product each. For a basis without chains.
   [[nodiscard]] double panel() const { return panel_; }
+  /// Largest |z_k| [1/s].
+  [[nodiscard]] double fastest() const { return fastest_; }
   void step_panel(const Values& from, Values& to) const;
 
   /// Fixes the panel; call once after the last add().

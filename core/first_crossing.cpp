@@ -61,6 +61,22 @@ struct Bernstein {
     return w[0];
   }
 
+  /// Lowers all coefficients by a rounding allowance but those that a factored zero at an end makes exactly zero;
+  /// returns the least of the lowered ones.
+  double lower_by(double allowance, int left_zeros, int right_zeros) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 7; ++i) {
+      double& coefficient = b[static_cast<std::size_t>(i)];
+      if (i < left_zeros || 6 - i < right_zeros) {
+        coefficient = std::max(coefficient, 0.0);
+      } else {
+        coefficient -= allowance;
+        least = std::min(least, coefficient);
+      }
+    }
+    return least;
+  }
+
   /// Bound of |L| on the panel.
   [[nodiscard]] double largest() const {
     double bound = 0.0;
@@ -120,7 +136,7 @@ class PanelSearch {
   /// Rounding allowance of the value at s: 16 eps of the amplitudes, less where a known zero is factored out.
   [[nodiscard]] double slack(double s) const {
     double allowance = graze * amplitude_;
-    const double angle = s * 1.6 / basis_.panel();
+    const double angle = s * basis_.fastest();
     for (int i = 0; i < guard_.known_zeros && angle < 1.0; ++i) allowance *= angle;
     return allowance;
   }
@@ -153,7 +169,7 @@ class PanelSearch {
   static constexpr double none = -1.0;
 
   [[nodiscard]] bool near_start(double s) const {
-    return guard_.known_zeros > 0 && s * 1.6 < 0.05 * basis_.panel();
+    return guard_.known_zeros > 0 && s * basis_.fastest() < 0.05;
   }
   [[nodiscard]] Jet taylor_jet(double s) const;
   [[nodiscard]] double accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder);
@@ -208,7 +224,7 @@ Jet PanelSearch::polish(double s) {
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
     // Convergence is cubic: behind a step of 1e-6 panels nothing is left to correct, only the slope is used.
-    const bool converged = std::abs(step) < 3e-6 * basis_.panel();
+    const bool converged = std::abs(step) * basis_.fastest() < 5e-6;
     j = jet(s, root_values_);
     if (converged) break;
   }
@@ -314,28 +330,16 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
   const double remainder = sixth_ * h2 * h2 * h2 / 14400.0;
   Bernstein low(a, b);
   low.b[3] -= remainder;
-  // Coefficients that a factored zero makes exactly zero carry no rounding; the others do.
-  const double left_slack = slack(a.s);
   const double right_slack = slack(b.s);
-  bool positive = true;
-  for (int i = 0; i < 7; ++i) {
-    const bool factored = i < a.zeros || 6 - i < b.zeros;
-    double& coefficient = low.b[static_cast<std::size_t>(i)];
-    if (factored) {
-      coefficient = std::max(coefficient, 0.0);
-      continue;
-    }
-    coefficient -= a.zeros == 0 ? std::max(left_slack, right_slack) : right_slack * 0.0625;
-    positive = positive && coefficient > 0.0;
-  }
-  if (positive) return none;
+  const double allowance = a.zeros > 0 ? 0.0625 * right_slack : std::max(slack(a.s), right_slack);
+  if (low.lower_by(allowance, a.zeros, b.zeros) > 0.0) return none;
   const bool crosses = b.zeros == 0 && b.value < 0.0;
   if (crosses && low.sign_changes() == 1) {
     const double root = accept_root(a, b, low, remainder);
     if (root >= 0.0) return root;
   }
   const double range = low.largest() + 2.0 * remainder;
-  if (depth >= max_depth || h <= 4.0 * epsilon * b.s || range <= 4.0 * std::max(left_slack, right_slack)) {
+  if (depth >= max_depth || h <= 4.0 * epsilon * b.s || range <= 4.0 * std::max(slack(a.s), right_slack)) {
     if (crosses) return b.s;
     // Nowhere on the panel does the guard stand out of rounding, and no sign change: one flat contact.
     ++count_.grazings;
@@ -476,7 +480,7 @@ bool stands_out(const ExponentialBasis& basis, const ModeFunction& f, double val
 }
 
 /// How fast a tolerance grows from one derivative to the next.
-double rate(const ExponentialBasis& basis) { return basis.panel() > 0.0 ? 1.6 / basis.panel() : 1.0; }
+double rate(const ExponentialBasis& basis) { return basis.fastest() > 0.0 ? basis.fastest() : 1.0; }
 
 }  // namespace
 

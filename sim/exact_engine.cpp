@@ -312,7 +312,7 @@ void ExactEngine::lay_slip() {
   // Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
   core::Guard& guard = new_guard({.kind = Owner::Kind::velocity,
                                   .by_velocity = sign,
-                                  .tolerance = rounding * force_scale_ / o.mass * basis.panel()});
+                                  .tolerance = rounding * force_scale_ / o.mass / basis.fastest()});
   core::clear(basis, guard.value);
   core::accumulate(basis, sign, velocity_, guard.value);
   core::clear(basis, guard.slope);
