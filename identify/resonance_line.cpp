@@ -1,0 +1,181 @@
+#include "identify/resonance_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/numbers.hpp"
+#include "identify/statistics.hpp"
+#include "sim/analytic/den_hartog.hpp"
+
+namespace dualdamp::identify {
+
+namespace analytic = sim::analytic;
+
+namespace {
+
+/// Amplitudes closer than this fraction are equal: their difference is rounding.
+constexpr double equal_fraction = 64.0 * std::numeric_limits<double>::epsilon();
+
+/// Frequencies outside this range of w/wn are not near resonance in any sense.
+constexpr double least_ratio = 0.5;
+constexpr double greatest_ratio = 2.0;
+
+std::string exclusion_reason(const Pair& pair) {
+  if (!std::isfinite(pair.Y) || !std::isfinite(pair.x)) return "an amplitude is not finite";
+  if (pair.Y < 0.0 || pair.x < 0.0) return "an amplitude is negative";
+  if (pair.Y == 0.0) return "the input amplitude is zero";
+  if (pair.x == 0.0) return "the output amplitude is zero: the mass sticks";
+  return {};
+}
+
+/// Both roots apart: k/m may leave the range of double precision.
+double frequency_ratio(const KnownConstants& constants) {
+  return constants.frequency * std::sqrt(constants.mass) / std::sqrt(constants.stiffness);
+}
+
+void take_pairs(const PairRecord& record, ResonanceData& data, Estimate& estimate) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < record.pairs.size(); ++i) {
+    const Pair& pair = record.pairs[i];
+    const int number = pair.number > 0 ? pair.number : static_cast<int>(i) + 1;
+    if (std::string reason = exclusion_reason(pair); !reason.empty()) {
+      estimate.excluded.push_back({number, std::move(reason)});
+      continue;
+    }
+    data.pairs.push_back({pair.Y, pair.x, number});
+    largest = std::max(largest, pair.x);
+  }
+  data.unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
+  for (Datum& datum : data.pairs) {
+    datum.Y /= data.unit;
+    datum.x /= data.unit;
+  }
+  std::sort(data.pairs.begin(), data.pairs.end(),
+            [](const Datum& a, const Datum& b) { return a.x != b.x ? a.x < b.x : a.number < b.number; });
+}
+
+template <typename Value>
+bool nearly_equal(const std::vector<Datum>& pairs, Value value) {
+  const auto [least, greatest] = std::minmax_element(
+      pairs.begin(), pairs.end(), [value](const Datum& a, const Datum& b) { return value(a) < value(b); });
+  return value(*greatest) - value(*least) <= equal_fraction * value(*greatest);
+}
+
+}  // namespace
+
+std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
+                                     const MethodOptions& options, Estimate& estimate) {
+  if (!record.pairs) {
+    refuse(estimate, "the record holds no pairs of input and output amplitude");
+    return std::nullopt;
+  }
+  if (std::string fault = fault_of(constants); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return std::nullopt;
+  }
+  const double r = frequency_ratio(constants);
+  if (!(r >= least_ratio && r <= greatest_ratio)) {
+    refuse(estimate, "the method needs excitation near resonance, and w/wn is " + core::format_number(r, 4));
+    return std::nullopt;
+  }
+  ResonanceData data;
+  data.G = {r, options.approximate_G};
+  data.constants = constants;
+  take_pairs(*record.pairs, data, estimate);
+  if (std::string fault = fault_of(data.pairs, record.pairs->pairs.size()); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return std::nullopt;
+  }
+  return data;
+}
+
+std::optional<LineFriction> friction_of(const Line& line, const ResonanceG& G) {
+  if (!(line.slope > 0.0)) return std::nullopt;
+  LineFriction friction;
+  friction.zeta = 0.5 / line.slope;
+  if (!(friction.zeta > 0.0) || !std::isfinite(friction.zeta)) return std::nullopt;
+  friction.G = G.value(friction.zeta);
+  friction.x_f = -line.intercept / friction.G;
+  if (!std::isfinite(friction.G) || !std::isfinite(friction.x_f)) return std::nullopt;
+  return friction;
+}
+
+std::size_t first_sliding_pair(const ResonanceData& data, const LineFrom& line_from, Estimate& estimate) {
+  std::size_t first = 0;
+  while (data.pairs.size() - first >= 2) {
+    const std::optional<Line> line = line_from(first);
+    const std::optional<LineFriction> friction = line ? friction_of(*line, data.G) : std::nullopt;
+    if (!friction || !(friction->x_f > 0.0)) break;
+    const double limit = analytic::non_sticking_limit(analytic::den_hartog(friction->zeta, data.G.r));
+    const std::size_t before = first;
+    for (; first < data.pairs.size() && !(data.pairs[first].x > limit * friction->x_f); ++first) {
+      estimate.excluded.push_back(
+          {data.pairs[first].number,
+           "the mass sticks: x/x_f = " + core::format_number(data.pairs[first].x / friction->x_f, 4) +
+               " is not above " + core::format_number(limit, 4) +
+               " (at zeta = " + core::format_number(friction->zeta, 4) +
+               ", x_f = " + core::format_number(friction->x_f * data.unit, 4) + " m)"});
+    }
+    if (first == before) break;
+  }
+  std::sort(estimate.excluded.begin(), estimate.excluded.end(),
+            [](const Exclusion& a, const Exclusion& b) { return a.number < b.number; });
+  return first;
+}
+
+std::string fault_of(const std::vector<Datum>& pairs, std::size_t total) {
+  if (pairs.size() < 2) {
+    return "two pairs are needed, and of " + std::to_string(total) + " in the record " +
+           std::to_string(pairs.size()) + (pairs.size() == 1 ? " is" : " are") + " left";
+  }
+  if (nearly_equal(pairs, [](const Datum& d) { return d.Y; })) return "the input amplitudes are all equal";
+  if (nearly_equal(pairs, [](const Datum& d) { return d.x; })) return "the output amplitudes are all equal";
+  return {};
+}
+
+void judge_method(const ResonanceData& data, const std::vector<Datum>& used, const LineFriction& friction,
+                  const std::function<std::optional<Line>(const std::vector<Datum>&)>& line_through,
+                  Estimate& estimate, std::vector<std::string>& faults) {
+  const double x_f = std::max(friction.x_f, 0.0);
+  const analytic::DenHartog exact = analytic::den_hartog(friction.zeta, data.G.r);
+  std::vector<Datum> model;
+  double largest_input = 0.0;
+  for (const Datum& datum : used) {
+    largest_input = std::max(largest_input, datum.Y);
+    const std::optional<double> x = analytic::amplitude(exact, datum.Y, x_f);
+    if (x) model.push_back({datum.Y, *x, datum.number});
+  }
+  const std::optional<Line> line = model.size() == used.size() ? line_through(model) : std::nullopt;
+  const std::optional<LineFriction> misread = line ? friction_of(*line, data.G) : std::nullopt;
+  if (!misread) {
+    faults.push_back("the exact law has no such motion at the estimate and " + frequency_text(data));
+    return;
+  }
+  const double zeta_error = misread->zeta / friction.zeta - 1.0;
+  // Against a friction below a thousandth of the input a percentage says nothing.
+  const double x_f_error = x_f > 1e-3 * largest_input ? misread->x_f / x_f - 1.0 : 0.0;
+  const double worst = std::max(std::abs(zeta_error), std::abs(x_f_error));
+  if (worst < 0.01) return;
+  const std::string text = "at " + frequency_text(data) + " the method would misread its own estimate, zeta by " +
+                           percent(zeta_error) + " and F0 by " + percent(x_f_error) +
+                           ", because it neglects H and takes q for 2 zeta" +
+                           (data.G.approximate ? " and G from Eq (15)" : "");
+  if (worst > 0.1) {
+    faults.push_back(text);
+  } else {
+    estimate.warnings.push_back(text);
+  }
+}
+
+std::vector<int> numbers_of(const std::vector<Datum>& pairs) {
+  std::vector<int> numbers;
+  numbers.reserve(pairs.size());
+  for (const Datum& datum : pairs) numbers.push_back(datum.number);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+std::string frequency_text(const ResonanceData& data) { return "w/wn = " + core::format_number(data.G.r, 4); }
+
+}  // namespace dualdamp::identify

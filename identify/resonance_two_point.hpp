@@ -1,0 +1,21 @@
+#pragma once
+/// Two-point resonance method: viscous and Coulomb friction from two input-output amplitude pairs at resonance.
+///
+///   zeta = (Y2 - Y1)/(2 (x2 - x1)),   x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2))       Eqs (14), (13)
+///
+/// with G from the exact Eq (4) at the given frequency, or from Eq (15) with `approximate_G`. The pairs are the
+/// named ones, or those with the smallest and the largest input among the pairs that do not stick.
+///
+/// Holds for small zeta near w = wn, without sticking; the estimate says how far it would misread itself.
+/// Standard errors need the measurement deviations (`sigma_x`, `sigma_Y`): two pairs leave no freedom. They then
+/// follow Eqs (16)-(17), the interval being normal.
+/// Source: liang2004identifying. Errors: `outcome`. Cost: linear in the pairs, for the gate.
+
+#include "identify/methods.hpp"
+
+namespace dualdamp::identify {
+
+[[nodiscard]] Estimate resonance_two_point(const Record& record, const KnownConstants& constants,
+                                           const MethodOptions& options);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,50 @@
+#pragma once
+/// Small-sample statistics shared by the methods.
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "identify/estimate.hpp"
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+/// Half width of a two-sided 95 % interval in standard errors: Student's t with `freedom` > 0 degrees of freedom,
+/// the normal value 1.96 for infinitely many.
+[[nodiscard]] double quantile95(double freedom);
+
+/// Does one more term explain more of the residuals than chance would? F test of a fit with the columns `jacobian`
+/// against the same fit with `term` added, both linearised at the estimate. `range` is that of the data: the scale
+/// of `effect`, and of the rounding below which residuals carry no information. Nothing when no degree of freedom
+/// would be left or the term depends linearly on the columns.
+[[nodiscard]] std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian,
+                                                       const Eigen::VectorXd& residual, const Eigen::VectorXd& term,
+                                                       double range, std::string name);
+
+/// zeta and x_f [m] with what follows from them: c = 2 zeta sqrt(m k), F0 = k x_f.
+[[nodiscard]] ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants);
+
+/// Standard errors, intervals value +- half_width std, covariance and correlation of `estimate` from the covariance
+/// of (zeta, x_f [m]).
+void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
+                     const KnownConstants& constants);
+
+/// Why constants cannot be used; empty when they can. Mass and stiffness must be positive and finite.
+[[nodiscard]] std::string fault_of(const KnownConstants& constants);
+
+/// An estimate that is none: `outcome` not_identifiable with the reason.
+void refuse(Estimate& estimate, std::string reason);
+
+/// A signed percentage for messages: "+9.6 %".
+[[nodiscard]] std::string percent(double fraction);
+
+/// Doubts that follow from the numbers alone: a negative or an indistinguishable parameter. Reasons not to use the
+/// estimate are appended to `faults`, lesser doubts to the estimate's warnings. `least_x_f` [m]: what rounding
+/// alone makes of a friction that is not there.
+void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
+
+/// Sets `usable` and `reason`: usable when `faults` is empty, and then it rests on `basis`.
+void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
+
+}  // namespace dualdamp::identify
