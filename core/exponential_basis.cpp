@@ -152,55 +152,6 @@ void ExponentialBasis::step_panel(const Values& from, Values& to) const {
   }
 }
 
-void clear(const ExponentialBasis& basis, ModeFunction& f) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) f.re[k] = f.im[k] = 0.0;
-}
-
-void accumulate(const ExponentialBasis& basis, double factor, const ModeFunction& g, ModeFunction& f) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
-    f.re[k] += factor * g.re[k];
-    f.im[k] += factor * g.im[k];
-  }
-}
-
-void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFunction& derivative) {
-  for (int k = 0; k < basis.size(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Complex z = basis.exponent(k);
-    derivative.re[i] = f.re[i] * z.real() - f.im[i] * z.imag();
-    derivative.im[i] = f.re[i] * z.imag() + f.im[i] * z.real();
-    // E_k' holds one E_parent: the parent's coefficient gains c_k. Parents stand before their children.
-    if (basis.parent(k) != ExponentialBasis::no_parent) {
-      const auto p = static_cast<std::size_t>(basis.parent(k));
-      derivative.re[p] += f.re[i];
-      derivative.im[p] += f.im[i];
-    }
-  }
-}
-
-void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from, ExponentialBasis::Values& to) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
-    to.re[k] = from.re[k];
-    to.im[k] = from.im[k];
-  }
-}
-
-double evaluate(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
-    sum += f.re[k] * values.re[k] - f.im[k] * values.im[k];
-  }
-  return sum;
-}
-
-double at_start(const ExponentialBasis& basis, const ModeFunction& f) {
-  double sum = 0.0;
-  for (int k = 0; k < basis.size(); ++k) {
-    if (basis.parent(k) == ExponentialBasis::no_parent) sum += f.re[static_cast<std::size_t>(k)];
-  }
-  return sum;
-}
-
 namespace {
 
 /// Bound of the chain element k. Two hold and the smaller is taken:

@@ -91,19 +91,74 @@ struct ModeFunction {
   std::array<double, ExponentialBasis::capacity> im;
 };
 
-/// f = 0.
-void clear(const ExponentialBasis& basis, ModeFunction& f);
+/// f = factor g.
+inline void assign(const ExponentialBasis& basis, double factor, const ModeFunction& g, ModeFunction& f) {
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    f.re[i] = factor * g.re[i];
+    f.im[i] = factor * g.im[i];
+  }
+}
+
 /// f += factor g.
-void accumulate(const ExponentialBasis& basis, double factor, const ModeFunction& g, ModeFunction& f);
-/// df/ds on the same basis.
-void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFunction& derivative);
-/// Re sum c_k E_k for values of the elements.
-[[nodiscard]] double evaluate(const ExponentialBasis& basis, const ModeFunction& f,
-                              const ExponentialBasis::Values& values);
+inline void accumulate(const ExponentialBasis& basis, double factor, const ModeFunction& g, ModeFunction& f) {
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    f.re[i] += factor * g.re[i];
+    f.im[i] += factor * g.im[i];
+  }
+}
+
+/// f = 0.
+inline void clear(const ExponentialBasis& basis, ModeFunction& f) {
+  for (int k = 0; k < basis.size(); ++k) f.re[static_cast<std::size_t>(k)] = f.im[static_cast<std::size_t>(k)] = 0.0;
+}
+
 /// Copies the entries that count.
-void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from, ExponentialBasis::Values& to);
+inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from, ExponentialBasis::Values& to) {
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    to.re[i] = from.re[i];
+    to.im[i] = from.im[i];
+  }
+}
+
+/// df/ds on the same basis; not in place. E_k' holds one E_parent, so a parent's coefficient gains its child's;
+/// parents stand before their children.
+inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFunction& derivative) {
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Complex z = basis.exponent(k);
+    derivative.re[i] = f.re[i] * z.real() - f.im[i] * z.imag();
+    derivative.im[i] = f.re[i] * z.imag() + f.im[i] * z.real();
+    if (basis.parent(k) != ExponentialBasis::no_parent) {
+      const auto p = static_cast<std::size_t>(basis.parent(k));
+      derivative.re[p] += f.re[i];
+      derivative.im[p] += f.im[i];
+    }
+  }
+}
+
+/// Re sum c_k E_k for values of the elements.
+[[nodiscard]] inline double evaluate(const ExponentialBasis& basis, const ModeFunction& f,
+                                     const ExponentialBasis::Values& values) {
+  double sum = 0.0;
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    sum += f.re[i] * values.re[i] - f.im[i] * values.im[i];
+  }
+  return sum;
+}
+
 /// f(0): the plain elements' coefficients summed.
-[[nodiscard]] double at_start(const ExponentialBasis& basis, const ModeFunction& f);
+[[nodiscard]] inline double at_start(const ExponentialBasis& basis, const ModeFunction& f) {
+  double sum = 0.0;
+  for (int k = 0; k < basis.size(); ++k) {
+    if (basis.parent(k) == ExponentialBasis::no_parent) sum += f.re[static_cast<std::size_t>(k)];
+  }
+  return sum;
+}
+
 /// sum |c_k| max |E_k| over [begin, begin + width], a bound of |f| there; `values` = E_k(begin).
 [[nodiscard]] double bound(const ExponentialBasis& basis, const ModeFunction& f,
                            const ExponentialBasis::Values& values, double begin, double width);

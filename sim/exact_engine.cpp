@@ -214,9 +214,8 @@ void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFu
   const Affine limit = total_limit();
   ModeFunction level;
   mode_->represent({.constant = limit.constant, .ramp = limit.rate}, level);
-  core::clear(basis, guard);
+  core::assign(basis, -direction, pull, guard);
   core::accumulate(basis, 1.0, level, guard);
-  core::accumulate(basis, -direction, pull, guard);
 }
 
 /// The pull at this instant; total_ holds the laws that do not hold the mass.
@@ -313,10 +312,8 @@ void ExactEngine::lay_slip() {
   core::Guard& guard = new_guard({.kind = Owner::Kind::velocity,
                                   .by_velocity = sign,
                                   .tolerance = rounding * force_scale_ / o.mass / basis.fastest()});
-  core::clear(basis, guard.value);
-  core::accumulate(basis, sign, velocity_, guard.value);
-  core::clear(basis, guard.slope);
-  core::accumulate(basis, sign, acceleration_, guard.slope);
+  core::assign(basis, sign, velocity_, guard.value);
+  core::assign(basis, sign, acceleration_, guard.slope);
   core::prepare_with_slope(basis, guard);
 }
 
