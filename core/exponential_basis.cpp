@@ -91,9 +91,8 @@ int ExponentialBasis::add(Complex exponent, int parent) {
   re_[k] = exponent.real();
   im_[k] = exponent.imag();
   parent_[k] = parent;
-  const double square = std::norm(exponent);
-  fourth_power_[k] = square * square;
-  fastest_ = std::max(fastest_, std::sqrt(square));
+  square_[k] = std::norm(exponent);
+  fastest_ = std::max(fastest_, std::abs(exponent));
   has_chains_ = has_chains_ || parent != no_parent;
   return size_++;
 }
@@ -135,7 +134,7 @@ void ExponentialBasis::evaluate(double s, Values& values) const {
 bool ExponentialBasis::shift(double delta, Values& values) const {
   if (has_chains_ || !(fastest_ * std::abs(delta) < shift_limit)) return false;
   for (std::size_t k = 0; k < index(size_); ++k) {
-    if (fourth_power_[k] == 0.0) continue;
+    if (square_[k] == 0.0) continue;
     const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta);
     const Complex old(values.re[k], values.im[k]);
     const Complex value = old + old * gain;

@@ -64,8 +64,8 @@ class ExponentialBasis {
   /// derivative bound serve the whole mode.
   [[nodiscard]] bool even() const { return even_; }
 
-  /// |z_k|^4, for derivative bounds.
-  [[nodiscard]] double fourth_power(int k) const { return fourth_power_[index(k)]; }
+  /// |z_k|^2, for derivative bounds.
+  [[nodiscard]] double square(int k) const { return square_[index(k)]; }
   /// max(0, Re z_k): how fast the element can grow [1/s].
   [[nodiscard]] double growth(int k) const { return re_[index(k)] > 0.0 ? re_[index(k)] : 0.0; }
 
@@ -76,7 +76,7 @@ class ExponentialBasis {
   std::array<double, capacity> re_{};
   std::array<double, capacity> im_{};
   std::array<int, capacity> parent_{};
-  std::array<double, capacity> fourth_power_{};
+  std::array<double, capacity> square_{};
   Values rotor_{};
   double panel_ = 0.0;
   double fastest_ = 0.0;

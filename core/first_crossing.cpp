@@ -22,14 +22,6 @@ struct Jet {
   int zeros = 0;  ///< known order of the zero here
 };
 
-double magnitude_sum(const ExponentialBasis& basis, const ModeFunction& f) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
-    sum += std::sqrt(f.re[k] * f.re[k] + f.im[k] * f.im[k]);
-  }
-  return sum;
-}
-
 /// Quintic Hermite interpolant of a panel on t in [0, 1], in Bernstein form of degree six.
 struct Bernstein {
   std::array<double, 7> b;
@@ -396,26 +388,22 @@ void prepare(const ExponentialBasis& basis, Guard& guard) {
 
 void prepare_with_slope(const ExponentialBasis& basis, Guard& guard) {
   differentiate(basis, guard.slope, guard.curvature);
-  guard.amplitude = magnitude_sum(basis, guard.value);
-  if (basis.has_chains()) {
-    ModeFunction third;
-    ModeFunction fourth;
-    differentiate(basis, guard.curvature, third);
-    differentiate(basis, third, fourth);
-    differentiate(basis, fourth, third);
-    differentiate(basis, third, guard.sixth);
-    return;
-  }
-  guard.curvature_bound = guard.sixth_bound = 0.0;
+  guard.amplitude = guard.curvature_bound = guard.sixth_bound = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    guard.sixth.re[i] = guard.curvature.re[i] * basis.fourth_power(k);
-    guard.sixth.im[i] = guard.curvature.im[i] * basis.fourth_power(k);
-    const double modulus = std::sqrt(guard.curvature.re[i] * guard.curvature.re[i] +
-                                     guard.curvature.im[i] * guard.curvature.im[i]);
-    guard.curvature_bound += modulus;
-    guard.sixth_bound += modulus * basis.fourth_power(k);
+    const double modulus = std::sqrt(guard.value.re[i] * guard.value.re[i] + guard.value.im[i] * guard.value.im[i]);
+    const double square = basis.square(k);
+    guard.amplitude += modulus;
+    guard.curvature_bound += modulus * square;
+    guard.sixth_bound += modulus * square * square * square;
   }
+  if (basis.even()) return;
+  ModeFunction third;
+  ModeFunction fourth;
+  differentiate(basis, guard.curvature, third);
+  differentiate(basis, third, fourth);
+  differentiate(basis, fourth, third);
+  differentiate(basis, third, guard.sixth);
 }
 
 void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon, Crossing& crossing,
@@ -484,11 +472,12 @@ double rate(const ExponentialBasis& basis) { return basis.fastest() > 0.0 ? basi
 
 }  // namespace
 
-Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance) {
+Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance, int from) {
   constexpr int examined = 4;
   ModeFunction third;
   const std::array<const ModeFunction*, examined> derivatives = {&guard.value, &guard.slope, &guard.curvature, &third};
-  for (int order = 0; order < examined; ++order) {
+  for (int order = 0; order < from; ++order) tolerance *= rate(basis);
+  for (int order = from; order < examined; ++order) {
     const ModeFunction& f = *derivatives[static_cast<std::size_t>(order)];
     if (order == examined - 1) differentiate(basis, guard.curvature, third);
     const double value = at_start(basis, f);

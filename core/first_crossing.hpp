@@ -39,7 +39,7 @@ struct Guard {
   // Filled by prepare().
   ModeFunction slope;
   ModeFunction curvature;
-  ModeFunction sixth;      ///< sixth derivative, or coefficients of the same moduli; unused on an even basis
+  ModeFunction sixth;      ///< sixth derivative; unused on an even basis
   double amplitude = 0.0;  ///< sum of |c_k|
   double curvature_bound = 0.0;  ///< of |g''|, on an even basis for all s
   double sixth_bound = 0.0;      ///< of |g^(6)|, likewise
@@ -84,7 +84,7 @@ struct Germ {
 };
 
 [[nodiscard]] Germ germ(const ExponentialBasis& basis, const ModeFunction& f, double tolerance);
-/// Of a prepared guard.
-[[nodiscard]] Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance);
+/// Of a prepared guard whose first `from` Taylor coefficients are known to vanish.
+[[nodiscard]] Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance, int from = 0);
 
 }  // namespace dualdamp::core

@@ -361,7 +361,8 @@ bool ExactEngine::find_violated() {
   for (std::size_t i = 0; i < guard_count_; ++i) {
     core::Guard& guard = guards_[i];
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owners_[i].tolerance) continue;
-    const core::Germ germ = core::germ(basis, guard, owners_[i].tolerance);
+    const bool from_rest = owners_[i].kind == Owner::Kind::velocity && v_ == 0.0;
+    const core::Germ germ = core::germ(basis, guard, owners_[i].tolerance, from_rest ? 1 : 0);
     if (germ.sign < 0) {
       crossing_.found = true;
       crossing_.guard = static_cast<int>(i);
