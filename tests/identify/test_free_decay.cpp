@@ -239,7 +239,7 @@ TEST_CASE("A growing motion is no decay to be used") {
   CHECK(mentions(estimate.reason, "damping ratio came out negative"));
 }
 
-TEST_CASE("Records that allow no estimate are refused with the reason") {
+TEST_CASE("Extremes that allow no estimate are refused with the reason") {
   const auto refused = [](const Record& record, const KnownConstants& constants, const std::string& words) {
     const Estimate e = free_decay(record, constants, {});
     CHECK_FALSE(e.outcome.ok());

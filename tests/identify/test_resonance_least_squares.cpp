@@ -240,7 +240,7 @@ TEST_CASE("A damping ratio of 0.02 does not forgive a detuning of 2 %") {
   CHECK(mentions(e.reason, "w/wn = 1.02"));
 }
 
-TEST_CASE("Records that allow no estimate are refused with the reason") {
+TEST_CASE("Pairs that allow no estimate are refused with the reason") {
   const auto refused = [](const Record& record, const KnownConstants& constants, const std::string& words) {
     const Estimate e = resonance_least_squares(record, constants, {});
     CHECK_FALSE(e.outcome.ok());
