@@ -76,8 +76,11 @@ ExactEngine::ExactEngine(const Model& model)
       interval_(std::make_unique<PhaseInterval>(*this)) {
   for (const friction::Law& law : model_.friction) {
     assert(law.is_affine());
+    holds_mass_.push_back(law.holds_mass());
     can_rest_ = can_rest_ || law.holds_mass();
   }
+  law_guard_counts_.resize(model_.friction.size());
+  forcing_.phasors.resize(drive_.frequencies().size());
   start(model.initial.position, model.initial.velocity);
 }
 
@@ -118,59 +121,63 @@ double ExactEngine::time() const {
   return cycle_ == 0 ? local_time_ : static_cast<double>(cycle_) * drive_.period() + local_time_;
 }
 
-/// Adds up the laws' affine forces; at rest the laws that hold the mass are left out.
-void ExactEngine::sum_forces(bool with_holding_laws, Total& total) const {
-  total.force = {};
-  total.transients.clear();
-  total.decays.clear();
+/// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold the
+/// mass and the forces of the others; and the guards.
+void ExactEngine::collect(bool with_guards) {
+  const friction::Instant at = now();
+  const bool resting = direction_ == Direction::rest;
+  total_.force = total_.limit = {};
+  total_.ramped = drive_.ramped();
+  total_.transients.clear();
+  total_.decays.clear();
+  law_guards_.clear();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     const friction::Law& law = model_.friction[i];
-    if (law.holds_mass() && !with_holding_laws) continue;
-    const Affine part = law.affine_force(memories_[i], now(), direction_);
-    total.force.constant += part.constant;
-    total.force.rate += part.rate;
-    total.force.position += part.position;
-    total.force.velocity += part.velocity;
-    if (part.transient != 0.0) {
-      total.transients.push_back(part.transient);
-      total.decays.push_back(part.decay);
+    if (resting && holds_mass_[i]) {
+      add_limit(law.affine_limit(memories_[i], at));
+    } else {
+      add_force(law.affine_force(memories_[i], at, direction_));
     }
-  }
-}
-
-Affine ExactEngine::total_limit() const {
-  Affine total;
-  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (!model_.friction[i].holds_mass()) continue;
-    const Affine part = model_.friction[i].affine_limit(memories_[i], now());
-    total.constant += part.constant + part.position * x_;
-    total.rate += part.rate;
-    assert(part.transient == 0.0);
-  }
-  return total;
-}
-
-void ExactEngine::collect_law_guards() {
-  law_guards_.clear();
-  law_guard_counts_.clear();
-  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (!with_guards) continue;
     const std::size_t before = law_guards_.size();
-    model_.friction[i].affine_guards(memories_[i], now(), direction_, law_guards_);
-    law_guard_counts_.push_back(law_guards_.size() - before);
+    law.affine_guards(memories_[i], at, direction_, law_guards_);
+    law_guard_counts_[i] = law_guards_.size() - before;
+  }
+  for (const Affine& guard : law_guards_) {
+    total_.ramped = total_.ramped || guard.rate != 0.0;
+    if (guard.transient != 0.0) add_transient(0.0, guard.decay);
   }
 }
 
-/// Whether anything in the phase grows with time: modes without that element are cheaper.
-bool ExactEngine::ramped() const {
-  return drive_.ramped() || total_.force.rate != 0.0 ||
-         (direction_ == Direction::rest && total_limit().rate != 0.0) ||
-         std::any_of(law_guards_.begin(), law_guards_.end(), [](const Affine& g) { return g.rate != 0.0; });
+void ExactEngine::add_force(const Affine& part) {
+  total_.force.constant += part.constant;
+  total_.force.rate += part.rate;
+  total_.force.position += part.position;
+  total_.force.velocity += part.velocity;
+  total_.ramped = total_.ramped || part.rate != 0.0;
+  if (part.transient != 0.0) add_transient(part.transient, part.decay);
+}
+
+void ExactEngine::add_limit(const Affine& part) {
+  assert(part.transient == 0.0);
+  total_.limit.constant += part.constant + part.position * x_;
+  total_.limit.rate += part.rate;
+  total_.ramped = total_.ramped || part.rate != 0.0;
+}
+
+void ExactEngine::add_transient(double size, double decay) {
+  const auto known = std::find(total_.decays.begin(), total_.decays.end(), decay);
+  if (known != total_.decays.end()) {
+    total_.transients[static_cast<std::size_t>(known - total_.decays.begin())] += size;
+    return;
+  }
+  total_.transients.push_back(size);
+  total_.decays.push_back(decay);
 }
 
 const LinearMode& ExactEngine::mode_for(double damping, double stiffness, const std::vector<double>& decays) {
-  const bool with_ramp = ramped();
   for (const auto& mode : modes_) {
-    if (mode->damping() == damping && mode->stiffness() == stiffness && mode->ramped() == with_ramp &&
+    if (mode->damping() == damping && mode->stiffness() == stiffness && mode->ramped() == total_.ramped &&
         mode->decays() == decays) {
       return *mode;
     }
@@ -178,18 +185,17 @@ const LinearMode& ExactEngine::mode_for(double damping, double stiffness, const 
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& mode) { return mode.get() != mode_; });
   modes_.push_back(std::make_unique<LinearMode>(model_.oscillator.mass, damping, stiffness, drive_.frequencies(),
-                                                with_ramp, decays));
+                                                total_.ramped, decays));
   return *modes_.back();
 }
 
 /// forcing_ = drive + extra - the laws' parts that do not move with the mass.
-void ExactEngine::load_forcing(const Total& total, double extra_constant) {
-  forcing_.constant = drive_.force_constant() - total.force.constant + extra_constant;
-  forcing_.ramp = drive_.force_ramp() - total.force.rate;
-  forcing_.phasors.resize(drive_.frequencies().size());
+void ExactEngine::load_forcing(double extra_constant) {
+  forcing_.constant = drive_.force_constant() - total_.force.constant + extra_constant;
+  forcing_.ramp = drive_.force_ramp() - total_.force.rate;
   for (std::size_t j = 0; j < forcing_.phasors.size(); ++j) forcing_.phasors[j] = drive_.force_phasor(j);
-  forcing_.transients.resize(total.transients.size());
-  for (std::size_t j = 0; j < total.transients.size(); ++j) forcing_.transients[j] = -total.transients[j];
+  forcing_.transients.resize(total_.transients.size());
+  for (std::size_t j = 0; j < total_.transients.size(); ++j) forcing_.transients[j] = -total_.transients[j];
 }
 
 double ExactEngine::force_scale() const {
@@ -199,11 +205,10 @@ double ExactEngine::force_scale() const {
 
 /// All forces on the mass at rest here, except those of laws that hold it, as a function of time.
 const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
-  sum_forces(false, total_);
   const Oscillator& o = model_.oscillator;
   const double stiffness = o.stiffness + total_.force.position;
   const LinearMode& mode = mode_for(o.damping + total_.force.velocity, stiffness, total_.decays);
-  load_forcing(total_, -stiffness * x_);
+  load_forcing(-stiffness * x_);
   mode.represent(forcing_, pull);
   return mode;
 }
@@ -211,9 +216,8 @@ const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
 /// limit - direction * pull
 void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFunction& guard) const {
   const core::ExponentialBasis& basis = mode_->basis();
-  const Affine limit = total_limit();
   ModeFunction level;
-  mode_->represent({.constant = limit.constant, .ramp = limit.rate}, level);
+  mode_->represent({.constant = total_.limit.constant, .ramp = total_.limit.rate}, level);
   core::assign(basis, -direction, pull, guard);
   core::accumulate(basis, 1.0, level, guard);
 }
@@ -230,9 +234,9 @@ double ExactEngine::pull_now() const {
 /// Decides what happens at v = 0: rest, or slip in the direction of the pull.
 void ExactEngine::settle() {
   direction_ = Direction::rest;
-  sum_forces(false, total_);
+  collect(false);
   const double pull = pull_now();
-  const double level = total_limit().constant;
+  const double level = total_.limit.constant;
   const double scale = force_scale() + level;
   Direction direction = pull > 0.0 ? Direction::forward : Direction::backward;
   if (std::abs(pull) < level - clearly * scale) {
@@ -246,7 +250,6 @@ void ExactEngine::settle() {
 /// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
 Direction ExactEngine::settle_closely(double tolerance) {
   const LinearMode* present = mode_;
-  collect_law_guards();
   ModeFunction pull;
   mode_ = &pull_on_mode(pull);
   Direction direction = Direction::rest;
@@ -261,8 +264,9 @@ Direction ExactEngine::settle_closely(double tolerance) {
 
 void ExactEngine::change_direction(Direction direction) {
   direction_ = direction;
+  const friction::Instant at = now();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    model_.friction[i].jump(memories_[i], {}, now(), direction_);
+    model_.friction[i].jump(memories_[i], {}, at, direction_);
   }
 }
 
@@ -298,10 +302,9 @@ void ExactEngine::lay_rest() {
 }
 
 void ExactEngine::lay_slip() {
-  sum_forces(true, total_);
   const Oscillator& o = model_.oscillator;
   mode_ = &mode_for(o.damping + total_.force.velocity, o.stiffness + total_.force.position, total_.decays);
-  load_forcing(total_, 0.0);
+  load_forcing(0.0);
   const core::ExponentialBasis& basis = mode_->basis();
   mode_->solve(forcing_, x_, v_, motion_);
   core::differentiate(basis, motion_, velocity_);
@@ -346,7 +349,7 @@ void ExactEngine::add_law_guards() {
 
 void ExactEngine::lay_phase() {
   guard_count_ = 0;
-  collect_law_guards();
+  collect(true);
   if (direction_ == Direction::rest) {
     lay_rest();
   } else {
@@ -362,6 +365,11 @@ bool ExactEngine::find_violated() {
     core::Guard& guard = guards_[i];
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owners_[i].tolerance) continue;
     const bool from_rest = owners_[i].kind == Owner::Kind::velocity && v_ == 0.0;
+    const double slope = core::at_start(basis, guard.slope);
+    if (from_rest && slope > clearly * guard.amplitude * basis.fastest() + owners_[i].tolerance * basis.fastest()) {
+      guard.known_zeros = 1;
+      continue;
+    }
     const core::Germ germ = core::germ(basis, guard, owners_[i].tolerance, from_rest ? 1 : 0);
     if (germ.sign < 0) {
       crossing_.found = true;
@@ -395,8 +403,9 @@ void ExactEngine::advance(double s, bool to_period_end) {
     }
     drive_.pass(s);
   }
+  const friction::Instant after = now();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    model_.friction[i].advance(memories_[i], before, now(), direction_);
+    model_.friction[i].advance(memories_[i], before, after, direction_);
   }
 }
 

@@ -75,9 +75,11 @@ class ExactEngine {
     double by_velocity = 0.0;  ///< dg/dv
     double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
   };
-  /// Force of several laws together, affine in the phase.
+  /// All laws together, affine in the phase.
   struct Total {
     friction::Affine force;  ///< without its transient
+    friction::Affine limit;  ///< of static friction, at rest only
+    bool ramped = false;     ///< something grows with time: modes without that element are cheaper
     std::vector<double> transients;
     std::vector<double> decays;
   };
@@ -93,12 +95,12 @@ class ExactEngine {
 
   [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
   void place(double x, double v);
-  void sum_forces(bool with_holding_laws, Total& total) const;
-  [[nodiscard]] friction::Affine total_limit() const;
-  void collect_law_guards();
-  [[nodiscard]] bool ramped() const;
+  void collect(bool with_guards);
+  void add_force(const friction::Affine& part);
+  void add_limit(const friction::Affine& part);
+  void add_transient(double size, double decay);
   const LinearMode& mode_for(double damping, double stiffness, const std::vector<double>& decays);
-  void load_forcing(const Total& total, double extra_constant);
+  void load_forcing(double extra_constant);
   const LinearMode& pull_on_mode(core::ModeFunction& pull);
   void limit_guard(const core::ModeFunction& pull, double direction, core::ModeFunction& guard) const;
   void lay_phase();
@@ -121,6 +123,7 @@ class ExactEngine {
 
   Model model_;
   Drive drive_;
+  std::vector<bool> holds_mass_;  ///< of each law
   bool can_rest_ = false;  ///< some law has a static limit
   double x_ = 0.0;
   double v_ = 0.0;
