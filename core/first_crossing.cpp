@@ -44,15 +44,6 @@ struct Bernstein {
     b[6] = five[5];
   }
 
-  /// Value at t by de Casteljau.
-  [[nodiscard]] double at(double t) const {
-    std::array<double, 7> w = b;
-    for (std::size_t n = 6; n > 0; --n) {
-      for (std::size_t i = 0; i < n; ++i) w[i] += t * (w[i + 1] - w[i]);
-    }
-    return w[0];
-  }
-
   /// Lowers all coefficients by a rounding allowance but those that a factored zero at an end makes exactly zero;
   /// returns the least of the lowered ones.
   double lower_by(double allowance, int left_zeros, int right_zeros) {
@@ -164,7 +155,7 @@ class PanelSearch {
     return guard_.known_zeros > 0 && s * basis_.fastest() < 0.05;
   }
   [[nodiscard]] Jet taylor_jet(double s) const;
-  [[nodiscard]] double accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder);
+  [[nodiscard]] double accept_root(const Jet& a, const Jet& b, double remainder);
   Jet polish(double s);
   [[nodiscard]] Jet minimum(const Jet& a, const Jet& b) const;
   [[nodiscard]] Jet split_point(const Jet& a, const Jet& b) const;
@@ -215,49 +206,62 @@ Jet PanelSearch::polish(double s) {
     if (!(std::abs(step) > 2.0 * epsilon * s) || !(s - step >= 0.0)) break;
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
-    // Convergence is cubic: behind a step of 1e-6 panels nothing is left to correct, only the slope is used.
-    const bool converged = std::abs(step) * basis_.fastest() < 5e-6;
+    // Convergence is cubic: behind so small a step nothing is left to correct.
+    if (std::abs(step) * basis_.fastest() < 5e-6) {
+      j.slope -= j.curvature * step;
+      break;
+    }
     j = jet(s, root_values_);
-    if (converged) break;
   }
   j.s = polished_ = s;
   return j;
 }
 
-/// Root of the quintic Hermite interpolant whose value changes sign on the panel, as t in (0, 1).
-double interpolant_root(const Jet& a, const Jet& b) {
-  const double h = b.s - a.s;
-  const double d0 = a.slope * h;
-  const double d1 = b.slope * h;
-  const double s0 = 0.5 * a.curvature * h * h;
-  const double s1 = 0.5 * b.curvature * h * h;
-  // value = a + d0 t + s0 t^2 + t^3 (p + q t + r t^2)
-  const double rise = b.value - a.value - d0 - s0;
-  const double turn = d1 - d0 - 2.0 * s0;
-  const double bend = s1 - s0;
-  const double p = 10.0 * rise - 4.0 * turn + bend;
-  const double q = -15.0 * rise + 7.0 * turn - 2.0 * bend;
-  const double r = 6.0 * rise - 3.0 * turn + bend;
-  double low = 0.0;
-  double high = 1.0;
-  double t = d1 < 0.0 ? std::clamp(1.0 - b.value / d1, 0.0, 1.0) : 0.5;
-  for (int i = 0; i < 12; ++i) {
-    const double value = a.value + t * (d0 + t * (s0 + t * (p + t * (q + t * r))));
-    const double slope = d0 + t * (2.0 * s0 + t * (3.0 * p + t * (4.0 * q + t * 5.0 * r)));
-    (value > 0.0 ? low : high) = t;
-    double next = t - value / slope;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    const double step = next - t;
-    t = next;
-    if (std::abs(step) < 1e-4) break;
-  }
-  return t;
-}
+/// The quintic Hermite interpolant of a panel in powers of t in [0, 1].
+struct Interpolant {
+  double c0, c1, c2, c3, c4, c5;
 
-/// The root behind the only sign change of `low`, when g is certified positive before it and monotone across it.
-double PanelSearch::accept_root(const Jet& a, const Jet& b, const Bernstein& low, double remainder) {
+  Interpolant(const Jet& a, const Jet& b) : c0(a.value) {
+    const double h = b.s - a.s;
+    c1 = a.slope * h;
+    c2 = 0.5 * a.curvature * h * h;
+    const double rise = b.value - c0 - c1 - c2;
+    const double turn = b.slope * h - c1 - 2.0 * c2;
+    const double bend = 0.5 * b.curvature * h * h - c2;
+    c3 = 10.0 * rise - 4.0 * turn + bend;
+    c4 = -15.0 * rise + 7.0 * turn - 2.0 * bend;
+    c5 = 6.0 * rise - 3.0 * turn + bend;
+  }
+
+  [[nodiscard]] double at(double t) const { return c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5)))); }
+  [[nodiscard]] double slope(double t) const {
+    return c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
+  }
+
+  /// The root of an interpolant that starts positive and ends negative: Newton from the far end, bisection as a
+  /// safeguard. Two more digits than the interpolant itself has are enough.
+  [[nodiscard]] double root() const {
+    double low = 0.0;
+    double high = 1.0;
+    double t = 1.0;
+    for (int i = 0; i < 12; ++i) {
+      const double value = at(t);
+      (value > 0.0 ? low : high) = t;
+      double next = t - value / slope(t);
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const double step = next - t;
+      t = next;
+      if (std::abs(step) < 1e-3) break;
+    }
+    return t;
+  }
+};
+
+/// The root behind the only sign change of L, when g is certified positive before it and monotone across it.
+double PanelSearch::accept_root(const Jet& a, const Jet& b, double remainder) {
   const double width = b.s - a.s;
-  const Jet at = polish(a.s + width * interpolant_root(a, b));
+  const Interpolant interpolant(a, b);
+  const Jet at = polish(a.s + width * interpolant.root());
   const double root = at.s;
   if (!(root > a.s && root <= b.s) || !(at.slope < 0.0)) return none;
   // |g - H| <= 14400/46080 of `remainder` anywhere on the panel.
@@ -265,7 +269,9 @@ double PanelSearch::accept_root(const Jet& a, const Jet& b, const Bernstein& low
   if (curvature_ * gap >= -at.slope) return none;
   const double before = (root - gap - a.s) / width;
   // L has one root; positive at `before` means positive up to there, and g >= L.
-  if (before > 0.0 && !(low.at(before) > 0.0)) return none;
+  const double edge = before * (1.0 - before);
+  const double low = interpolant.at(before) - 20.0 * remainder * edge * edge * edge - slack(b.s);
+  if (before > 0.0 && !(low > 0.0)) return none;
   if (before <= 0.0 && a.zeros > 0) return none;
   return root;
 }
@@ -327,7 +333,7 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
   if (low.lower_by(allowance, a.zeros, b.zeros) > 0.0) return none;
   const bool crosses = b.zeros == 0 && b.value < 0.0;
   if (crosses && low.sign_changes() == 1) {
-    const double root = accept_root(a, b, low, remainder);
+    const double root = accept_root(a, b, remainder);
     if (root >= 0.0) return root;
   }
   const double range = low.largest() + 2.0 * remainder;

@@ -54,17 +54,16 @@ class ExactEngine::PhaseInterval final : public Interval {
     }
     sample.v = core::evaluate(basis, engine_.velocity_, values);
     sample.a = core::evaluate(basis, engine_.acceleration_, values);
-    const Affine& f = force.force;
-    sample.force = f.constant + f.rate * s + f.position * sample.x + f.velocity * sample.v;
-    for (std::size_t i = 0; i < force.decays.size(); ++i) {
-      sample.force += force.transients[i] * std::exp(-force.decays[i] * s);
-    }
+    sample.force = force.constant + force.rate * s + force.position * sample.x + force.velocity * sample.v;
+    for (std::size_t i = 0; i < decays.size(); ++i) sample.force += transients[i] * std::exp(-decays[i] * s);
     return sample;
   }
 
   [[nodiscard]] double resolution() const override { return engine_.mode_->basis().panel(); }
 
-  Total force;
+  Affine force;  ///< of all laws, without the transients
+  std::vector<double> transients;
+  std::vector<double> decays;
 
  private:
   const ExactEngine& engine_;
@@ -176,11 +175,13 @@ void ExactEngine::add_transient(double size, double decay) {
 }
 
 const LinearMode& ExactEngine::mode_for(double damping, double stiffness, const std::vector<double>& decays) {
+  const auto fits = [&](const LinearMode& mode) {
+    return mode.damping() == damping && mode.stiffness() == stiffness && mode.ramped() == total_.ramped &&
+           mode.decays() == decays;
+  };
+  if (mode_ != nullptr && fits(*mode_)) return *mode_;
   for (const auto& mode : modes_) {
-    if (mode->damping() == damping && mode->stiffness() == stiffness && mode->ramped() == total_.ramped &&
-        mode->decays() == decays) {
-      return *mode;
-    }
+    if (fits(*mode)) return *mode;
   }
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& mode) { return mode.get() != mode_; });
@@ -484,7 +485,9 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   interval_->begin = time();
   interval_->duration = crossing_.s;
   interval_->direction = direction_;
-  interval_->force = total_;
+  interval_->force = total_.force;
+  if (!total_.decays.empty()) interval_->transients = total_.transients;
+  if (!total_.decays.empty() || !interval_->decays.empty()) interval_->decays = total_.decays;
   interval_->ending.reset();
   if (tracking_) propagate();
   const core::Crossing& end = crossing_;
