@@ -19,7 +19,7 @@ string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_R
 add_library(dualdamp_options INTERFACE)
 target_compile_options(dualdamp_options INTERFACE
   -ffp-contract=off
-  $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>
+  $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range -fno-math-errno>
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wdouble-promotion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wcast-qual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
   # Tables leave out the fields that stay empty.

@@ -390,7 +390,8 @@ void ExactEngine::advance(double s, bool to_period_end) {
   const friction::Instant before = now();
   if (direction_ != Direction::rest) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
-    v_ = core::evaluate(basis, velocity_, crossing_.values);
+    const bool turns = crossing_.found && owners_[static_cast<std::size_t>(crossing_.guard)].kind == Owner::Kind::velocity;
+    v_ = turns ? 0.0 : core::evaluate(basis, velocity_, crossing_.values);
   }
   local_time_ += s;
   if (to_period_end || local_time_ >= drive_.period()) {
@@ -413,7 +414,6 @@ void ExactEngine::advance(double s, bool to_period_end) {
 EventKind ExactEngine::act(const Owner& owner) {
   switch (owner.kind) {
     case Owner::Kind::velocity: {
-      v_ = 0.0;
       settle();
       if (direction_ != Direction::rest) return EventKind::reversal;
       saltation_.pending = false;

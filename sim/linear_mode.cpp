@@ -50,6 +50,7 @@ void LinearMode::lay_own_motion() {
     second_ = large;
     first_ = large != 0.0 ? stiffness_ / mass_ / large : 0.0;
   }
+  inverse_beat_ = 1.0 / beat;
   own_first_ = basis_.add(first_);
   const bool pair = discriminant > 0.0 && beat > closeness * std::abs(half);
   if (!pair) own_second_ = basis_.add(second_, own_first_);
@@ -106,7 +107,7 @@ void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFun
   const double own = x0 - start;
   const double own_slope = v0 - slope - first_.real() * own;
   if (own_second_ < 0) {
-    add(x, own_first_, Complex(own, -own_slope / first_.imag()));
+    add(x, own_first_, Complex(own, -own_slope * inverse_beat_));
     return;
   }
   add(x, own_first_, own);
@@ -120,7 +121,7 @@ Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) c
     const double own = column == 0 ? 1.0 : 0.0;
     const double own_slope = (column == 0 ? 0.0 : 1.0) - first_.real() * own;
     if (own_second_ < 0) {
-      const Complex x = Complex(own, -own_slope / first_.imag()) * e1;
+      const Complex x = Complex(own, -own_slope * inverse_beat_) * e1;
       result(0, column) = x.real();
       result(1, column) = (x * first_).real();
     } else {

@@ -64,6 +64,7 @@ class LinearMode {
   std::vector<double> decays_;
   core::Complex first_;   ///< the oscillator's own exponents
   core::Complex second_;
+  double inverse_beat_ = 0.0;  ///< 1/Im first_ when underdamped [s]
   int own_first_ = 0;     ///< exp(first_ s)
   int own_second_ = -1;   ///< divided difference of first_ and second_; -1: underdamped, one complex element
   Driven constant_;
