@@ -274,7 +274,7 @@ void judge_times(const DecayRecord& record, const Estimate& estimate, const Know
   const std::size_t count = estimate.used.size();
   if (record.times.empty()) return;
   if (record.times.size() != record.extremes.size()) {
-    faults.push_back("there are not as many times as extremes");
+    faults.emplace_back("there are not as many times as extremes");
     return;
   }
   const double zeta = estimate.value.zeta;
@@ -355,7 +355,7 @@ Estimate free_decay(const Record& record, const KnownConstants& constants, const
   estimate.lack_of_fit = added_term_test(model.jacobian(solution->fit), solution->fit.residual,
                                          model.cubic_term(solution->fit), 2.0 * X_0, "cubic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
-    faults.push_back(
+    faults.emplace_back(
         "the extremes do not decay as viscous and Coulomb friction make them, so no single zeta and F0 "
         "describes them (see the estimates from each four)");
   }

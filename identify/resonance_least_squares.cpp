@@ -116,7 +116,7 @@ void test_curvature(const std::vector<Datum>& pairs, const Eigen::VectorXd& resi
   estimate.lack_of_fit =
       added_term_test(columns, residuals, square, highest->x - lowest->x, "quadratic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
-    faults.push_back(
+    faults.emplace_back(
         "the pairs do not lie on a straight line, so no single zeta and F0 describes them "
         "(see the fits of their lower parts)");
   }
