@@ -108,8 +108,8 @@ class PanelSearch {
   }
 
   [[nodiscard]] Jet start_jet() const {
-    Jet start{0.0, at_start(basis_, guard_.value), at_start(basis_, guard_.slope), at_start(basis_, guard_.curvature),
-              guard_.known_zeros};
+    Jet start{0.0, at_start(basis_, guard_.value), at_start(basis_, guard_.slope),
+              at_start(basis_, guard_.curvature), guard_.known_zeros};
     if (start.zeros > 0) start.value = 0.0;
     if (start.zeros > 1) start.slope = 0.0;
     if (start.zeros > 2) start.curvature = 0.0;
@@ -151,9 +151,7 @@ class PanelSearch {
  private:
   static constexpr double none = -1.0;
 
-  [[nodiscard]] bool near_start(double s) const {
-    return guard_.known_zeros > 0 && s * basis_.fastest() < 0.05;
-  }
+  [[nodiscard]] bool near_start(double s) const { return guard_.known_zeros > 0 && s * basis_.fastest() < 0.05; }
   [[nodiscard]] Jet taylor_jet(double s) const;
   [[nodiscard]] double accept_root(const Jet& a, const Jet& b, double remainder);
   Jet polish(double s);
@@ -397,6 +395,7 @@ void prepare_with_slope(const ExponentialBasis& basis, Guard& guard) {
   guard.amplitude = guard.curvature_bound = guard.sixth_bound = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
+    if (guard.value.re[i] == 0.0 && guard.value.im[i] == 0.0) continue;
     const double modulus = std::sqrt(guard.value.re[i] * guard.value.re[i] + guard.value.im[i] * guard.value.im[i]);
     const double square = basis.square(k);
     guard.amplitude += modulus;
@@ -412,8 +411,8 @@ void prepare_with_slope(const ExponentialBasis& basis, Guard& guard) {
   differentiate(basis, third, guard.sixth);
 }
 
-void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon, Crossing& crossing,
-                    std::vector<Grazing>& grazings, SearchCount& count) {
+void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon,
+                    Crossing& crossing, std::vector<Grazing>& grazings, SearchCount& count) {
   ++count.searches;
   crossing.found = false;
   crossing.guard = -1;
@@ -469,7 +468,8 @@ namespace {
 /// Whether a Taylor coefficient stands out of rounding.
 bool stands_out(const ExponentialBasis& basis, const ModeFunction& f, double value, double tolerance) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) sum += std::abs(f.re[k]) + std::abs(f.im[k]);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k)
+    sum += std::abs(f.re[k]) + std::abs(f.im[k]);
   return std::abs(value) > graze * sum + tolerance;
 }
 
@@ -481,7 +481,8 @@ double rate(const ExponentialBasis& basis) { return basis.fastest() > 0.0 ? basi
 Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance, int from) {
   constexpr int examined = 4;
   ModeFunction third;
-  const std::array<const ModeFunction*, examined> derivatives = {&guard.value, &guard.slope, &guard.curvature, &third};
+  const std::array<const ModeFunction*, examined> derivatives = {&guard.value, &guard.slope, &guard.curvature,
+                                                                 &third};
   for (int order = 0; order < from; ++order) tolerance *= rate(basis);
   for (int order = from; order < examined; ++order) {
     const ModeFunction& f = *derivatives[static_cast<std::size_t>(order)];

@@ -21,21 +21,15 @@ class Coulomb {
   /// Levels in N, 0 <= kinetic <= static_level.
   Coulomb(double kinetic, double static_level) : kinetic_(kinetic), static_(static_level) {}
 
-  [[nodiscard]] Memory start(const Instant&) const { return {}; }
   [[nodiscard]] double force(const Memory&, const Instant&, Direction direction) const {
     return sign(direction) * kinetic_;
   }
-  void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const {}
-  void jump(Memory&, Trigger, const Instant&, Direction) const {}
-
   [[nodiscard]] double static_limit(const Memory&, const Instant&) const { return static_; }
 
   [[nodiscard]] Affine affine_force(const Memory&, const Instant&, Direction direction) const {
     return {.constant = sign(direction) * kinetic_};
   }
-  void affine_guards(const Memory&, const Instant&, Direction, std::vector<Affine>&) const {}
   [[nodiscard]] Affine affine_limit(const Memory&, const Instant&) const { return {.constant = static_}; }
-  void advance(Memory&, const Instant&, const Instant&, Direction) const {}
 
  private:
   double kinetic_;

@@ -1,7 +1,7 @@
 #pragma once
 /// The law contract: what a friction law tells the driver, and what the driver does for it.
 ///
-/// A law is modes, guards and a jump. It is pure: it holds its parameters; what it remembers (`Memory`) belongs to
+/// A law is a force, and where it has modes: guards and a jump. It is pure: it holds its parameters; what it remembers (`Memory`) belongs to
 /// the driver. The driver owns the motion of the mass: position x and velocity v are continuous across every
 /// event, and the direction of slip is frozen between events.
 ///
@@ -15,9 +15,11 @@
 /// `static_limit`. With v = 0 the mass rests while |pull| <= the sum of the static limits, pull = all forces on
 /// the mass except those of laws with a static limit; otherwise it slips in the direction of the pull.
 ///
-/// Abilities, found by the compiler, never required:
+/// Only the force is required. Abilities are found by the compiler:
+///   modes          `start`, `guards`, `jump`: the law remembers something.
+///   static limit   `static_limit`: the law holds the mass at rest.
 ///   affine form    force, guards and limit as affine functions of time, position and velocity inside a mode: gives
-///                  the exact engine (`affine_force`, `affine_guards`, `affine_limit`, `advance`).
+///                  the exact engine (`affine_force`; `affine_limit`; `affine_guards` and `advance`).
 ///   own states     `rates`: d(state)/dt of a mode, for the smooth engine.
 ///
 /// Docs: `docs/decisions/002-law-contract.md` works contact compliance, Iwan and LuGre through this contract.
@@ -67,11 +69,16 @@ struct Affine {
 
 /// What every law provides.
 template <class L>
-concept FrictionLaw = std::copyable<L> && requires(const L& law, const Memory& frozen, Memory& memory,
-                                                   const Instant& now, Direction direction, Trigger trigger,
-                                                   std::vector<double>& values) {
+concept FrictionLaw =
+    std::copyable<L> && requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+      { law.force(memory, now, direction) } -> std::same_as<double>;
+    };
+
+/// Ability: modes or states of its own, with guards and a jump. Without it a law remembers nothing.
+template <class L>
+concept ModalLaw = requires(const L& law, const Memory& frozen, Memory& memory, const Instant& now,
+                            Direction direction, Trigger trigger, std::vector<double>& values) {
   { law.start(now) } -> std::same_as<Memory>;
-  { law.force(frozen, now, direction) } -> std::same_as<double>;
   { law.guards(frozen, now, direction, values) } -> std::same_as<void>;  // appends
   { law.jump(memory, trigger, now, direction) } -> std::same_as<void>;
 };
@@ -82,16 +89,21 @@ concept HoldsMass = requires(const L& law, const Memory& memory, const Instant& 
   { law.static_limit(memory, now) } -> std::same_as<double>;
 };
 
-/// Ability: affine in every mode.
+/// Ability: affine in every mode. A law that holds the mass adds `affine_limit`, a modal one `affine_guards` and
+/// `advance`, which brings its states from the start of a phase to its end.
 template <class L>
-concept AffineLaw = requires(const L& law, const Memory& frozen, Memory& memory, const Instant& now,
-                             Direction direction, std::vector<Affine>& guards) {
-  { law.affine_force(frozen, now, direction) } -> std::same_as<Affine>;
-  { law.affine_guards(frozen, now, direction, guards) } -> std::same_as<void>;  // appends
-  { law.affine_limit(frozen, now) } -> std::same_as<Affine>;                    // 0 when it cannot hold the mass
-  /// Brings own states from the start of a phase to its end.
-  { law.advance(memory, now, now, direction) } -> std::same_as<void>;
-};
+concept AffineLaw =
+    requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+      { law.affine_force(memory, now, direction) } -> std::same_as<Affine>;
+    } &&
+    (!HoldsMass<L> || requires(const L& law, const Memory& memory, const Instant& now) {
+      { law.affine_limit(memory, now) } -> std::same_as<Affine>;
+    }) &&
+    (!ModalLaw<L> || requires(const L& law, const Memory& frozen, Memory& memory, const Instant& now,
+                              Direction direction, std::vector<Affine>& guards) {
+      { law.affine_guards(frozen, now, direction, guards) } -> std::same_as<void>;  // appends
+      { law.advance(memory, now, now, direction) } -> std::same_as<void>;
+    });
 
 /// Ability: own continuous states for the smooth engine.
 template <class L>
@@ -116,6 +128,9 @@ class Law {
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
     model_->jump(memory, trigger, now, direction);
   }
+
+  /// False: start, guards, jump and advance do nothing and need not be called.
+  [[nodiscard]] bool is_modal() const { return model_->is_modal(); }
 
   [[nodiscard]] bool holds_mass() const { return model_->holds_mass(); }
   /// 0 for a law without the ability.
@@ -154,6 +169,7 @@ class Law {
     virtual double force(const Memory&, const Instant&, Direction) const = 0;
     virtual void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const = 0;
     virtual void jump(Memory&, Trigger, const Instant&, Direction) const = 0;
+    virtual bool is_modal() const = 0;
     virtual bool holds_mass() const = 0;
     virtual double static_limit(const Memory&, const Instant&) const = 0;
     virtual bool is_affine() const = 0;
@@ -175,17 +191,21 @@ template <class L>
 struct Law::Model final : Law::Interface {
   explicit Model(L value) : law(std::move(value)) {}
 
-  Memory start(const Instant& now) const override { return law.start(now); }
+  Memory start(const Instant& now) const override {
+    if constexpr (ModalLaw<L>) return law.start(now);
+    return {};
+  }
   double force(const Memory& memory, const Instant& now, Direction direction) const override {
     return law.force(memory, now, direction);
   }
   void guards(const Memory& memory, const Instant& now, Direction direction,
               std::vector<double>& values) const override {
-    law.guards(memory, now, direction, values);
+    if constexpr (ModalLaw<L>) law.guards(memory, now, direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override {
-    law.jump(memory, trigger, now, direction);
+    if constexpr (ModalLaw<L>) law.jump(memory, trigger, now, direction);
   }
+  bool is_modal() const override { return ModalLaw<L>; }
   bool holds_mass() const override { return HoldsMass<L>; }
   double static_limit(const Memory& memory, const Instant& now) const override {
     if constexpr (HoldsMass<L>) return law.static_limit(memory, now);
@@ -199,14 +219,14 @@ struct Law::Model final : Law::Interface {
   }
   void affine_guards(const Memory& memory, const Instant& now, Direction direction,
                      std::vector<Affine>& guards) const override {
-    if constexpr (AffineLaw<L>) law.affine_guards(memory, now, direction, guards);
+    if constexpr (AffineLaw<L> && ModalLaw<L>) law.affine_guards(memory, now, direction, guards);
   }
   Affine affine_limit(const Memory& memory, const Instant& now) const override {
-    if constexpr (AffineLaw<L>) return law.affine_limit(memory, now);
+    if constexpr (AffineLaw<L> && HoldsMass<L>) return law.affine_limit(memory, now);
     return {};
   }
   void advance(Memory& memory, const Instant& begin, const Instant& end, Direction direction) const override {
-    if constexpr (AffineLaw<L>) law.advance(memory, begin, end, direction);
+    if constexpr (AffineLaw<L> && ModalLaw<L>) law.advance(memory, begin, end, direction);
   }
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> out) const override {
     if constexpr (StateLaw<L>) law.rates(memory, now, direction, out);

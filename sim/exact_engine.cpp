@@ -76,6 +76,7 @@ ExactEngine::ExactEngine(const Model& model)
   for (const friction::Law& law : model_.friction) {
     assert(law.is_affine());
     holds_mass_.push_back(law.holds_mass());
+    modal_.push_back(law.is_modal());
     can_rest_ = can_rest_ || law.holds_mass();
   }
   law_guard_counts_.resize(model_.friction.size());
@@ -137,7 +138,7 @@ void ExactEngine::collect(bool with_guards) {
     } else {
       add_force(law.affine_force(memories_[i], at, direction_));
     }
-    if (!with_guards) continue;
+    if (!with_guards || !modal_[i]) continue;
     const std::size_t before = law_guards_.size();
     law.affine_guards(memories_[i], at, direction_, law_guards_);
     law_guard_counts_[i] = law_guards_.size() - before;
@@ -265,9 +266,8 @@ Direction ExactEngine::settle_closely(double tolerance) {
 
 void ExactEngine::change_direction(Direction direction) {
   direction_ = direction;
-  const friction::Instant at = now();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    model_.friction[i].jump(memories_[i], {}, at, direction_);
+    if (modal_[i]) model_.friction[i].jump(memories_[i], {}, now(), direction_);
   }
 }
 
@@ -405,9 +405,8 @@ void ExactEngine::advance(double s, bool to_period_end) {
     }
     drive_.pass(s);
   }
-  const friction::Instant after = now();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    model_.friction[i].advance(memories_[i], before, after, direction_);
+    if (modal_[i]) model_.friction[i].advance(memories_[i], before, now(), direction_);
   }
 }
 

@@ -123,7 +123,8 @@ class ExactEngine {
 
   Model model_;
   Drive drive_;
-  std::vector<bool> holds_mass_;  ///< of each law
+  std::vector<char> holds_mass_;  ///< of each law
+  std::vector<char> modal_;       ///< of each law
   bool can_rest_ = false;  ///< some law has a static limit
   double x_ = 0.0;
   double v_ = 0.0;
