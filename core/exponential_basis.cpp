@@ -79,7 +79,9 @@ Complex divided_exponential(const Nodes& nodes, double s) {
 }
 
 /// exp(w) - 1 for |w| < shift_limit.
-Complex small_exponential(Complex w) {
+Complex small_exponential(Complex w, bool tiny) {
+  // w^3/6 adds nothing to 1.
+  if (tiny) return w * (1.0 + 0.5 * w);
   return w * (1.0 + w * (1.0 / 2.0 + w * (1.0 / 6.0 + w * (1.0 / 24.0 + w * (1.0 / 120.0)))));
 }
 
@@ -132,10 +134,11 @@ void ExponentialBasis::evaluate(double s, Values& values) const {
 }
 
 bool ExponentialBasis::shift(double delta, Values& values) const {
-  if (has_chains_ || !(fastest_ * std::abs(delta) < shift_limit)) return false;
+  const double angle = fastest_ * std::abs(delta);
+  if (has_chains_ || !(angle < shift_limit)) return false;
   for (std::size_t k = 0; k < index(size_); ++k) {
     if (square_[k] == 0.0) continue;
-    const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta);
+    const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta, angle < 5e-6);
     const Complex old(values.re[k], values.im[k]);
     const Complex value = old + old * gain;
     values.re[k] = value.real();
