@@ -371,12 +371,13 @@ double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
 
 /// Panels meet where every guard is decided beyond rounding; moves an undecided inner end b, evaluates there.
 double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double b,
-                       double horizon, ExponentialBasis::Values& values) {
-  for (int attempt = 0; attempt < 4 && b < horizon; ++attempt) {
-    const auto undecided = [&](const Guard& guard) {
-      return guard.amplitude > 0.0 && std::abs(evaluate(basis, guard.value, values)) <= graze * guard.amplitude;
-    };
-    if (std::none_of(guards.begin(), guards.end(), undecided)) break;
+                       ExponentialBasis::Values& values) {
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    bool decided = true;
+    for (const Guard& guard : guards) {
+      decided = decided && std::abs(evaluate(basis, guard.value, values)) >= graze * guard.amplitude;
+    }
+    if (decided) break;
     b = a + 0.77 * (b - a);
     basis.evaluate(b, values);
   }
@@ -432,7 +433,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     } else {
       basis.evaluate(b, right);
     }
-    b = clear_panel_end(basis, guards, a, b, horizon, right);
+    if (b < horizon) b = clear_panel_end(basis, guards, a, b, right);
     double first = -1.0;
     for (std::size_t g = 0; g < guards.size(); ++g) {
       if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
