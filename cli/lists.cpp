@@ -4,17 +4,12 @@
 #include "core/numbers.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
-#include "scenarios/run.hpp"
 
 namespace dualdamp::cli {
 
 namespace {
 
-using scenarios::Table;
-
-void add_row(Table& table, const std::vector<std::string>& cells) {
-  for (std::size_t i = 0; i < cells.size(); ++i) table.columns[i].texts.push_back(cells[i]);
-}
+using Rows = std::vector<std::vector<std::string>>;
 
 template <typename Entries>
 Listing unknown(const std::string& what, const std::string& name, const Entries& entries) {
@@ -41,30 +36,30 @@ std::string needs_of(const identify::MethodEntry& method) {
 
 Listing list_laws(const std::string& name) {
   if (name.empty()) {
-    Table table{"laws", {{"law"}, {"engine"}, {"what it is"}}};
+    Rows rows;
     for (const friction::LawEntry& law : friction::laws())
-      add_row(table, {std::string(law.name), engine_name(law.engine), std::string(law.summary)});
-    return {readable(table)};
+      rows.push_back({std::string(law.name), engine_name(law.engine), std::string(law.summary)});
+    return {columns(rows)};
   }
   const friction::LawEntry* law = friction::find_law(name);
   if (law == nullptr) return unknown("law", name, friction::laws());
-  Table table{"parameters", {{"parameter"}, {"unit"}, {"default"}, {"range"}, {"meaning"}}};
+  Rows rows = {{"parameter", "unit", "default", "range", "meaning"}};
   for (const friction::Parameter& parameter : law->parameters) {
     std::string range = parameter.range.describe(parameter.unit);
     if (!parameter.at_least.empty()) range += ", >= " + std::string(parameter.at_least);
-    add_row(table, {std::string(parameter.name), std::string(parameter.unit), default_of(parameter), range,
+    rows.push_back({std::string(parameter.name), std::string(parameter.unit), default_of(parameter), range,
                     std::string(parameter.meaning)});
   }
   return {std::string(law->name) + ": " + std::string(law->summary) + "\n\n  " + std::string(law->equation) +
-          "\n  engine: " + engine_name(law->engine) + "\n\n" + readable(table)};
+          "\n  engine: " + engine_name(law->engine) + "\n\n" + columns(rows)};
 }
 
 Listing list_methods(const std::string& name) {
   if (name.empty()) {
-    Table table{"methods", {{"method"}, {"needs"}, {"what it does"}}};
+    Rows rows;
     for (const identify::MethodEntry& method : identify::methods())
-      add_row(table, {std::string(method.name), needs_of(method), std::string(method.summary)});
-    return {readable(table)};
+      rows.push_back({std::string(method.name), needs_of(method), std::string(method.summary)});
+    return {columns(rows)};
   }
   const identify::MethodEntry* method = identify::find_method(name);
   if (method == nullptr) return unknown("method", name, identify::methods());

@@ -53,25 +53,8 @@ std::string aligned(const std::vector<Block>& blocks) {
   return text;
 }
 
-std::string checks_table(const std::vector<scenarios::Check>& checks) {
-  scenarios::Table table{"checks", {{"value"}, {"paper"}, {"here"}, {"difference"}, {"ok"}, {"source"}}};
-  for (const scenarios::Check& check : checks) {
-    const auto found = core::parse_number(check.found);
-    table.columns[0].texts.push_back(check.path);
-    table.columns[1].texts.push_back(check.expected);
-    table.columns[2].texts.push_back(found.value ? core::format_number(*found.value, digits) : check.found);
-    table.columns[3].texts.push_back(check.difference ? core::format_number(*check.difference, 3) : "-");
-    table.columns[4].texts.push_back(check.ok ? "yes" : "NO");
-    table.columns[5].texts.push_back(check.source);
-  }
-  std::vector<Block> blocks;
-  for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, checks.size()));
-  return aligned(blocks);
-}
-
-}  // namespace
-
-std::string readable(const scenarios::Table& table) {
+/// The head, and as many rows as people read.
+std::string table_text(const scenarios::Table& table) {
   const std::size_t all = table.columns.empty() ? 0 : table.columns.front().size();
   const std::size_t rows = std::min(all, max_rows);
   std::vector<Block> blocks;
@@ -81,11 +64,32 @@ std::string readable(const scenarios::Table& table) {
   return text;
 }
 
+std::string checks_text(const std::vector<scenarios::Check>& checks) {
+  std::vector<std::vector<std::string>> rows = {{"value", "paper", "here", "difference", "ok", "source"}};
+  for (const scenarios::Check& check : checks) {
+    const auto found = core::parse_number(check.found);
+    rows.push_back({check.path, check.expected,
+                    found.value ? core::format_number(*found.value, digits) : check.found,
+                    check.difference ? core::format_number(*check.difference, 3) : "-", check.ok ? "yes" : "NO",
+                    check.source});
+  }
+  return columns(rows);
+}
+
+}  // namespace
+
+std::string columns(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<Block> blocks(rows.empty() ? 0 : rows.front().size());
+  for (const std::vector<std::string>& row : rows)
+    for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].cells.push_back(row[i]);
+  return aligned(blocks);
+}
+
 std::string readable(const scenarios::Scenario& scenario, const scenarios::RunResult& result) {
   std::string text = scenario.file + ": " + scenario.analysis_name;
   if (!scenario.title.empty()) text += ": " + scenario.title;
   text += "\n";
-  if (!result.summary.columns.empty() && result.summary.columns.front().size() > 0) {
+  if (result.summary.columns.front().size() > 0) {
     std::vector<Block> blocks;
     for (const scenarios::Column& column : result.summary.columns)
       blocks.push_back(block(column, result.summary.columns.front().size()));
@@ -93,8 +97,8 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
     text += "\n" + aligned(blocks);
   }
   for (const scenarios::Table& table : result.tables)
-    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + readable(table);
-  if (!result.checks.empty()) text += "\n" + checks_table(result.checks);
+    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table);
+  if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
   return text;
 }
 

@@ -2,6 +2,7 @@
 /// Results for people: aligned tables with units.
 
 #include <string>
+#include <vector>
 
 #include "scenarios/run.hpp"
 
@@ -10,7 +11,7 @@ namespace dualdamp::cli {
 /// Title, single numbers, lists and the comparison with expected values.
 [[nodiscard]] std::string readable(const scenarios::Scenario& scenario, const scenarios::RunResult& result);
 
-/// Columns of `table` side by side under their names, two blanks apart. Long tables are cut.
-[[nodiscard]] std::string readable(const scenarios::Table& table);
+/// Rows of texts in columns two blanks apart.
+[[nodiscard]] std::string columns(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace dualdamp::cli

@@ -25,6 +25,16 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
+/// What is filled in later stands where a file has it.
+void put_in_order(Json& values, const Section& section) {
+  Json sorted = Json::object();
+  for (const auto& [key, value] : values.items())
+    if (section.find(key) == nullptr) sorted[key] = value;  // the key that tells which section it is
+  for (const Field& field : section.fields)
+    if (values.contains(field.name)) sorted[field.name] = values.at(field.name);
+  values = std::move(sorted);
+}
+
 class Checker {
  public:
   Checker(const Document& document, Reading& reading, const CheckOptions& options)
@@ -151,14 +161,9 @@ class Checker {
     const auto ratio = number_at("system", "damping_ratio");
     if (!m || !k || !ratio) return;
     Json& system = values_["system"];
-    Json resolved = Json::object();
-    for (const auto& [key, value] : system.items()) {
-      if (key == "damping_ratio")
-        resolved["damping"] = *ratio * 2.0 * std::sqrt(*m * *k);
-      else
-        resolved[key] = value;
-    }
-    system = std::move(resolved);
+    system.erase("damping_ratio");
+    system["damping"] = *ratio * 2.0 * std::sqrt(*m * *k);
+    put_in_order(system, scenario_format().find("system")->choice->variants.front().section);
   }
 
   void resolve_frequency() {
@@ -271,6 +276,7 @@ class Checker {
     Json& analysis = values_["analysis"];
     if (!stands_in_file("analysis", "methods")) {
       analysis["methods"] = fitting;
+      put_in_order(analysis, analyses().find(analysis_)->section);
     } else if (analysis.contains("methods")) {
       for (std::size_t i = 0; i < analysis["methods"].size(); ++i) {
         const auto name = analysis["methods"][i].get<std::string>();

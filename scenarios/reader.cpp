@@ -88,7 +88,7 @@ class Reader {
       if (const Entry* entry = node.find(name)) given.push_back(entry);
     const std::string list = joined(alternatives.names);
     const std::string where = path.empty() ? "the scenario" : "'" + path + "'";
-    if (given.empty() && alternatives.is_required) complain(node.place, where + " needs one of " + list, list);
+    if (given.empty() && alternatives.is_required) complain(node.head(), where + " needs one of " + list, list);
     for (std::size_t i = 1; i < given.size(); ++i)
       complain(given[i]->place, where + " takes only one of " + list, "one of " + list,
                "'" + given[0]->key + "' in line " + std::to_string(given[0]->place.line) + " as well");

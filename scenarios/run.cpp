@@ -106,8 +106,7 @@ class Runner {
 };
 
 /// The numbers of the result that are no part of a list of records, in the order of the tables of the format.
-Table summary(const Scenario& scenario, const Json& result) {
-  Table table{"summary", {{"name"}, {"value"}, {"unit"}}};
+void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
     if (value.is_structured()) return;
     constexpr int digits = 9;
@@ -130,7 +129,6 @@ Table summary(const Scenario& scenario, const Json& result) {
       for (std::size_t i = 0; i < value.size(); ++i)
         add(stem + "[" + std::to_string(i) + "]", value.at(i), field.unit);
   }
-  return table;
 }
 
 core::Provenance provenance_of(const Scenario& scenario) {
@@ -163,7 +161,7 @@ RunResult run(const Scenario& scenario) {
     return result;
   }
   result.result = answer.result.dump();
-  result.summary = summary(scenario, answer.result);
+  summarise(scenario, answer.result, result.summary);
   result.tables = std::move(answer.tables);
   result.checks = compare(scenario.expect, answer.result);
   if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;

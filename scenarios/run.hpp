@@ -46,7 +46,8 @@ struct RunResult {
   std::string result = "null";                       ///< JSON
   std::string failure;                               ///< why there is no result
   std::vector<std::string> warnings;
-  Table summary;              ///< the single numbers of the result: name, value, unit
+  /// The single numbers of the result as text, for people.
+  Table summary{"summary", {{"name"}, {"value"}, {"unit"}}};
   std::vector<Table> tables;  ///< its lists; each becomes a file
   std::vector<Check> checks;
   core::Provenance provenance;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/provenance.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/checks.hpp"
@@ -34,6 +35,12 @@ double number_or(const Json& section, const char* key, double fallback) {
   return section.contains(key) ? number(section.at(key)) : fallback;
 }
 
+/// The decimal number a person means: 0 to 0.6 in six steps passes 0.1, not 0.09999999999999999.
+double plain(double value) {
+  constexpr int digits = 14;
+  return core::parse_number(core::format_number(value, digits)).value.value_or(value);
+}
+
 std::vector<double> grid_values(const Json& grid) {
   std::vector<double> values;
   if (grid.is_array()) {
@@ -46,9 +53,10 @@ std::vector<double> grid_values(const Json& grid) {
   const bool is_log = grid.at("spacing") == "log";
   for (std::size_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    values.push_back(is_log ? from * std::pow(to / from, share) : from + share * (to - from));
+    values.push_back(is_log ? from * std::pow(to / from, share) : plain(from + share * (to - from)));
   }
-  values.back() = to;  // not a rounding beside it
+  values.front() = from;
+  values.back() = to;
   return values;
 }
 

@@ -1,6 +1,7 @@
 #include "scenarios/schema.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "core/units.hpp"
 #include "scenarios/format.hpp"
@@ -45,7 +46,7 @@ void add_range(Json& schema, const friction::Range& range) {
 }
 
 Json number_schema(const friction::Range& range) {
-  Json schema = {{"type", "number"}};
+  Json schema = {{"type", "number"}, {"not", {{"$ref", "#/definitions/not_finite"}}}};
   add_range(schema, range);
   return schema;
 }
@@ -114,7 +115,7 @@ Json field_form(const Field& field) {
     case Kind::word_list:
       return list_schema(field, {{"enum", field.words}});
     case Kind::scalar:
-      return {{"type", {"number", "boolean", "string"}}};
+      return {{"anyOf", {number_schema({}), {{"type", "boolean"}}, {{"type", "string"}}}}};
     case Kind::choice:
       break;
   }
@@ -208,6 +209,9 @@ std::string json_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "dualdamp scenario"},
                  {"description", "Made by 'dualdamp schema' from the tables of the scenario reader."}};
+  // YAML readers know .inf and .nan. NaN passes any bound, so it is the negation of one that catches it.
+  constexpr double largest = std::numeric_limits<double>::max();
+  schema["definitions"]["not_finite"] = {{"anyOf", {{{"minimum", largest}}, {{"maximum", -largest}}}}};
   schema.update(object_schema(scenario_format(), nullptr, ""));
   schema["allOf"] = Json::array();
   for (const Needs& row : needs())

@@ -29,19 +29,19 @@ int count_characters(std::string_view text) {
 }
 
 /// yaml-cpp's messages in the words of someone who writes a file.
-std::string in_plain_words(const std::string& message, std::string_view text, int position) {
-  const auto at = static_cast<std::size_t>(std::max(position, 0));
+std::string in_plain_words(const std::string& message, std::string_view text, std::size_t at) {
   if (message == "end of map flow not found" && at > 0 && at < text.size() && text[at] == '[' &&
       text[at - 1] != ' ')
     return "between { and } a text with brackets, such as points[0].x, needs quotes";
-  static constexpr std::array<std::array<std::string_view, 2>, 7> translations = {{
+  static constexpr std::array<std::array<std::string_view, 2>, 8> translations = {{
       {"end of map not found",
        "this does not fit what stands above: check the indentation and a missing ':' or quote"},
       {"end of sequence not found", "this does not fit the list above: check the indentation and the '-'"},
       {"illegal map value",
        "a ':' is out of place here: one key a line, and quotes around text that contains ': '"},
-      {"end of map flow not found", "a '{' above is not closed by '}'"},
-      {"end of sequence flow not found", "a '[' above is not closed by ']'"},
+      {"end of map flow not found", "this '{' is not closed by '}'"},
+      {"end of sequence flow not found", "this '[' is not closed by ']'"},
+      {"illegal EOF in scalar", "the text ends inside quotes that are not closed"},
       {"illegal flow end", "this bracket closes nothing"},
       {"unknown token", "a value cannot begin with this character: put the text in quotes"},
   }};
@@ -84,6 +84,17 @@ class TreeBuilder final : public YAML::EventHandler {
                          std::move(allowed),
                          std::move(found),
                          {}});
+  }
+
+  /// What yaml-cpp stumbled over, in plain words, and gives up.
+  [[noreturn]] void fail(const YAML::Exception& error) {
+    const std::string message = in_plain_words(error.msg, text_, offset(error.mark));
+    const bool unclosed = message.find("not closed") != std::string::npos;
+    const auto opener = std::find_if(stack_.rbegin(), stack_.rend(), [&](const Frame& frame) {
+      return at(frame.offset) == '{' || at(frame.offset) == '[';
+    });
+    complain(unclosed && opener != stack_.rend() ? opener->offset : offset(error.mark), message);
+    throw InputError(problems_);
   }
 
   /// Says what is wrong with the text at `mark` and gives up.
@@ -136,6 +147,7 @@ class TreeBuilder final : public YAML::EventHandler {
     } else if (first != '!' && first != '&' && text_.compare(where, value.size(), value) != 0) {
       complain(where, "this value runs on into the next line",
                "a value on one line: check the indentation and the ':' of the next line, or put text in quotes");
+      node.kind = Node::Kind::null;
     }
     if (awaits_key())
       begin_entry(std::move(node), where);
@@ -158,7 +170,8 @@ class TreeBuilder final : public YAML::EventHandler {
  private:
   struct Frame {
     Node node;
-    bool has_key = false;  ///< a map's key has come, its value not yet
+    std::size_t offset = 0;  ///< where it opens
+    bool has_key = false;    ///< a map's key has come, its value not yet
     std::string key;
     Place key_place;
     std::size_t key_offset = 0;
@@ -206,7 +219,9 @@ class TreeBuilder final : public YAML::EventHandler {
         ++i;
       }
     }
+    // The rest of the file is inside it: nothing more can be said.
     complain(where, "this quote is not closed on its line");
+    throw InputError(problems_);
   }
 
   void complain_about_missing_value() {
@@ -242,6 +257,7 @@ class TreeBuilder final : public YAML::EventHandler {
       return;
     }
     frame.has_key = false;
+    if (frame.key == "<<") return;
     node.key_place = frame.key_place;
     constexpr std::size_t max_keys = 1000;
     if (frame.node.entries.size() >= max_keys) {
@@ -258,6 +274,7 @@ class TreeBuilder final : public YAML::EventHandler {
       fail(mark, "this is nested deeper than " + std::to_string(max_depth) + " levels");
     refuse_properties(mark, tag, anchor);
     Frame frame;
+    frame.offset = offset(mark);
     frame.node.kind = kind;
     frame.node.place = place(mark);
     stack_.push_back(std::move(frame));
@@ -372,7 +389,7 @@ Node Document::parse(int source, std::size_t begin) {
   try {
     while (parser.HandleNextDocument(builder)) continue;
   } catch (const YAML::Exception& error) {
-    builder.fail(error.mark, in_plain_words(error.msg, text.substr(begin), error.mark.pos));
+    builder.fail(error);
   }
   problems_.insert(problems_.end(), builder.problems().begin(), builder.problems().end());
   return builder.take_root();

@@ -1,0 +1,127 @@
+#include "core/units.hpp"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+using namespace dualdamp::core;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double si(const char* text, const char* unit) {
+  const QuantityText quantity = parse_quantity(text, unit);
+  CAPTURE(text, quantity.fault);
+  REQUIRE(quantity.value.has_value());
+  return *quantity.value;
+}
+
+std::string fault(const char* text, const char* unit) {
+  const QuantityText quantity = parse_quantity(text, unit);
+  CAPTURE(text);
+  CHECK_FALSE(quantity.value.has_value());
+  return quantity.fault;
+}
+
+}  // namespace
+
+TEST_CASE("units: what an engineer types", "[core][units]") {
+  CHECK(si("1.042 kg", "kg") == 1.042);
+  CHECK(si("200 g", "kg") == 0.2);
+  CHECK(si("3 um", "m") == 3e-6);
+  CHECK(si("3um", "m") == 3e-6);
+  CHECK(si("3 \u00b5m", "m") == 3e-6);
+  CHECK(si("3 \u03bcm", "m") == 3e-6);
+  CHECK(si("5 mm", "m") == 0.005);
+  CHECK(si("1 in", "m") == 0.0254);
+  CHECK(si("5 N/mm", "N/m") == 5000.0);
+  CHECK(si("1.5 kN/m", "N/m") == 1500.0);
+  for (const char* text :
+       {"4 N.s/m", "4 N*s/m", "4 N s/m", "4 N\u00b7s/m", "4 kg/s", "4 s.N/m", "4 N.s.m^-1", "4 N.s.m-1"})
+    CHECK(si(text, "N.s/m") == 4.0);
+  CHECK(si("20 ms", "s") == 0.02);
+  CHECK(si("36 km/h", "m/s") == Approx(10.0).epsilon(1e-15));
+  CHECK(si("2000 N/m\u00b3", "N/m^3") == 2000.0);
+  CHECK(si("20 %", "1") == 0.2);
+  CHECK(si("5", "kg") == 5.0);
+}
+
+TEST_CASE("units: a hertz is 2 pi radians a second", "[core][units]") {
+  CHECK(si("1 Hz", "rad/s") == 2.0 * pi);
+  CHECK(si("6.17 Hz", "rad/s") == 6.17 * 2.0 * pi);
+  CHECK(si("1 kHz", "rad/s") == Approx(2000.0 * pi).epsilon(1e-15));
+  CHECK(si("60 rpm", "rad/s") == Approx(2.0 * pi).epsilon(1e-15));
+  CHECK(si("38.79 rad/s", "rad/s") == 38.79);
+  CHECK(fault("10", "rad/s").find("needs its unit") != std::string::npos);
+  CHECK(fault("10 1/s", "rad/s").find("not a unit of a frequency") != std::string::npos);
+  CHECK(fault("10 deg/s", "rad/s").find("not a unit of a frequency") != std::string::npos);
+}
+
+TEST_CASE("units: rates and frequencies do not mix", "[core][units]") {
+  CHECK(si("1 kHz", "1/s") == 1000.0);
+  CHECK(si("1 1/s", "1/s") == 1.0);
+  CHECK(fault("1 rad/s", "1/s").find("not a unit of a rate") != std::string::npos);
+  CHECK(fault("1 rpm", "1/s").find("not a unit of a rate") != std::string::npos);
+  CHECK(fault("0.2 rad", "1").find("not a unit of a number") != std::string::npos);
+}
+
+TEST_CASE("units: angles", "[core][units]") {
+  CHECK(si("90 deg", "rad") == pi / 2.0);
+  CHECK(si("90\u00b0", "rad") == pi / 2.0);
+  CHECK(si("180 deg", "rad") == pi);
+  CHECK(si("1", "rad") == 1.0);
+  CHECK(fault("5 %", "rad").find("not a unit of an angle") != std::string::npos);
+}
+
+TEST_CASE("units: the wrong dimension is refused, reciprocals included", "[core][units]") {
+  CHECK(fault("1 N", "kg") == "'N' is not a unit of a mass");
+  CHECK(fault("4 N/m", "N.s/m") == "'N/m' is not a unit of a damping coefficient");
+  CHECK(fault("10 Hz", "s") == "'Hz' is not a unit of a time");
+  CHECK(fault("10 s", "1/s") == "'s' is not a unit of a rate");
+  CHECK(fault("20 degC", "K").find("not a unit") != std::string::npos);
+}
+
+TEST_CASE("units: udunits2 never sees what it would misread", "[core][units]") {
+  for (const char* text :
+       {"5 m^0.5", "5 m^1/2", "5 m^(1/2)", "5 m0.5", "5 2 m", "5 m 2", "5 m @ 3", "5 s since 1990", "5 lg(re 1 mW)",
+        "5 m^", "5 /s", "5 m^10", "5 m)", "5 (m", "5 m..m", "5 1000 m", "5 m\nm"})
+    CHECK(fault(text, "m").find("is not a unit") != std::string::npos);
+}
+
+TEST_CASE("units: an unknown unit, and one that differs in case only", "[core][units]") {
+  CHECK(fault("9 bananas", "N") == "the unit 'bananas' is not known");
+  CHECK(parse_quantity("5 KG", "kg").suggestion == "5 kg");
+  CHECK(parse_quantity("5 n", "N").suggestion == "5 N");
+}
+
+TEST_CASE("units: all usual units are units of their dimension", "[core][units]") {
+  for (const char* dimension : {"1", "kg", "m", "s", "N", "N/m", "N.s/m", "m/s", "m/s^2", "N/s", "N/m^3", "1/s",
+                                "J", "W", "rad", "rad/s"}) {
+    REQUIRE_FALSE(usual_units(dimension).empty());
+    CHECK(usual_units(dimension).front() == dimension);
+    for (const std::string_view unit : usual_units(dimension)) {
+      CAPTURE(dimension, unit);
+      if (unit != "1") CHECK(parse_quantity("1 " + std::string(unit), dimension).value.has_value());
+    }
+  }
+}
+
+TEST_CASE("units: factors for the heads of columns", "[core][units]") {
+  CHECK(unit_factor("mm", "m").value == 1e-3);
+  CHECK(unit_factor("", "m").value == 1.0);
+  CHECK_FALSE(unit_factor("kg", "m").value.has_value());
+}
+
+TEST_CASE("units: several threads may ask at once", "[core][units]") {
+  std::vector<std::jthread> threads;
+  std::vector<int> good(4, 0);
+  for (std::size_t t = 0; t < good.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 500; ++i)
+        good[t] += parse_quantity(std::to_string(i) + " N/cm", "N/m").value == 100.0 * i ? 1 : 0;
+    });
+  threads.clear();
+  for (const int count : good) CHECK(count == 500);
+}

@@ -1,0 +1,174 @@
+#include "scenarios/run.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "files.hpp"
+#include "identify/csv_reader.hpp"
+#include "scenarios/output.hpp"
+
+using namespace dualdamp;
+using nlohmann::json;
+using scenarios::RunResult;
+using scenarios::Scenario;
+
+namespace {
+
+Scenario scenario_of(const std::string& analysis, const std::string& more = {}) {
+  return scenarios::parse_scenario(
+      "schema: dualdamp/1\n"
+      "system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}\n"
+      "excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}\n"
+      "analysis: " +
+          analysis + "\n" + more,
+      "test.yaml");
+}
+
+json result_of(const RunResult& result) { return json::parse(result.result); }
+
+/// No number of the document is infinite or NaN: JSON would not have it, and null must say so.
+void check_finite(const json& value) {
+  if (value.is_structured())
+    for (const json& item : value) check_finite(item);
+  if (value.is_number_float()) CHECK(std::isfinite(value.get<double>()));
+}
+
+}  // namespace
+
+TEST_CASE("run: every shipped scenario gives what it expects", "[scenarios][run]") {
+  for (const std::string folder : {"scenarios/paper", "scenarios/examples"})
+    for (const auto& path : testing::yaml_files(folder)) {
+      CAPTURE(path.string());
+      const RunResult result = scenarios::run(scenarios::load_scenario(path.string()));
+      CHECK(result.status == core::ExitStatus::done);
+      for (const scenarios::Check& check : result.checks) {
+        CAPTURE(check.path, check.expected, check.found);
+        CHECK(check.ok);
+      }
+      check_finite(result_of(result));
+    }
+}
+
+TEST_CASE("run: the keys of the results are those of the contract", "[scenarios][run]") {
+  const auto keys = [](const json& object) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : object.items()) names.push_back(key);
+    return names;
+  };
+  const json state = result_of(scenarios::run(scenario_of("{type: steady_state}")));
+  for (const char* key : {"peak", "trough", "amplitude", "phase", "period", "max_speed", "stops_per_cycle",
+                          "sticks", "multipliers", "energy"})
+    CHECK(state.contains(key));
+  const json curve = result_of(scenarios::run(scenario_of("{type: xy_curve, amplitudes: [0.1]}")));
+  CHECK(keys(curve.at("points").at(0)) == std::vector<std::string>{"Y", "stable", "sticks", "stops", "x"});
+  const json response = result_of(scenarios::run(scenario_of("{type: frequency_response, frequencies: [1 Hz]}")));
+  CHECK(keys(response.at("points").at(0)) ==
+        std::vector<std::string>{"omega", "phase", "stable", "sticks", "stops", "x"});
+  const json history = result_of(scenarios::run(scenario_of("{type: simulate, cycles: 2}")));
+  for (const char* key : {"events", "final", "energy"}) CHECK(history.contains(key));
+  CHECK(keys(history.at("events").at(0)) == std::vector<std::string>{"kind", "t", "v", "x"});
+  const json estimates = result_of(
+      scenarios::run(scenario_of("{type: identify, measurement: {type: xy_curve, amplitudes: [0.1, 0.2, 0.3]}}")));
+  for (const char* key : {"method", "zeta", "c", "x_f", "F0", "std", "interval95", "diagnostics", "usable"})
+    CHECK(estimates.at("estimates").at(0).contains(key));
+  CHECK(estimates.contains("fit"));
+}
+
+TEST_CASE("run: an expected value that is off ends with status 1 and says by how much", "[scenarios][run]") {
+  const RunResult result = scenarios::run(scenario_of(
+      "{type: steady_state}", "expect:\n  - {value: peak, equals: 0.186, within: 1.0e-6, source: nowhere}\n"));
+  CHECK(result.status == core::ExitStatus::check_failed);
+  REQUIRE(result.checks.size() == 1);
+  CHECK_FALSE(result.checks[0].ok);
+  CHECK(result.checks[0].difference == Approx(7.81e-5).epsilon(1e-3));
+  CHECK(result_of(result).at("peak").get<double>() == Approx(0.186078).epsilon(1e-6));
+}
+
+TEST_CASE("run: bounds of expected values", "[scenarios][run]") {
+  const auto ok = [](const std::string& expectation) {
+    const RunResult result = scenarios::run(scenario_of("{type: steady_state}", "expect: [" + expectation + "]\n"));
+    return result.checks.at(0).ok;
+  };
+  CHECK(ok("{value: stops_per_cycle, equals: 0}"));
+  CHECK(ok("{value: stable, equals: true}"));
+  CHECK_FALSE(ok("{value: stable, equals: false}"));
+  CHECK_FALSE(ok("{value: peak, equals: 0.186078}"));
+  CHECK(ok("{value: peak, equals: 0.186, within: 1.0e-3}"));
+  CHECK(ok("{value: trough, equals: -0.186, within_relative: 1.0e-3}"));
+  CHECK_FALSE(ok("{value: trough, equals: -0.186, within_relative: 1.0e-4}"));
+  CHECK_FALSE(ok("{value: peak, equals: high}"));
+}
+
+TEST_CASE("run: a path that is not in the result is the scenario's fault", "[scenarios][run]") {
+  const Scenario scenario =
+      scenario_of("{type: simulate, cycles: 1}", "expect:\n  - {value: \"events[999].t\", equals: 1}\n");
+  try {
+    (void)scenarios::run(scenario);
+    FAIL("accepted");
+  } catch (const core::InputError& error) {
+    REQUIRE(error.diagnostics().size() == 1);
+    CHECK(error.diagnostics()[0].place.line == 6);
+    CHECK(error.diagnostics()[0].place.column == 13);
+  }
+}
+
+TEST_CASE("run: no steady state is a numerical failure without a result", "[scenarios][run]") {
+  // Negative damping above what dry friction takes out: the motion grows without bound.
+  const Scenario scenario = scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 100, damping: -4}\n"
+      "excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: natural}\nanalysis: {type: steady_state}\n",
+      "growing.yaml");
+  const RunResult result = scenarios::run(scenario);
+  CHECK(result.status == core::ExitStatus::numerical_failure);
+  CHECK(result.result == "null");
+  CHECK_FALSE(result.failure.empty());
+  const json document = json::parse(scenarios::json_document(scenario, result));
+  CHECK(document.at("status") == 4);
+  CHECK(document.at("result").is_null());
+  CHECK(document.at("errors").at(0).at("message") == result.failure);
+}
+
+TEST_CASE("run: a document opens with program and provenance and repeats the scenario", "[scenarios][run]") {
+  const Scenario scenario = scenario_of("{type: steady_state}");
+  const RunResult result = scenarios::run(scenario);
+  const auto document = nlohmann::ordered_json::parse(scenarios::json_document(scenario, result));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : document.items()) keys.push_back(key);
+  CHECK(keys == std::vector<std::string>{"program", "provenance", "scenario", "analysis", "status", "result",
+                                         "warnings", "checks", "errors"});
+  CHECK(document.at("program").at("name") == "dualdamp");
+  CHECK(document.at("analysis") == "steady_state");
+  CHECK(document.at("scenario").at("system").at("friction").at("static") == 2.0);
+  CHECK(document.at("provenance").at("scenario_sha256").get<std::string>().size() == 64);
+}
+
+TEST_CASE("run: a table opens with comments and reads back to the same bits", "[scenarios][run]") {
+  scenarios::Table table{"curve",
+                         {{"Y", "m", {0.1, 1.0 / 3.0, 1e-5}, {}},
+                          {"x", "m", {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0}, {}},
+                          {"reason", "", {}, {"", "a, \"b\"", "# c"}}}};
+  core::Provenance provenance;
+  provenance.source = "two\nlines.yaml";
+  std::istringstream lines(scenarios::csv(table, provenance));
+  std::string line;
+  while (std::getline(lines, line) && line.starts_with("# ")) CHECK(line.find(": ") != std::string::npos);
+  CHECK(line == "Y [m],x [m],reason");
+  std::getline(lines, line);
+  CHECK(line == "0.1,1,");
+  std::getline(lines, line);
+  CHECK(line == "0.3333333333333333,,\"a, \"\"b\"\"\"");
+  std::getline(lines, line);
+  CHECK(line == "1.0e-05,2,\"# c\"");
+}
+
+TEST_CASE("run: a curve of the program is data for the program", "[scenarios][run]") {
+  const Scenario scenario = scenario_of("{type: xy_curve, amplitudes: [0.1, 0.2, 0.5, 0.6]}");
+  const RunResult result = scenarios::run(scenario);
+  REQUIRE(result.tables.size() == 1);
+  const auto record = identify::parse_csv(scenarios::csv(result.tables[0], result.provenance), "curve.csv");
+  REQUIRE(record.record.pairs);
+  CHECK(record.record.pairs->pairs.size() == 4);
+  CHECK(record.record.pairs->pairs[3].x == result.tables[0].columns[1].numbers[3]);
+}
