@@ -69,7 +69,7 @@ std::vector<Datum> named_pairs(const ResonanceData& data, const MethodOptions& o
 
 /// Two pairs cannot contradict a straight line; the others that slide can.
 void judge_others(const std::vector<Datum>& sliding, const std::vector<Datum>& two, const Line& line,
-                  Estimate& estimate) {
+                  Estimate& estimate, std::vector<std::string>& faults) {
   const auto off = [&line](const Datum& datum) {
     return std::abs(datum.x - (line.intercept + line.slope * datum.Y));
   };
@@ -77,9 +77,9 @@ void judge_others(const std::vector<Datum>& sliding, const std::vector<Datum>& t
                                          [&off](const Datum& a, const Datum& b) { return off(a) < off(b); });
   const double fraction = off(*farthest) / std::abs(two[1].x - two[0].x);
   if (fraction < 0.05) return;
-  estimate.warnings.push_back("pair " + std::to_string(farthest->number) +
-                              " lies off the line through the two by " + core::format_number(100.0 * fraction, 3) +
-                              " % of their distance");
+  std::vector<std::string>& list = fraction < 0.1 ? estimate.warnings : faults;
+  list.push_back("pair " + std::to_string(farthest->number) + " lies off the line through the two by " +
+                 core::format_number(100.0 * fraction, 3) + " % of their distance in x");
 }
 
 /// The two pairs to use, none of which sticks at their own estimate; empty after `estimate` has been refused.
@@ -151,7 +151,7 @@ Estimate resonance_two_point(const Record& record, const KnownConstants& constan
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * std::max(two[0].Y, two[1].Y) * data->unit, faults);
-  judge_others(sliding, two, *line, estimate);
+  judge_others(sliding, two, *line, estimate, faults);
   judge_method(*data, two, *friction, line_through, estimate, faults);
   conclude(estimate, faults,
            "rests on pairs " + std::to_string(two[0].number) + " and " + std::to_string(two[1].number) + " at " +
