@@ -23,7 +23,9 @@ std::string version_text() {
 }
 
 void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet) {
-  command.add_option("--out", out, "Directory for the results; created if missing")->type_name("DIR");
+  command.add_option("--out", out, "Directory for the results; created if missing")
+      ->type_name("DIR")
+      ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
   command.add_flag("--json", json, "Print one JSON document and nothing else");
   command.add_flag("--quiet", quiet, "No messages on stderr but errors");
 }

@@ -286,9 +286,10 @@ class Checker {
                    joined(fitting), pairs ? "x-Y pairs" : "the extremes of a free vibration");
       }
     }
-    if (pairs && !stands_in_file("excitation", "frequency"))
-      complain(place_of("excitation"), "x-Y pairs need the forcing frequency at which they were measured",
-               "excitation: {type: base_harmonic, frequency: ...}");
+    const bool is_free = node("excitation") == nullptr || text_at("excitation", "type") == "none";
+    if (pairs && is_free)
+      complain(place_of("analysis.data"), "x-Y pairs need the forcing frequency at which they were measured",
+               "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency");
     check_pairs(pairs ? (synthetic ? grid_size_of_measurement() : data->csv.record.pairs->pairs.size()) : 0);
   }
 

@@ -1,0 +1,326 @@
+#!/usr/bin/env python3
+"""The program as a user meets it: exit status, what stands on stdout and stderr, what is written and what is not.
+
+usage: test_cli.py PROGRAM ROOT [TEST...]
+"""
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+
+BASE = """schema: dualdamp/1
+title: base
+system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}
+excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
+analysis: {type: steady_state}
+"""
+KEYS = ["program", "provenance", "scenario", "analysis", "status", "result", "warnings", "checks", "errors"]
+
+
+def tree(folder):
+    """Every file below a folder with the digest of its content."""
+    return {
+        str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
+        for p in sorted(Path(folder).rglob("*"))
+        if p.is_file()
+    }
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.addCleanup(self.temporary.cleanup)
+        self.write("base.yaml", BASE)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def run_program(self, *arguments, status=0, **options):
+        result = subprocess.run(
+            [PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=120, **options
+        )
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
+
+    def document(self, *arguments, status=0):
+        """The one JSON document on stdout."""
+        result = self.run_program(*arguments, status=status)
+        document = json.loads(result.stdout, parse_constant=self.fail)
+        if isinstance(document, dict):
+            self.assertEqual(list(document), KEYS)
+            self.assertEqual(document["status"], status)
+        return document
+
+
+class Run(Case):
+    def test_results_go_to_results_and_the_stem(self):
+        result = self.run_program("run", "base.yaml")
+        self.assertEqual(list(tree(self.folder / "results")), ["base/result.json"])
+        self.assertIn("peak", result.stdout)
+        self.assertIn("wrote results/base/result.json", result.stderr)
+
+    def test_out_is_used_directly_for_one_file(self):
+        self.run_program("run", "base.yaml", "--out", "a/b")
+        self.assertEqual(list(tree(self.folder / "a")), ["b/result.json"])
+        self.assertFalse((self.folder / "results").exists())
+
+    def test_out_gets_a_folder_a_file_for_several(self):
+        self.write("other.yaml", BASE)
+        result = self.run_program("run", "base.yaml", "other.yaml", "--out", "out", "--jobs", "2")
+        self.assertEqual(list(tree(self.folder / "out")), ["base/result.json", "other/result.json"])
+        self.assertLess(result.stdout.index("base.yaml"), result.stdout.index("other.yaml"))
+
+    def test_two_files_of_one_name_do_not_overwrite_each_other(self):
+        self.write("sub/base.yaml", BASE)
+        result = self.run_program("run", "base.yaml", "sub/base.yaml", status=2)
+        self.assertIn("would both write", result.stderr)
+        self.assertFalse((self.folder / "results").exists())
+
+    def test_quiet_leaves_stderr_empty(self):
+        self.assertEqual(self.run_program("run", "base.yaml", "--quiet").stderr, "")
+
+    def test_json_is_one_document(self):
+        document = self.document("run", "base.yaml", "--json")
+        self.assertAlmostEqual(document["result"]["peak"], 0.1860780979567862, delta=1e-15)
+        self.assertEqual(document["scenario"]["system"]["mass"], 1.0)
+        self.assertEqual(document["analysis"], "steady_state")
+        written = json.loads((self.folder / "results/base/result.json").read_text())
+        self.assertEqual(written, document)
+
+    def test_json_of_several_files_is_one_list(self):
+        self.write("bad.yaml", "schema: dualdamp/1\n")
+        documents = self.document("run", "base.yaml", "bad.yaml", "--json", status=3)
+        self.assertEqual([d["status"] for d in documents], [0, 3])
+        self.assertIsNone(documents[1]["result"])
+
+    def test_the_worst_status_counts_and_good_files_still_run(self):
+        self.write("bad.yaml", "schema: dualdamp/1\n")
+        self.run_program("run", "bad.yaml", "base.yaml", status=3)
+        self.assertEqual(list(tree(self.folder / "results")), ["base/result.json"])
+
+    def test_set(self):
+        document = self.document("run", "base.yaml", "--json", "--set", "system.mass=2 kg", "--set", "numerics.tolerance=1e-12")
+        self.assertEqual(document["scenario"]["system"]["mass"], 2.0)
+        self.assertEqual(document["provenance"]["set"], ["system.mass=2 kg", "numerics.tolerance=1e-12"])
+
+    def test_set_errors_are_located(self):
+        result = self.run_program("run", "base.yaml", "--set", "system.mas=2 kg", status=3)
+        self.assertIn("--set:1:8: error: unknown key 'mas'", result.stderr)
+        self.run_program("run", "base.yaml", "--set", "system.mass", status=2)
+
+    def test_dry_run_writes_nothing(self):
+        result = self.run_program("run", "base.yaml", "--dry-run")
+        self.assertIn("valid", result.stdout)
+        self.assertEqual(list(tree(self.folder)), ["base.yaml"])
+        self.assertIsNone(self.document("run", "base.yaml", "--dry-run", "--json")["result"])
+
+    def test_expectations(self):
+        self.write("off.yaml", BASE + "expect:\n  - {value: peak, equals: 0.2, within: 1.0e-3, source: page 7}\n")
+        result = self.run_program("run", "off.yaml", status=1)
+        self.assertRegex(result.stdout, r"value +paper +here +difference")
+        self.assertRegex(result.stdout, r"peak +0\.2 +0\.18\d+ +-0\.0139 +NO +page 7")
+        self.assertTrue((self.folder / "results/off/result.json").exists())
+        self.document("run", "off.yaml", "--json", status=1)
+
+    def test_expectation_beyond_the_result(self):
+        self.write("off.yaml", BASE.replace("steady_state", "simulate, cycles: 1") + 'expect: [{value: "events[99].t", equals: 1}]\n')
+        result = self.run_program("run", "off.yaml", status=3)
+        self.assertIn("off.yaml:6:18: error:", result.stderr)
+        self.assertFalse((self.folder / "results").exists())
+
+    def test_numerical_failure(self):
+        self.write("grow.yaml", BASE.replace("damping: 4", "damping: -40"))
+        document = self.document("run", "grow.yaml", "--json", status=4)
+        self.assertIsNone(document["result"])
+        self.assertTrue(document["errors"][0]["message"])
+        self.assertIn("error:", self.run_program("run", "grow.yaml", status=4).stderr)
+
+    def test_a_good_point_survives_a_bad_one(self):
+        # Below the break-away amplitude nothing moves; above it the negative damping wins.
+        self.write("mixed.yaml", BASE.replace("damping: 4", "damping: -0.5").replace("steady_state", "xy_curve, amplitudes: [0.001, 0.5]"))
+        document = self.document("run", "mixed.yaml", "--json")
+        good, bad = document["result"]["points"]
+        self.assertEqual(good["x"], 0.0)
+        self.assertIsNone(bad["x"])
+        self.assertTrue(bad["reason"])
+        self.assertTrue(document["warnings"])
+
+    def test_tables_open_with_provenance(self):
+        self.run_program("run", "base.yaml", "--set", "analysis={type: simulate, cycles: 2, sample_rate: 100 Hz}")
+        for name in ["events", "history"]:
+            lines = (self.folder / f"results/base/{name}.csv").read_text().splitlines()
+            self.assertRegex(lines[0], r"^# program: dualdamp \d")
+            head = next(line for line in lines if not line.startswith("#"))
+            self.assertTrue(head.startswith("t [s],"))
+
+    def test_the_resolved_scenario_runs_again_to_the_same_bits(self):
+        first = self.document("run", "base.yaml", "--json")
+        self.write("again.yaml", json.dumps(first["scenario"]))
+        second = self.document("run", "again.yaml", "--json")
+        self.assertEqual(second["result"], first["result"])
+        self.assertEqual(second["provenance"]["scenario_sha256"], first["provenance"]["scenario_sha256"])
+
+
+class Refusals(Case):
+    def test_invalid_files_change_nothing(self):
+        self.run_program("run", "base.yaml")
+        before = tree(self.folder)
+        for path in sorted((ROOT / "tests/invalid").glob("*.yaml")) + sorted((ROOT / "tests/invalid_text").glob("*.yaml")):
+            place, _, message = path.read_text().splitlines()[0].removeprefix("# expect: ").partition(": ")
+            with self.subTest(path.name):
+                result = self.run_program("run", path, "--out", "results/base", status=3)
+                self.assertIn(f"{path}:{place}: error: ", result.stderr)
+                self.assertIn(message, result.stderr)
+                self.assertRegex(result.stderr, r"\n  \| .*\n  \| +\^")
+                self.assertEqual(result.stdout, "")
+        self.assertEqual(tree(self.folder), before)
+
+    def test_refusal_as_json(self):
+        self.write("bad.yaml", BASE.replace("mass: 1 kg", "mass: -1 kg").replace("stiffness", "stifness"))
+        document = self.document("run", "bad.yaml", "--json", status=3)
+        self.assertIsNone(document["result"])
+        error = document["errors"][1]
+        self.assertEqual([error["file"], error["line"], error["column"]], ["bad.yaml", 3, 16])
+        self.assertEqual([error["allowed"], error["found"]], ["> 0 kg", "-1 kg"])
+        self.assertEqual(document["errors"][2]["suggestion"], "stiffness")
+
+    def test_files_that_cannot_be_read(self):
+        self.assertIn("No such file", self.run_program("run", "none.yaml", status=3).stderr)
+        self.assertIn("is a directory", self.run_program("run", ".", status=3).stderr)
+        self.assertIn("No such file", self.document("run", "none.yaml", "--json", status=3)["errors"][0]["message"])
+        if os.geteuid() != 0:
+            self.write("secret.yaml", BASE).chmod(0)
+            self.assertIn("Permission denied", self.run_program("run", "secret.yaml", status=3).stderr)
+
+    def test_a_device_without_end_is_refused(self):
+        self.assertIn("larger than", self.run_program("run", "/dev/zero", status=3).stderr)
+
+    def test_places_that_cannot_be_written(self):
+        self.write("taken", "keep me")
+        for out in ["taken", "taken/below", "/proc/nothing"]:
+            with self.subTest(out):
+                self.assertIn("error:", self.run_program("run", "base.yaml", "--out", out, status=2).stderr)
+                self.assertIsNone(self.document("run", "base.yaml", "--out", out, "--json", status=2)["result"])
+        self.assertEqual((self.folder / "taken").read_text(), "keep me")
+
+    def test_a_full_standard_output_is_no_success(self):
+        if not Path("/dev/full").exists():
+            self.skipTest("no /dev/full")
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "laws"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("standard output", result.stderr)
+
+    def test_wrong_usage(self):
+        for arguments in [[], ["run"], ["fly"], ["run", "base.yaml", "--fly"], ["run", "base.yaml", "--jobs", "0"],
+                          ["run", "base.yaml", "--jobs", "two"], ["run", "base.yaml", "--out"], ["identify", "x.csv"],
+                          ["laws", "gravity"], ["methods", "guess"], ["report", "results"], ["run", "base.yaml", "--resume"],
+                          ["run", "base.yaml", "--plugin", "x.so"], ["run", "base.yaml", "--out", ""]]:
+            with self.subTest(arguments):
+                result = self.run_program(*arguments, status=2)
+                self.assertEqual(result.stdout, "")
+                self.assertIn("error:", result.stderr)
+        self.assertEqual(self.document("run", "--json", status=2)["scenario"], None)
+        self.assertFalse((self.folder / "results").exists())
+
+    def test_interrupt(self):
+        self.write("long.yaml", BASE.replace("steady_state", "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}"))
+        process = subprocess.Popen([PROGRAM, "run", "long.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 130)
+        self.assertFalse((self.folder / "results").exists())
+
+
+class Others(Case):
+    def test_check(self):
+        self.assertIn("base.yaml: valid", self.run_program("check", "base.yaml").stdout)
+        self.write("bad.yaml", "schema: dualdamp/2\n")
+        result = self.run_program("check", "base.yaml", "bad.yaml", status=3)
+        self.assertIn("base.yaml: valid", result.stdout)
+        self.assertIn("bad.yaml:1:9: error:", result.stderr)
+        self.assertEqual(list(tree(self.folder)), ["bad.yaml", "base.yaml"])
+
+    def test_lists(self):
+        self.assertIn("coulomb", self.run_program("laws").stdout)
+        self.assertRegex(self.run_program("laws", "coulomb").stdout, r"kinetic +N +required")
+        names = [line.split()[0] for line in self.run_program("methods").stdout.splitlines()]
+        self.assertEqual(names, sorted(names))
+        for name in names:
+            self.assertIn("assumes:", self.run_program("methods", name).stdout)
+
+    def test_schema_is_the_committed_one(self):
+        self.assertEqual(self.run_program("schema").stdout, (ROOT / "scenarios/scenario.schema.json").read_text())
+
+    def test_version_and_help(self):
+        self.assertRegex(self.run_program("--version").stdout, r"^dualdamp \d+\.\d+\.\d+ \(.+\)\n$")
+        self.assertIn("Exit status", self.run_program("--help").stdout)
+        self.assertIn("--set", self.run_program("run", "--help").stdout)
+
+    def test_shipped_scenarios(self):
+        files = sorted((ROOT / "scenarios/paper").glob("*.yaml")) + sorted((ROOT / "scenarios/examples").glob("*.yaml"))
+        self.run_program("run", *files, "--jobs", "2", "--quiet")
+
+
+class Identify(Case):
+    PAIRS = "Y [m],x [m]\n0.1,0.1860780979567862\n0.6,1.4361439607891241\n"
+    KNOWN = ["--mass", "1 kg", "--stiffness", "100 N/m", "--frequency", "10 rad/s"]
+
+    def test_pairs(self):
+        self.write("data/pairs.csv", self.PAIRS)
+        document = self.document("identify", "data/pairs.csv", *self.KNOWN, "--method", "resonance_two_point", "--json")
+        (estimate,) = document["result"]["estimates"]
+        self.assertAlmostEqual(estimate["F0"], 2.00278357380023, delta=1e-12)
+        self.assertTrue(estimate["usable"])
+        self.assertEqual(list(tree(self.folder / "results")), ["pairs/estimates.csv", "pairs/result.json"])
+
+    def test_data_anywhere(self):
+        with tempfile.TemporaryDirectory() as elsewhere:
+            path = Path(elsewhere) / "it's data: #1.csv"
+            path.write_text(self.PAIRS)
+            self.run_program("identify", path, *self.KNOWN, "--out", "out")
+            self.assertIn("result.json", tree(self.folder / "out"))
+
+    def test_free_decay_needs_no_frequency(self):
+        self.write("decay.csv", "t [s],x [mm]\n0,20\n0.3,-15\n0.6,11\n0.9,-8\n1.2,5\n")
+        document = self.document("identify", "decay.csv", "--mass", "1", "--stiffness", "100", "--json")
+        self.assertIn("free_decay", [e["method"] for e in document["result"]["estimates"]])
+
+    def test_faults_of_the_command_line_are_located(self):
+        self.write("pairs.csv", self.PAIRS)
+        wrong = ["--mass", "1 N", "--stiffness", "100 N/m", "--frequency", "10"]
+        result = self.run_program("identify", "pairs.csv", *wrong, "--method", "guess", status=3)
+        for place in ["--mass:1:13:", "--frequency:1:22:", "--method:1:19:"]:
+            self.assertIn(place, result.stderr)
+        self.assertIn("--frequency", self.run_program("identify", "pairs.csv", "--mass", "1", "--stiffness", "1", status=3).stderr)
+
+    def test_faults_of_the_data_are_located(self):
+        self.write("pairs.csv", self.PAIRS + "0.7,nan\n0.8\n")
+        result = self.run_program("identify", "pairs.csv", *self.KNOWN, status=3)
+        self.assertIn("pairs.csv:4:5: error:", result.stderr)
+        self.assertIn("pairs.csv:5:", result.stderr)
+        self.run_program("identify", "none.csv", *self.KNOWN, status=3)
+
+    def test_no_estimate_is_a_numerical_failure(self):
+        self.write("pairs.csv", "Y [m],x [m]\n0.1,0.186\n")
+        document = self.document("identify", "pairs.csv", *self.KNOWN, "--json", status=4)
+        self.assertIsNone(document["result"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
