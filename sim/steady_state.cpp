@@ -23,6 +23,9 @@ constexpr double neutral = 1e-9;
 /// Closure that counts as an orbit when Newton's corrections have sunk into rounding.
 constexpr double rounding_closure = 1e-12;
 
+/// A motion that closes this well after thousands of periods and still is not periodic creeps.
+constexpr double creeping = 1e-3;
+
 constexpr int max_newton = 60;
 
 /// Growth over the first periods' motion that counts as growth without bound.
@@ -65,11 +68,14 @@ class OrbitFinder {
   bool newton(Passage& passage, SteadyState& result);
   bool follow(Passage& passage, double closure, int periods, SteadyState& result);
   [[nodiscard]] double radius(const Passage& passage) const;
+  [[nodiscard]] core::Outcome failure(const Passage& passage, const SteadyState& result) const;
 
   SteadyStateOptions options_;
   double omega_;
   ExactEngine engine_;
   bool memoryless_ = true;  ///< (x, v) is the whole state at a period boundary
+  double first_half_ = 0.0;   ///< largest |x| in either half of the periods followed [m]
+  double second_half_ = 0.0;
   bool weakening_ = false;  ///< some static limit exceeds its kinetic level: orbits may coexist
 };
 
@@ -101,10 +107,13 @@ double OrbitFinder::radius(const Passage& passage) const {
 
 /// Follows the motion until one period closes to `closure`; gives up on a motion that grows without bound.
 bool OrbitFinder::follow(Passage& passage, double closure, int periods, SteadyState& result) {
+  first_half_ = second_half_ = 0.0;
   const double early = passage.size;
   for (int i = 0; i < periods; ++i) {
     if (passage.closure(omega_) <= closure) return true;
     if (early > 0.0 && passage.size > runaway * early) return false;
+    double& largest = i < periods / 2 ? first_half_ : second_half_;
+    largest = std::max(largest, passage.size);
     passage = pass();
     ++result.transient_periods;
     if (!engine_.outcome().ok()) return false;
@@ -137,6 +146,22 @@ bool OrbitFinder::newton(Passage& passage, SteadyState& result) {
   return false;
 }
 
+/// Why following the motion found no orbit.
+core::Outcome OrbitFinder::failure(const Passage& passage, const SteadyState& result) const {
+  const std::string after = " after " + std::to_string(result.transient_periods) + " forcing periods";
+  if (second_half_ > 1.5 * first_half_ || passage.size > 1.5 * first_half_) {
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state: the amplitude still grows" + after + "; damping does not limit the motion"};
+  }
+  if (passage.closure(omega_) < creeping) {
+    return {core::OutcomeKind::not_unique,
+            "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
+                after};
+  }
+  return {core::OutcomeKind::no_steady_state,
+          "no steady state: the motion from the initial state has not become periodic" + after};
+}
+
 void OrbitFinder::find(SteadyState& result) {
   Passage passage = pass();
   passage = pass();
@@ -159,9 +184,7 @@ void OrbitFinder::find(SteadyState& result) {
   if (!engine_.outcome().ok()) {
     result.outcome = engine_.outcome();
   } else if (!found) {
-    result.outcome = {core::OutcomeKind::no_steady_state,
-                      "no steady state: the motion from the initial state has not become periodic within " +
-                          std::to_string(result.transient_periods) + " forcing periods"};
+    result.outcome = failure(passage, result);
   }
   result.start_position = passage.begin.x();
   result.start_velocity = passage.begin.y();
