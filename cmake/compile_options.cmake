@@ -27,11 +27,12 @@ target_compile_options(dualdamp_options INTERFACE
   # -Wrestrict: false alarms of GCC 12 on std::string concatenation (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond;-Wlogical-op;-Wno-restrict>
   $<$<BOOL:${DUALDAMP_WARNINGS_AS_ERRORS}>:-Werror>)
-# The engine's loops cross folders: optimised at link time where speed counts. Fat objects keep the installed
-# libraries usable by other compilers.
-set(link_time "$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>")
-target_compile_options(dualdamp_options INTERFACE "$<${link_time}:-flto=auto;-ffat-lto-objects>")
-target_link_options(dualdamp_options INTERFACE "$<${link_time}:-flto=auto>")
+# The engine's loops cross folders: where speed counts, these are optimised at link time, and no others, so that
+# linking stays quick. Fat objects keep the installed libraries usable by other compilers.
+set(DUALDAMP_LINK_TIME_FOLDERS core friction_models sim)
+set(DUALDAMP_LINK_TIME "$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>")
+target_link_options(dualdamp_options INTERFACE "$<${DUALDAMP_LINK_TIME}:-flto=auto>")
+
 if(DUALDAMP_SANITIZE)
   target_compile_options(dualdamp_options INTERFACE
     -fsanitize=${DUALDAMP_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
