@@ -20,12 +20,13 @@ const std::vector<MethodEntry>& methods() {
       {"resonance_least_squares", "damping ratio and friction force from a straight line through amplitude pairs",
        "excitation at w = wn, zeta small, no sticking, errors in x alone; checked: sticking pairs are left out, "
        "quadratic term F-test, what the method would make of its own estimate by the exact law",
-       "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4)", RecordKind::pairs, resonance_least_squares},
+       "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn", RecordKind::pairs,
+       resonance_least_squares},
       {"resonance_two_point", "damping ratio and friction force from two amplitude pairs",
        "excitation at w = wn, zeta small, no sticking; checked: sticking pairs are left out, what the method would "
        "make of its own estimate by the exact law",
-       "zeta = (Y2 - Y1)/(2 (x2 - x1)), x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2)), G by Eq (4)", RecordKind::pairs,
-       resonance_two_point},
+       "zeta = (Y2 - Y1)/(2 (x2 - x1)), x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2)), G by Eq (4) at w = wn",
+       RecordKind::pairs, resonance_two_point},
   };
   return list;
 }

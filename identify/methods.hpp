@@ -12,7 +12,7 @@ namespace dualdamp::identify {
 enum class RecordKind { pairs, decay };
 
 struct MethodOptions {
-  /// G from the exact Eq (4), or from the paper's approximation Eq (15) as a named variant.
+  /// G from the exact Eq (4) at w = wn, or from the paper's approximation Eq (15) as a named variant.
   bool approximate_G = false;
   /// Numbers of the two pairs used by resonance_two_point; 0: the outermost usable pairs.
   int first_pair = 0;

@@ -67,6 +67,12 @@ Eigen::VectorXd residuals_of(const std::vector<Datum>& pairs, const Line& line) 
   return residuals;
 }
 
+/// How the exact law departs from its own line: a curvature that speaks for the law and not against it.
+Eigen::VectorXd exact_residuals(const std::vector<Datum>& exact, Eigen::Index count) {
+  const std::optional<Line> line = line_through(exact);
+  return line ? residuals_of(exact, *line) : Eigen::VectorXd::Zero(count);
+}
+
 /// Covariance of (zeta, x_f) for unit variance of one output: the mean of x and the slope are uncorrelated.
 Eigen::Matrix2d unit_covariance(const Moments& moments, const Line& line, const LineFriction& friction,
                                 const ResonanceG& G) {
@@ -175,8 +181,9 @@ Estimate resonance_least_squares(const Record& record, const KnownConstants& con
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * moments.mean_Y * data->unit, faults);
-  test_curvature(used, residuals, estimate, faults);
-  judge_method(*data, used, *friction, line_through, estimate, faults);
+  const std::vector<Datum> exact = exact_pairs(*data, used, *friction);
+  test_curvature(used, residuals - exact_residuals(exact, residuals.size()), estimate, faults);
+  judge_method(*data, exact, *friction, line_through, estimate, faults);
   estimate.subsets = subset_fits(*data, used);
   conclude(estimate, faults,
            "rests on " + std::to_string(used.size()) + " of " + std::to_string(record.pairs->pairs.size()) +

@@ -4,7 +4,7 @@
 ///
 ///   zeta = 1/(2 b),   x_f = -a/G(zeta)                                                Eqs (9), (14), (13)
 ///
-/// with G from the exact Eq (4) at the given frequency, or from Eq (15) with `approximate_G`.
+/// with G from the exact Eq (4) at w = wn, or from Eq (15) with `approximate_G`.
 ///
 /// Holds for small zeta near w = wn, without sticking, with errors in x that are independent and alike. Errors in Y
 /// must be small against the spread of Y: they flatten the line.

@@ -80,7 +80,8 @@ std::optional<ResonanceData> prepare(const Record& record, const KnownConstants&
     return std::nullopt;
   }
   ResonanceData data;
-  data.G = {r, options.approximate_G};
+  data.r = r;
+  data.G.approximate = options.approximate_G;
   data.constants = constants;
   take_pairs(*record.pairs, data, estimate);
   if (std::string fault = fault_of(data.pairs, record.pairs->pairs.size()); !fault.empty()) {
@@ -107,7 +108,7 @@ std::size_t first_sliding_pair(const ResonanceData& data, const LineFrom& line_f
     const std::optional<Line> line = line_from(first);
     const std::optional<LineFriction> friction = line ? friction_of(*line, data.G) : std::nullopt;
     if (!friction || !(friction->x_f > 0.0)) break;
-    const double limit = analytic::non_sticking_limit(analytic::den_hartog(friction->zeta, data.G.r));
+    const double limit = analytic::non_sticking_limit(analytic::den_hartog(friction->zeta, data.r));
     const std::size_t before = first;
     for (; first < data.pairs.size() && !(data.pairs[first].x > limit * friction->x_f); ++first) {
       estimate.excluded.push_back(
@@ -134,24 +135,31 @@ std::string fault_of(const std::vector<Datum>& pairs, std::size_t total) {
   return {};
 }
 
-void judge_method(const ResonanceData& data, const std::vector<Datum>& used, const LineFriction& friction,
+std::vector<Datum> exact_pairs(const ResonanceData& data, const std::vector<Datum>& used,
+                               const LineFriction& friction) {
+  const analytic::DenHartog functions = analytic::den_hartog(friction.zeta, data.r);
+  std::vector<Datum> exact;
+  exact.reserve(used.size());
+  for (const Datum& datum : used) {
+    const std::optional<double> x = analytic::amplitude(functions, datum.Y, std::max(friction.x_f, 0.0));
+    if (!x) return {};
+    exact.push_back({datum.Y, *x, datum.number});
+  }
+  return exact;
+}
+
+void judge_method(const ResonanceData& data, const std::vector<Datum>& exact, const LineFriction& friction,
                   const std::function<std::optional<Line>(const std::vector<Datum>&)>& line_through,
                   Estimate& estimate, std::vector<std::string>& faults) {
-  const double x_f = std::max(friction.x_f, 0.0);
-  const analytic::DenHartog exact = analytic::den_hartog(friction.zeta, data.G.r);
-  std::vector<Datum> model;
-  double largest_input = 0.0;
-  for (const Datum& datum : used) {
-    largest_input = std::max(largest_input, datum.Y);
-    const std::optional<double> x = analytic::amplitude(exact, datum.Y, x_f);
-    if (x) model.push_back({datum.Y, *x, datum.number});
-  }
-  const std::optional<Line> line = model.size() == used.size() ? line_through(model) : std::nullopt;
+  const std::optional<Line> line = exact.empty() ? std::nullopt : line_through(exact);
   const std::optional<LineFriction> misread = line ? friction_of(*line, data.G) : std::nullopt;
   if (!misread) {
     faults.push_back("the exact law has no such motion at the estimate and " + frequency_text(data));
     return;
   }
+  const double x_f = std::max(friction.x_f, 0.0);
+  double largest_input = 0.0;
+  for (const Datum& datum : exact) largest_input = std::max(largest_input, datum.Y);
   const double zeta_error = misread->zeta / friction.zeta - 1.0;
   // Against a friction below a thousandth of the input a percentage says nothing.
   const double x_f_error = x_f > 1e-3 * largest_input ? misread->x_f / x_f - 1.0 : 0.0;
@@ -176,6 +184,6 @@ std::vector<int> numbers_of(const std::vector<Datum>& pairs) {
   return numbers;
 }
 
-std::string frequency_text(const ResonanceData& data) { return "w/wn = " + core::format_number(data.G.r, 4); }
+std::string frequency_text(const ResonanceData& data) { return "w/wn = " + core::format_number(data.r, 4); }
 
 }  // namespace dualdamp::identify

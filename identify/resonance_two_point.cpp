@@ -152,7 +152,7 @@ Estimate resonance_two_point(const Record& record, const KnownConstants& constan
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * std::max(two[0].Y, two[1].Y) * data->unit, faults);
   judge_others(sliding, two, *line, estimate, faults);
-  judge_method(*data, two, *friction, line_through, estimate, faults);
+  judge_method(*data, exact_pairs(*data, two, *friction), *friction, line_through, estimate, faults);
   conclude(estimate, faults,
            "rests on pairs " + std::to_string(two[0].number) + " and " + std::to_string(two[1].number) + " at " +
                frequency_text(*data));

@@ -3,7 +3,7 @@
 ///
 ///   zeta = (Y2 - Y1)/(2 (x2 - x1)),   x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2))       Eqs (14), (13)
 ///
-/// with G from the exact Eq (4) at the given frequency, or from Eq (15) with `approximate_G`. The pairs are the
+/// with G from the exact Eq (4) at w = wn, or from Eq (15) with `approximate_G`. The pairs are the
 /// named ones, or those with the smallest and the largest input among the pairs that do not stick.
 ///
 /// Holds for small zeta near w = wn, without sticking; the estimate says how far it would misread itself.

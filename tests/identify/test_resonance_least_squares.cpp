@@ -53,8 +53,8 @@ TEST_CASE("The paper's fits of all, 4/5, 3/5 and 2/5 of its data") {
   // Residuals of a line through five points, against their quadratic: F = 70 with 1 and 2 degrees of freedom, p =
   // 0.014.
   REQUIRE(e.lack_of_fit.has_value());
-  CHECK(e.lack_of_fit->statistic == Approx(70.09).margin(0.01));
-  CHECK(e.lack_of_fit->p_value == Approx(0.01397).margin(1e-5));
+  CHECK(e.lack_of_fit->statistic == Approx(70.09).epsilon(3e-3));
+  CHECK(e.lack_of_fit->p_value == Approx(0.01397).epsilon(3e-3));
   CHECK(e.lack_of_fit->fired);
   CHECK_FALSE(e.usable);
   CHECK(mentions(e.reason, "straight line"));
@@ -208,24 +208,25 @@ TEST_CASE("The gate ends, and leaves no sticking pair, whatever the record") {
 TEST_CASE("Detuning is told, in size and sign") {
   // Exact pairs at w = r wn, zeta = 0.12, read by the method. The doubt is computed at the estimate, the truth is
   // at the true parameters: they agree to the square of the error.
-  const double zeta = 0.12, x_f = 0.1;
-  const std::vector<double> levels = {0.4, 0.5, 0.6, 0.7, 0.8};
+  const double zeta = 0.12, x_f = 2.36e-3;
+  const std::vector<double> levels = {4.45e-3, 5.03e-3, 5.6e-3, 6.18e-3, 6.75e-3};
   struct Case {
     double delta, zeta_error, x_f_error;
     bool usable;
   };
-  // Errors of the method, zeta and x_f, from the same pairs by independent arithmetic (numpy).
-  for (const Case& c : {Case{-0.05, 0.030507, 0.048047, true}, Case{-0.01, -0.006547, -0.006322, true},
-                        Case{0.0, -0.000089, 0.000731, true}, Case{0.01, 0.012958, 0.017459, true},
-                        Case{0.02, 0.032527, 0.042609, true}, Case{0.1, 0.388709, 0.289202, false}}) {
+  // Errors of the method, zeta and x_f, from the same pairs by independent arithmetic (numpy). The friction force
+  // forgives more than the damping ratio.
+  for (const Case& c : {Case{-0.05, 0.016842, -0.036727, true}, Case{-0.01, -0.006611, -0.003232, true},
+                        Case{0.0, -0.000533, 0.001437, true}, Case{0.01, 0.010414, 0.004652, true},
+                        Case{0.02, 0.026156, 0.006500, true}, Case{0.1, 0.300781, -0.011289, false}}) {
     const double r = 1.0 + c.delta;
     const Estimate e = resonance_least_squares(exact_pairs(zeta, r, x_f, levels), constants_at(r), {});
     CAPTURE(c.delta, e.reason);
     REQUIRE(e.outcome.ok());
-    CHECK(e.value.zeta / zeta - 1.0 == Approx(c.zeta_error).margin(1e-5));
-    CHECK(e.value.x_f / x_f - 1.0 == Approx(c.x_f_error).margin(1e-5));
+    CHECK(e.value.zeta / zeta - 1.0 == Approx(c.zeta_error).margin(1e-6));
+    CHECK(e.value.x_f / x_f - 1.0 == Approx(c.x_f_error).margin(1e-6));
     CHECK(e.usable == c.usable);
-    const bool large = std::max(std::abs(c.zeta_error), std::abs(c.x_f_error)) > 0.012;
+    const bool large = std::max(std::abs(c.zeta_error), std::abs(c.x_f_error)) > 0.01;
     const bool told = !e.usable || !e.warnings.empty();
     CHECK(told == large);
   }
