@@ -11,7 +11,7 @@
 ///                        E_k(0) = 0.
 /// Chains cover what plain exponentials cannot: powers of s (all exponents 0), critical damping, resonance without
 /// damping, a vanishing stiffness; and they stay accurate where two exponents nearly coincide, because the two
-/// exponentials are never subtracted (Opitz; McCurdy, Ng and Parlett 1984 for the evaluation).
+/// exponentials are never subtracted (opitz1964; mccurdy1984 for the evaluation).
 /// The set is closed under addition, scaling and differentiation.
 ///
 /// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. No allocation.
