@@ -155,7 +155,7 @@ Estimate resonance_least_squares(const Record& record, const KnownConstants& con
   const std::optional<ResonanceData> data = prepare(record, constants, options, estimate);
   if (!data) return estimate;
   const std::vector<Datum> used = sliding_pairs(*data, estimate);
-  if (std::string fault = fault_of(used, record.pairs->pairs.size()); !fault.empty()) {
+  if (std::string fault = fault_of(used, record.pairs->pairs.size(), estimate.excluded); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }

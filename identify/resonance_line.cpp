@@ -84,7 +84,7 @@ std::optional<ResonanceData> prepare(const Record& record, const KnownConstants&
   data.G.approximate = options.approximate_G;
   data.constants = constants;
   take_pairs(*record.pairs, data, estimate);
-  if (std::string fault = fault_of(data.pairs, record.pairs->pairs.size()); !fault.empty()) {
+  if (std::string fault = fault_of(data.pairs, record.pairs->pairs.size(), estimate.excluded); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return std::nullopt;
   }
@@ -125,10 +125,13 @@ std::size_t first_sliding_pair(const ResonanceData& data, const LineFrom& line_f
   return first;
 }
 
-std::string fault_of(const std::vector<Datum>& pairs, std::size_t total) {
+std::string fault_of(const std::vector<Datum>& pairs, std::size_t total, const std::vector<Exclusion>& excluded) {
   if (pairs.size() < 2) {
-    return "two pairs are needed, and of " + std::to_string(total) + " in the record " +
-           std::to_string(pairs.size()) + (pairs.size() == 1 ? " is" : " are") + " left";
+    std::string fault = "two pairs are needed, and of " + std::to_string(total) + " in the record " +
+                        std::to_string(pairs.size()) + (pairs.size() == 1 ? " is" : " are") + " left";
+    if (!excluded.empty())
+      fault += "; pair " + std::to_string(excluded.front().number) + ": " + excluded.front().reason;
+    return fault;
   }
   if (nearly_equal(pairs, [](const Datum& d) { return d.Y; })) return "the input amplitudes are all equal";
   if (nearly_equal(pairs, [](const Datum& d) { return d.x; })) return "the output amplitudes are all equal";

@@ -66,8 +66,9 @@ using LineFrom = std::function<std::optional<Line>(std::size_t first)>;
                                              Estimate& estimate);
 
 /// Why no line goes through these pairs: fewer than two, equal inputs, equal outputs; empty when one does. `total`
-/// counts the pairs of the record.
-[[nodiscard]] std::string fault_of(const std::vector<Datum>& pairs, std::size_t total);
+/// counts the pairs of the record, `excluded` says where the others went.
+[[nodiscard]] std::string fault_of(const std::vector<Datum>& pairs, std::size_t total,
+                                   const std::vector<Exclusion>& excluded);
 
 /// The pairs with the outputs that the exact Eq (3) gives at the estimate; empty when it has no such motion for one
 /// of them.

@@ -93,7 +93,7 @@ std::vector<Datum> choose(const ResonanceData& data, const MethodOptions& option
   if (by_name) {
     two = named_pairs(data, options, estimate);
     if (two.empty()) return {};
-    if (std::string fault = fault_of(two, total); !fault.empty()) {
+    if (std::string fault = fault_of(two, total, estimate.excluded); !fault.empty()) {
       refuse(estimate, std::move(fault));
       return {};
     }
@@ -104,7 +104,7 @@ std::vector<Datum> choose(const ResonanceData& data, const MethodOptions& option
     if (data.pairs.size() - first >= 2) two = outermost.from(first);
   }
   sliding.assign(data.pairs.begin() + static_cast<std::ptrdiff_t>(first), data.pairs.end());
-  std::string fault = fault_of(sliding, total);
+  std::string fault = fault_of(sliding, total, estimate.excluded);
   for (const Datum& datum : two) {
     const bool excluded = std::none_of(sliding.begin(), sliding.end(),
                                        [&datum](const Datum& other) { return other.number == datum.number; });

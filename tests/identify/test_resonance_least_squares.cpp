@@ -184,6 +184,7 @@ TEST_CASE("Fewer than two sliding pairs are no estimate") {
   CHECK_FALSE(e.usable);
   CHECK(e.excluded.size() >= 2);
   CHECK(mentions(e.reason, "two pairs are needed"));
+  CHECK(mentions(e.reason, "pair 1: the mass sticks"));
 }
 
 TEST_CASE("The gate ends, and leaves no sticking pair, whatever the record") {
