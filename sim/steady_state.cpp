@@ -246,7 +246,7 @@ void OrbitFinder::describe(SteadyState& result, const Model& model) {
 
 bool SteadyState::stable() const {
   return std::all_of(multipliers.begin(), multipliers.end(),
-                     [](const std::complex<double>& value) { return std::abs(value) < 1.0; });
+                     [](const std::complex<double>& value) { return std::abs(value) < 1.0 + neutral; });
 }
 
 SteadyState steady_state(const Model& model, const SteadyStateOptions& options) {

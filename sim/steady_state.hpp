@@ -37,7 +37,8 @@ struct SteadyState {
   int newton_steps = 0;
   int transient_periods = 0;
 
-  [[nodiscard]] bool stable() const;  ///< all multipliers inside the unit circle
+  /// No multiplier outside the unit circle; one on it is a mass that never moves, or a continuum (see `warnings`).
+  [[nodiscard]] bool stable() const;
 };
 
 struct SteadyStateOptions {

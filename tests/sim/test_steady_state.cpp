@@ -184,6 +184,7 @@ TEST_CASE("a drive that friction holds leaves the mass where it was, and says so
   CHECK(state.stops_per_cycle == 0);
   REQUIRE(state.sticks.size() == 1);
   CHECK(state.sticks[0].duration == Approx(state.period).epsilon(1e-14));
+  CHECK(state.stable());
   CHECK_FALSE(state.warnings.empty());
 }
 
