@@ -95,6 +95,7 @@ int ExponentialBasis::add(Complex exponent, int parent) {
   parent_[k] = parent;
   square_[k] = std::norm(exponent);
   fastest_ = std::max(fastest_, std::abs(exponent));
+  turning_ = std::max({turning_, exponent.real(), std::abs(exponent.imag())});
   has_chains_ = has_chains_ || parent != no_parent;
   return size_++;
 }

@@ -55,6 +55,8 @@ class ExponentialBasis {
   [[nodiscard]] double panel() const { return panel_; }
   /// Largest |z_k| [1/s].
   [[nodiscard]] double fastest() const { return fastest_; }
+  /// The largest |Im z| or growth: rounding of z s costs eps turning() s of an element's modulus.
+  [[nodiscard]] double turning() const { return turning_; }
   void step_panel(const Values& from, Values& to) const;
 
   /// Fixes the panel; call once after the last add().
@@ -80,6 +82,7 @@ class ExponentialBasis {
   Values rotor_{};
   double panel_ = 0.0;
   double fastest_ = 0.0;
+  double turning_ = 0.0;
   int size_ = 0;
   bool has_chains_ = false;
   bool even_ = false;
@@ -111,11 +114,13 @@ inline void accumulate(const ExponentialBasis& basis, double factor, const ModeF
 
 /// f = 0.
 inline void clear(const ExponentialBasis& basis, ModeFunction& f) {
-  for (int k = 0; k < basis.size(); ++k) f.re[static_cast<std::size_t>(k)] = f.im[static_cast<std::size_t>(k)] = 0.0;
+  for (int k = 0; k < basis.size(); ++k)
+    f.re[static_cast<std::size_t>(k)] = f.im[static_cast<std::size_t>(k)] = 0.0;
 }
 
 /// Copies the entries that count.
-inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from, ExponentialBasis::Values& to) {
+inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from,
+                 ExponentialBasis::Values& to) {
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     to.re[i] = from.re[i];

@@ -11,7 +11,13 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double graze = 16.0 * epsilon;
 constexpr int max_depth = 60;
-constexpr int taylor_terms = 9;
+/// Near a known zero the guard is its Taylor series: 0.5^18/18! of its scale is left out.
+constexpr double taylor_angle = 0.5;
+constexpr int taylor_terms = 18;
+/// Contacts closer than this part of a panel are one.
+constexpr double contact_part = 1e-3;
+/// A guard that has decayed to this has no zero any more.
+constexpr double vanished = 1e-280;
 
 /// A guard's value and first two derivatives at one time.
 struct Jet {
@@ -88,7 +94,7 @@ class PanelSearch {
       : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count) {}
 
   /// The jet from values of the basis; close to a known zero from the Taylor series that has it exactly.
-  [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) const {
+  [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) {
     if (near_start(s)) return taylor_jet(s);
     Jet j;
     j.s = s;
@@ -100,7 +106,7 @@ class PanelSearch {
     return j;
   }
 
-  [[nodiscard]] Jet jet(double s) const {
+  [[nodiscard]] Jet jet(double s) {
     if (near_start(s)) return taylor_jet(s);
     ExponentialBasis::Values values;
     basis_.evaluate(s, values);
@@ -116,9 +122,10 @@ class PanelSearch {
     return start;
   }
 
-  /// Rounding allowance of the value at s: 16 eps of the amplitudes, less where a known zero is factored out.
+  /// Rounding allowance of the value at s: 16 eps of the amplitudes and what the phases lose, less where a known
+  /// zero is factored out.
   [[nodiscard]] double slack(double s) const {
-    double allowance = graze * amplitude_;
+    double allowance = (graze + epsilon * basis_.turning() * s) * amplitude_;
     const double angle = s * basis_.fastest();
     for (int i = 0; i < guard_.known_zeros && angle < 1.0; ++i) allowance *= angle;
     return allowance;
@@ -126,16 +133,31 @@ class PanelSearch {
 
   /// Bounds for the panel [a, a + h] from the values of the basis at a.
   void bound_panel(double a, double h, const ExponentialBasis::Values& values) {
+    contact_ = contact_part * h;
     if (basis_.even()) {
       sixth_ = guard_.sixth_bound;
       curvature_ = guard_.curvature_bound;
       amplitude_ = guard_.amplitude;
       return;
     }
-    sixth_ = bound(basis_, guard_.sixth, values, a, h);
-    curvature_ = bound(basis_, guard_.curvature, values, a, h);
-    amplitude_ = bound(basis_, guard_.value, values, a, h);
+    bound_locally(a, h, values);
   }
+
+  /// Bounds for [a, b] alone: where elements decay they are smaller than the panel's.
+  void narrow(double a, double b) {
+    ExponentialBasis::Values values;
+    basis_.evaluate(a, values);
+    bound_locally(a, b - a, values);
+  }
+
+  /// False when the panel leaves the range of double precision.
+  [[nodiscard]] bool finite(const Jet& end) const {
+    return std::isfinite(sixth_) && std::isfinite(end.value) && std::isfinite(end.slope) &&
+           std::isfinite(end.curvature);
+  }
+
+  /// Where the guard's contact with zero begins that ends in a crossing at `root`.
+  [[nodiscard]] double contact_begin(double root) const { return root - contact_; }
 
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
@@ -151,12 +173,38 @@ class PanelSearch {
  private:
   static constexpr double none = -1.0;
 
-  [[nodiscard]] bool near_start(double s) const { return guard_.known_zeros > 0 && s * basis_.fastest() < 0.05; }
-  [[nodiscard]] Jet taylor_jet(double s) const;
+  [[nodiscard]] bool near_start(double s) const {
+    return guard_.known_zeros > 0 && s * basis_.fastest() < taylor_angle;
+  }
+  void bound_locally(double a, double h, const ExponentialBasis::Values& values) {
+    if (basis_.even()) {
+      sixth_ = curvature_ = amplitude_ = 0.0;
+      for (int k = 0; k < basis_.size(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const double modulus = (std::abs(guard_.value.re[i]) + std::abs(guard_.value.im[i])) *
+                               (std::abs(values.re[i]) + std::abs(values.im[i]));
+        const double square = basis_.square(k);
+        amplitude_ += modulus;
+        curvature_ += modulus * square;
+        sixth_ += modulus * square * square * square;
+      }
+      return;
+    }
+    sixth_ = bound(basis_, guard_.sixth, values, a, h);
+    curvature_ = bound(basis_, guard_.curvature, values, a, h);
+    amplitude_ = bound(basis_, guard_.value, values, a, h);
+  }
+  void record_grazing(double s) {
+    const bool known =
+        !grazings_.empty() && grazings_.back().guard == index_ && std::abs(grazings_.back().s - s) < contact_;
+    if (!known) grazings_.push_back({index_, s});
+  }
+  [[nodiscard]] double sign_change(double low, double high);
+  [[nodiscard]] Jet taylor_jet(double s);
   [[nodiscard]] double accept_root(const Jet& a, const Jet& b, double remainder);
   Jet polish(double s);
-  [[nodiscard]] Jet minimum(const Jet& a, const Jet& b) const;
-  [[nodiscard]] Jet split_point(const Jet& a, const Jet& b) const;
+  [[nodiscard]] Jet minimum(const Jet& a, const Jet& b);
+  [[nodiscard]] Jet split_point(const Jet& a, const Jet& b);
   [[nodiscard]] double split(const Jet& a, const Jet& b, int depth);
 
   const ExponentialBasis& basis_;
@@ -167,28 +215,31 @@ class PanelSearch {
   double sixth_ = 0.0;
   double curvature_ = 0.0;
   double amplitude_ = 0.0;
+  double contact_ = 0.0;
+  std::array<double, taylor_terms> taylor_;
+  bool has_taylor_ = false;
   double polished_ = -1.0;
   ExponentialBasis::Values root_values_;
 };
 
-Jet PanelSearch::taylor_jet(double s) const {
-  Jet result{s, 0.0, 0.0, 0.0, 0};
-  ModeFunction derivative = guard_.value;
-  double power = 1.0;  // s^k / k!
-  double power1 = 0.0;
-  double power2 = 0.0;
-  for (int k = 0; k < taylor_terms; ++k) {
-    if (k >= guard_.known_zeros) {
-      const double c = at_start(basis_, derivative);
-      result.value += c * power;
-      result.slope += c * power1;
-      result.curvature += c * power2;
+Jet PanelSearch::taylor_jet(double s) {
+  if (!has_taylor_) {
+    has_taylor_ = true;
+    ModeFunction derivative = guard_.value;
+    double factorial = 1.0;
+    for (int k = 0; k < taylor_terms; ++k) {
+      taylor_[static_cast<std::size_t>(k)] =
+          k < guard_.known_zeros ? 0.0 : at_start(basis_, derivative) / factorial;
+      factorial *= k + 1;
+      const ModeFunction previous = derivative;
+      differentiate(basis_, previous, derivative);
     }
-    power2 = power1;
-    power1 = power;
-    power *= s / (k + 1);
-    const ModeFunction previous = derivative;
-    differentiate(basis_, previous, derivative);
+  }
+  Jet result{s, 0.0, 0.0, 0.0, 0};
+  for (std::size_t k = taylor_terms; k-- > 0;) {
+    result.curvature = result.curvature * s + 2.0 * result.slope;
+    result.slope = result.slope * s + result.value;
+    result.value = result.value * s + taylor_[k];
   }
   return result;
 }
@@ -204,8 +255,9 @@ Jet PanelSearch::polish(double s) {
     if (!(std::abs(step) > 2.0 * epsilon * s) || !(s - step >= 0.0)) break;
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
-    // Convergence is cubic: behind so small a step nothing is left to correct.
-    if (std::abs(step) * basis_.fastest() < 5e-6) {
+    // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
+    const double scale = std::max(basis_.fastest(), std::abs(j.curvature / j.slope));
+    if (std::abs(step) * scale < 5e-6 && basis_.fastest() > 0.0) {
       j.slope -= j.curvature * step;
       break;
     }
@@ -275,7 +327,7 @@ double PanelSearch::accept_root(const Jet& a, const Jet& b, double remainder) {
 }
 
 /// The minimum between slopes of opposite sign, by Newton on g' with bisection as a safeguard.
-Jet PanelSearch::minimum(const Jet& a, const Jet& b) const {
+Jet PanelSearch::minimum(const Jet& a, const Jet& b) {
   double low = a.s;
   double high = b.s;
   double s = a.s + (b.s - a.s) * a.slope / (a.slope - b.slope);
@@ -292,10 +344,22 @@ Jet PanelSearch::minimum(const Jet& a, const Jet& b) const {
   return j;
 }
 
+/// Where the value turns negative between low and high, by bisection: for contacts too flat for Newton.
+double PanelSearch::sign_change(double low, double high) {
+  for (int i = 0; i < 60 && high - low > 2.0 * epsilon * high; ++i) {
+    const double s = 0.5 * (low + high);
+    (jet(s).value > 0.0 ? low : high) = s;
+  }
+  return high;
+}
+
 /// A point inside (a, b) whose value is decided beyond rounding, where there is one.
-Jet PanelSearch::split_point(const Jet& a, const Jet& b) const {
-  if (b.value > 0.0 && a.slope < 0.0 && b.slope > 0.0) return minimum(a, b);
+Jet PanelSearch::split_point(const Jet& a, const Jet& b) {
   Jet j;
+  if (b.value > 0.0 && a.slope < 0.0 && b.slope > 0.0) {
+    j = minimum(a, b);
+    if (j.s > a.s && j.s < b.s) return j;
+  }
   for (const double part : {0.5, 0.43, 0.61}) {
     j = jet(a.s + part * (b.s - a.s));
     if (std::abs(j.value) > slack(j.s)) break;
@@ -306,18 +370,24 @@ Jet PanelSearch::split_point(const Jet& a, const Jet& b) const {
 double PanelSearch::split(const Jet& a, const Jet& b, int depth) {
   ++count_.splits;
   Jet middle = split_point(a, b);
+  if (std::abs(middle.value) <= slack(middle.s)) narrow(middle.s, middle.s);
+  if (amplitude_ < vanished) {
+    narrow(a.s, middle.s);
+    return first_root(a, middle, depth + 1);
+  }
   if (std::abs(middle.value) <= slack(middle.s)) {
-    ++count_.grazings;
-    grazings_.push_back({index_, middle.s});
+    record_grazing(middle.s);
     middle.value = middle.slope = 0.0;
     middle.zeros = 2;
     // A touched point is where the certificate hands over: positive on both sides of it.
     middle.curvature = std::max(middle.curvature, 0.0);
   }
   if (!(middle.s > a.s && middle.s < b.s)) return b.value < 0.0 ? b.s : none;
-  if (middle.value < 0.0) return first_root(a, middle, depth + 1);
+  narrow(a.s, middle.s);
   const double left = first_root(a, middle, depth + 1);
-  return left >= 0.0 ? left : first_root(middle, b, depth + 1);
+  if (left >= 0.0 || middle.value < 0.0) return left;
+  narrow(middle.s, b.s);
+  return first_root(middle, b, depth + 1);
 }
 
 double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
@@ -334,12 +404,19 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
     const double root = accept_root(a, b, remainder);
     if (root >= 0.0) return root;
   }
+  if (depth == 0) {
+    const double coarse = amplitude_;
+    narrow(a.s, b.s);
+    if (amplitude_ < vanished) return none;
+    if (amplitude_ < 0.5 * coarse) return first_root(a, b, depth);
+  } else if (amplitude_ < vanished) {
+    return none;
+  }
   const double range = low.largest() + 2.0 * remainder;
   if (depth >= max_depth || h <= 4.0 * epsilon * b.s || range <= 4.0 * std::max(slack(a.s), right_slack)) {
-    if (crosses) return b.s;
-    // Nowhere on the panel does the guard stand out of rounding, and no sign change: one flat contact.
-    ++count_.grazings;
-    grazings_.push_back({index_, 0.5 * (a.s + b.s)});
+    // Nowhere on the panel does the guard stand out of rounding: a flat crossing, or one flat contact.
+    if (crosses) return sign_change(a.s, b.s);
+    if (a.zeros == 0) record_grazing(0.5 * (a.s + b.s));
     return none;
   }
   return split(a, b, depth);
@@ -356,7 +433,7 @@ void start_values(const ExponentialBasis& basis, ExponentialBasis::Values& value
 double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
                    const ExponentialBasis::Values& values, double a) {
   double width = basis.panel();
-  if (basis.even()) return width;
+  if (basis.even()) return basis.fastest() > 0.0 ? width : std::numeric_limits<double>::infinity();
   for (int doubling = 0; doubling < 60; ++doubling) {
     const double wider = 2.0 * width;
     const double wider2 = wider * wider;
@@ -375,7 +452,9 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
   for (int attempt = 0; attempt < 4; ++attempt) {
     bool decided = true;
     for (const Guard& guard : guards) {
-      decided = decided && std::abs(evaluate(basis, guard.value, values)) >= graze * guard.amplitude;
+      const double value = std::abs(evaluate(basis, guard.value, values));
+      decided = decided &&
+                (value >= graze * guard.amplitude || value >= graze * bound(basis, guard.value, values, b, 0.0));
     }
     if (decided) break;
     b = a + 0.77 * (b - a);
@@ -418,6 +497,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
   crossing.found = false;
   crossing.guard = -1;
   crossing.s = horizon;
+  const auto earlier = static_cast<std::ptrdiff_t>(grazings.size());
   std::array<ExponentialBasis::Values, 2> ends;
   int current = 0;
   start_values(basis, ends[0]);
@@ -435,12 +515,20 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     }
     if (b < horizon) b = clear_panel_end(basis, guards, a, b, right);
     double first = -1.0;
+    double contact = -1.0;
     for (std::size_t g = 0; g < guards.size(); ++g) {
       if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
       PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
       search.bound_panel(a, b - a, left);
       const Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, left);
       Jet end = search.jet(b, right);
+      if (!search.finite(end)) {
+        // The motion runs away: nothing can be certified, and the values must not look like those of a motion.
+        crossing.values.re.fill(std::numeric_limits<double>::infinity());
+        crossing.values.im.fill(0.0);
+        return;
+      }
+      if (b == horizon && std::abs(end.value) <= search.slack(b)) search.narrow(a, b);
       if (b == horizon && std::abs(end.value) <= search.slack(b) && end.slope < 0.0) {
         end.value = 0.0;  // reached at the horizon: left to the next search
         end.zeros = 1;
@@ -449,19 +537,26 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
       if (root >= 0.0 && (first < 0.0 || root < first)) {
         first = root;
         crossing.guard = static_cast<int>(g);
+        contact = search.contact_begin(root);
         search.values_at(root, crossing.values);
       }
     }
     if (first >= 0.0) {
       crossing.found = true;
       crossing.s = first;
-      std::erase_if(grazings, [&](const Grazing& grazing) { return grazing.s > first; });
+      // Nor is the contact of which the crossing is the end a grazing of its own.
+      const auto late = [&](const Grazing& grazing) {
+        return grazing.s > first || (grazing.guard == crossing.guard && grazing.s > contact);
+      };
+      grazings.erase(std::remove_if(grazings.begin() + earlier, grazings.end(), late), grazings.end());
+      count.grazings += static_cast<long>(grazings.size()) - earlier;
       return;
     }
     current = 1 - current;
     a = b;
   }
   copy(basis, ends[static_cast<std::size_t>(current)], crossing.values);
+  count.grazings += static_cast<long>(grazings.size()) - earlier;
 }
 
 namespace {

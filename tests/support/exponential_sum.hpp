@@ -32,6 +32,9 @@ class ExponentialSum {
   [[nodiscard]] Real at(Real s) const { return jet(s)[0]; }
   /// sum |c_k|
   [[nodiscard]] Real amplitude() const;
+  /// sum |c_k| max |E_k(s)|, of a chain by its bound s^n/n! exp(Re z s): double precision knows f to a few eps of
+  /// it.
+  [[nodiscard]] Real size(Real s) const { return bound(s, s, 0); }
   /// The largest |z_k|.
   [[nodiscard]] Real rate() const { return rate_; }
   [[nodiscard]] int known_zeros() const { return zeros_; }

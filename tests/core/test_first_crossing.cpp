@@ -1,0 +1,708 @@
+#include "core/first_crossing.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/exponential_sum.hpp"
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace dualdamp::core;
+using dualdamp::oracle::ExponentialSum;
+using dualdamp::oracle::LongComplex;
+using dualdamp::test::Random;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double pi = std::numbers::pi;
+/// What the header promises: minima this close to zero, relative to the amplitudes' sum, are contacts.
+constexpr double graze = 16.0 * epsilon;
+
+/// One element with its coefficient.
+struct Term {
+  Complex exponent;
+  Complex coefficient;
+  int parent = ExponentialBasis::no_parent;
+};
+using Terms = std::vector<Term>;
+
+/// c_0 + c_1 s + c_2 s^2 + ...
+Terms polynomial(const std::vector<double>& c) {
+  Terms terms;
+  double factorial = 1.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (k > 0) factorial *= static_cast<double>(k);
+    terms.push_back({0.0, factorial * c[k], static_cast<int>(k) - 1});
+  }
+  return terms;
+}
+
+/// Several guards on the basis of all their elements.
+class Problem {
+ public:
+  explicit Problem(const std::vector<Terms>& guards, int known_zeros = 0) {
+    for (const Terms& terms : guards) {
+      const int offset = basis_.size();
+      for (const Term& term : terms) {
+        basis_.add(term.exponent, term.parent < 0 ? term.parent : term.parent + offset);
+      }
+    }
+    basis_.finish();
+    int next = 0;
+    for (const Terms& terms : guards) {
+      Guard guard;
+      clear(basis_, guard.value);
+      for (const Term& term : terms) {
+        guard.value.re[static_cast<std::size_t>(next)] = term.coefficient.real();
+        guard.value.im[static_cast<std::size_t>(next++)] = term.coefficient.imag();
+      }
+      guard.known_zeros = known_zeros;
+      prepare(basis_, guard);
+      guards_.push_back(guard);
+    }
+  }
+
+  [[nodiscard]] const ExponentialBasis& basis() const { return basis_; }
+  [[nodiscard]] const std::vector<Guard>& guards() const { return guards_; }
+
+ private:
+  ExponentialBasis basis_;
+  std::vector<Guard> guards_;
+};
+
+struct Result {
+  Crossing crossing;
+  std::vector<Grazing> grazings;
+  SearchCount count;
+};
+
+Result search(const Problem& problem, double horizon) {
+  Result result;
+  first_crossing(problem.basis(), problem.guards(), horizon, result.crossing, result.grazings, result.count);
+  return result;
+}
+
+Result search(const Terms& terms, double horizon, int known_zeros = 0) {
+  return search(Problem({terms}, known_zeros), horizon);
+}
+
+ExponentialSum reference(const Terms& terms, int known_zeros = 0) {
+  ExponentialSum sum;
+  for (const Term& term : terms) sum.add(LongComplex(term.exponent), LongComplex(term.coefficient), term.parent);
+  sum.finish(known_zeros);
+  return sum;
+}
+
+double amplitude(const Terms& terms) {
+  double sum = 0.0;
+  for (const Term& term : terms) sum += std::abs(term.coefficient);
+  return sum;
+}
+
+void check_crossing(const Result& result, int guard, double s, double tolerance) {
+  REQUIRE(result.crossing.found);
+  CHECK(result.crossing.guard == guard);
+  CHECK(std::abs(result.crossing.s - s) <= tolerance);
+}
+
+/// cos(w s) as a term of amplitude a and phase p.
+Term cosine(double a, double w, double p = 0.0) { return {Complex(0.0, w), std::polar(a, p)}; }
+Term constant(double value) { return {0.0, value}; }
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------
+// The checklist. Tolerance of a simple root: g is known to a few eps of its amplitudes A, so s is known to a few
+// eps A/|g'(s)|; where |g'| is of the order A times the frequency that is a few eps of a period.
+
+TEST_CASE("A simple crossing is found to rounding") {
+  check_crossing(search({cosine(1.0, 2.0)}, 10.0), 0, pi / 4.0, 4 * epsilon);
+  check_crossing(search(polynomial({1.0, -1.0}), 10.0), 0, 1.0, 4 * epsilon);
+  check_crossing(search({{-1.0, 1.0}, constant(-0.25)}, 10.0), 0, std::log(4.0), 8 * epsilon);
+}
+
+TEST_CASE("Values of the elements at the crossing and at the horizon come with the result") {
+  const Problem problem({{cosine(1.0, 2.0), {Complex(-0.1, 3.0), 0.01}}});
+  for (const double horizon : {0.3, 5.0}) {
+    const Result result = search(problem, horizon);
+    CHECK(result.crossing.found == (horizon > 1.0));
+    if (!result.crossing.found) CHECK(result.crossing.s == horizon);
+    ExponentialBasis::Values expected;
+    problem.basis().evaluate(result.crossing.s, expected);
+    for (std::size_t k = 0; k < 2; ++k) {
+      CHECK(std::abs(result.crossing.values.re[k] - expected.re[k]) <= 8 * epsilon);
+      CHECK(std::abs(result.crossing.values.im[k] - expected.im[k]) <= 8 * epsilon);
+    }
+  }
+}
+
+TEST_CASE("A horizon of zero finds nothing") {
+  const Result result = search({cosine(1.0, 2.0)}, 0.0);
+  CHECK_FALSE(result.crossing.found);
+  CHECK(result.crossing.s == 0.0);
+}
+
+TEST_CASE("Identical guards cross together and one of them is reported") {
+  const Terms terms = {cosine(1.0, 2.0), constant(0.3)};
+  const Result result = search(Problem({terms, terms}), 10.0);
+  REQUIRE(result.crossing.found);
+  CHECK(std::abs(result.crossing.s - std::acos(-0.3) / 2.0) <= 8 * epsilon);
+}
+
+TEST_CASE("Of two guards that cross close to each other the first is reported, in either order") {
+  for (const double distance : {1e-1, 1e-4, 1e-8, 1e-12}) {
+    const Terms early = polynomial({1.0, -1.0});
+    const Terms late = polynomial({1.0 + distance, -1.0});
+    check_crossing(search(Problem({early, late}), 10.0), 0, 1.0, 8 * epsilon);
+    check_crossing(search(Problem({late, early}), 10.0), 1, 1.0, 8 * epsilon);
+  }
+}
+
+TEST_CASE("After an event the search starts anew from the crossing with its zero factored out") {
+  // sin s from every one of its zeros: the next one, half a period on, is found and the old one is not found again.
+  double s = 0.0;
+  double side = 1.0;
+  for (int i = 1; i <= 100; ++i) {
+    // side sin(s0 + s), s0 = s: its value at the start is rounding and is declared a zero.
+    const Result result = search({cosine(side, 1.0, s - pi / 2.0)}, 10.0, 1);
+    REQUIRE(result.crossing.found);
+    s += result.crossing.s;
+    side = -side;
+    CHECK(std::abs(s - i * pi) <= 4 * epsilon * s);
+  }
+}
+
+TEST_CASE("Zeros at the start, of order one to three, are not crossings; the next crossing is") {
+  // s^n (1 - s) without and with a fast partner that pushes the panels below 1.
+  for (const int order : {1, 2, 3}) {
+    std::vector<double> c(static_cast<std::size_t>(order) + 2, 0.0);
+    c[static_cast<std::size_t>(order)] = 1.0;
+    c[static_cast<std::size_t>(order) + 1] = -1.0;
+    CAPTURE(order);
+    check_crossing(search(polynomial(c), 10.0, order), 0, 1.0, 64 * epsilon);
+    CHECK(search(polynomial(c), 0.9, order).crossing.found == false);
+  }
+  // sin s, 1 - cos s = 2 sin^2(s/2) touches zero again at 2 pi; s - sin s never does.
+  check_crossing(search({cosine(1.0, 1.0, -pi / 2.0)}, 10.0, 1), 0, pi, 8 * epsilon);
+  CHECK_FALSE(search({constant(1.0), cosine(-1.0, 1.0)}, 6.0, 2).crossing.found);
+  const Terms cubic = {{0.0, 0.0}, {0.0, 1.0, 0}, cosine(-1.0, 1.0, -pi / 2.0)};
+  CHECK_FALSE(search(cubic, 100.0, 3).crossing.found);
+}
+
+TEST_CASE("Rounding at a known zero is not a crossing") {
+  // v(0) = 0 and v'(0) = 0 up to one part in 1e16, of either sign, as a release with static = kinetic leaves them:
+  // 1 - cos s + delta s + delta, positive for s > 0 but for the rounding.
+  for (const double delta : {-3e-16, -1e-17, 1e-17, 3e-16}) {
+    const Terms terms = {constant(1.0 + delta), {0.0, delta, 0}, cosine(-1.0, 1.0)};
+    CAPTURE(delta);
+    const Result result = search(terms, 6.0, 2);
+    CHECK_FALSE(result.crossing.found);
+    CHECK(result.grazings.empty());
+  }
+}
+
+TEST_CASE("A crossing very near a factored zero is found") {
+  // s^n (d - s) e^(-s)-like: on the scale d everything else is constant. The factored form knows g to a few eps of
+  // s^n A, so d is known to a few eps of d.
+  for (const int order : {1, 2, 3}) {
+    for (const double d : {1e-1, 1e-2, 1e-4, 1e-6, 1e-8}) {
+      std::vector<double> c(static_cast<std::size_t>(order) + 2, 0.0);
+      c[static_cast<std::size_t>(order)] = d;
+      c[static_cast<std::size_t>(order) + 1] = -1.0;
+      CAPTURE(order, d);
+      check_crossing(search(polynomial(c), 10.0, order), 0, d, 64 * epsilon * d);
+    }
+  }
+  // The same with oscillations: sin(s)(1 - sin(s)/d) = sin s - (1 - cos 2s)/(2d) crosses at asin d.
+  for (const double d : {0.5, 1e-2, 1e-4, 1e-6}) {
+    const Terms terms = {cosine(1.0, 1.0, -pi / 2.0), constant(-0.5 / d), cosine(0.5 / d, 2.0)};
+    CAPTURE(d);
+    check_crossing(search(terms, 3.0, 1), 0, std::asin(d), 64 * epsilon * std::asin(d) + 4 * epsilon * d);
+  }
+}
+
+TEST_CASE("A guard that is negative at the start counts as crossed there") {
+  const Result result = search(polynomial({-1e-3, 1.0}), 10.0);
+  REQUIRE(result.crossing.found);
+  CHECK(result.crossing.s <= 1e-12);
+}
+
+TEST_CASE("A zero at the horizon belongs to the next search") {
+  for (const int periods : {1, 3, 100}) {
+    const double horizon = pi / 2.0 + 2.0 * pi * (periods - 1);
+    // cos s + cut off the earlier crossings: 1 + cos s touches zero only; use a ramp for one crossing at the end.
+    const Result result = search({constant(horizon), {0.0, -1.0, 0}}, horizon);
+    CHECK_FALSE(result.crossing.found);
+    CHECK(result.grazings.empty());
+  }
+  CHECK_FALSE(search({cosine(1.0, 1.0)}, pi / 2.0).crossing.found);
+  // A crossing just before the horizon is an event, one just behind is not.
+  check_crossing(search({cosine(1.0, 1.0)}, pi / 2.0 + 1e-12), 0, pi / 2.0, 4 * epsilon);
+  CHECK_FALSE(search({cosine(1.0, 1.0)}, pi / 2.0 - 1e-12).crossing.found);
+}
+
+TEST_CASE("A double root is one grazing, every time it comes, and not a crossing") {
+  const Result once = search({constant(1.0), cosine(1.0, 1.0)}, 6.0);
+  CHECK_FALSE(once.crossing.found);
+  REQUIRE(once.grazings.size() == 1);
+  // Value within 16 eps of zero: 2 (s - pi)^2 / 4 <= 32 eps.
+  CHECK(std::abs(once.grazings[0].s - pi) <= std::sqrt(64.0 * epsilon));
+  CHECK(once.count.grazings == 1);
+
+  const Result often = search({constant(1.0), cosine(1.0, 1.0)}, 200.0 * pi);
+  CHECK_FALSE(often.crossing.found);
+  CHECK(often.grazings.size() == 100);
+
+  const Result parabola = search(polynomial({1.0, -2.0, 1.0}), 3.0);
+  CHECK_FALSE(parabola.crossing.found);
+  CHECK(parabola.grazings.size() == 1);
+}
+
+TEST_CASE("A grazing behind the crossing is not reported, one before it is, whatever the order of the guards") {
+  const Terms crossing = polynomial({2.0, -1.0});             // at 2
+  const Terms early = {constant(1.0), cosine(1.0, pi)};       // touches at 1 and 3
+  const Terms late = {constant(1.0), cosine(1.0, pi / 2.5)};  // touches at 2.5
+  const std::vector<std::vector<Terms>> orders = {
+      {crossing, early, late}, {early, late, crossing}, {late, crossing, early}, {late, early, crossing}};
+  for (const auto& guards : orders) {
+    const Result result = search(Problem(guards), 10.0);
+    REQUIRE(result.crossing.found);
+    CHECK(std::abs(result.crossing.s - 2.0) <= 8 * epsilon);
+    REQUIRE(result.grazings.size() == 1);
+    CHECK(std::abs(result.grazings[0].s - 1.0) <= 1e-7);
+    CHECK(result.count.grazings == 1);
+  }
+}
+
+TEST_CASE("Grazings of an earlier search stay in the list") {
+  const Problem problem({{constant(1.0), cosine(1.0, 1.0)}, polynomial({7.0, -1.0})});
+  Result result;
+  result.grazings.push_back({5, 1e6});
+  first_crossing(problem.basis(), problem.guards(), 100.0, result.crossing, result.grazings, result.count);
+  CHECK(result.crossing.found);
+  REQUIRE(result.grazings.size() == 2);
+  CHECK(result.grazings[0].guard == 5);
+}
+
+TEST_CASE("A root pair is two events down to a gap of 1e-7 of the period, and one grazing below") {
+  // cos s + cos(gap/2) vanishes at pi -+ gap/2 and dips by gap^2/8. g is known to e = 2 eps A, A = 2, hence the
+  // root to e/|g'| = 2 e/gap, and the reported dip has depth above 16 eps A = 7e-15 while gap > 2.4e-7.
+  for (double gap = 0.1 * 2.0 * pi; gap > 0.99e-7 * 2.0 * pi; gap /= std::sqrt(10.0)) {
+    const double level = std::cos(gap / 2.0);
+    CAPTURE(gap);
+    check_crossing(search({cosine(1.0, 1.0), constant(level)}, 6.0), 0, std::acos(-level), 16 * epsilon / gap);
+  }
+  for (const double gap : {1e-8, 3e-9, 1e-9}) {
+    const Result result = search({cosine(1.0, 1.0), constant(std::cos(gap / 2.0))}, 6.0);
+    CHECK_FALSE(result.crossing.found);
+    CHECK(result.grazings.size() == 1);
+  }
+  // On a chain: (s - 1)^2 - (gap/2)^2.
+  for (const double gap : {1e-1, 1e-3, 1e-5, 1e-6}) {
+    CAPTURE(gap);
+    const Terms terms = polynomial({(1.0 - gap / 2.0) * (1.0 + gap / 2.0), -2.0, 1.0});
+    check_crossing(search(terms, 3.0), 0, 1.0 - gap / 2.0, 64 * epsilon / gap);
+  }
+}
+
+TEST_CASE("A minimum just above zero is neither a crossing nor a grazing") {
+  for (const double height : {1e-1, 1e-4, 1e-7, 1e-10, 1e-13}) {
+    const Result result = search({constant(1.0 + height), cosine(1.0, 1.0)}, 60.0);
+    CAPTURE(height);
+    CHECK_FALSE(result.crossing.found);
+    CHECK(result.grazings.empty());
+  }
+}
+
+TEST_CASE("Flatter contacts: a fourfold root is one grazing, a threefold root is a crossing") {
+  // |s - 1|^n <= 64 eps A is all that can be asked of the place, A = 2^n (and n! from the chain's coefficients).
+  const Result fourfold = search(polynomial({1.0, -4.0, 6.0, -4.0, 1.0}), 3.0);
+  CHECK_FALSE(fourfold.crossing.found);
+  CHECK(fourfold.grazings.size() == 1);
+  const Result threefold = search(polynomial({1.0, -3.0, 3.0, -1.0}), 3.0);
+  check_crossing(threefold, 0, 1.0, std::cbrt(64.0 * epsilon * 14.0));
+  CHECK(threefold.grazings.empty());
+}
+
+TEST_CASE("A fast transient that has died out neither hides a slow root nor costs panels") {
+  for (const double decay : {10.0, 1e3, 1e6}) {
+    // 1 + e^(-decay s) - s/1000
+    const Result result = search({constant(1.0), {0.0, -1e-3, 0}, {-decay, 1.0}}, 1e4);
+    CAPTURE(decay);
+    check_crossing(result, 0, 1000.0, 1e4 * epsilon);
+    const Result ringing = search({cosine(1.0, 1e-3, 0.1), {Complex(-decay, 5.0 * decay), 0.5}}, 1e5);
+    check_crossing(ringing, 0, (pi / 2.0 - 0.1) * 1e3, 1e4 * epsilon);
+    CHECK(ringing.count.panels < 400);
+  }
+}
+
+TEST_CASE("A guard that decays to nothing is followed down without contacts") {
+  // exp keeps its sign and its relative precision: there is no zero and nothing to report, at any horizon.
+  const std::vector<std::pair<Terms, int>> cases = {
+      {{{-1.0, 1.0}}, 0},
+      {{{-1.0, 1.0}, {-2.0, -1.0}}, 1},       // e^-s - e^-2s
+      {{{-1.0, 1.0}, {-1.0, 1.0, 0}}, 0},     // e^-s (1 + s)
+      {{{-1.0, 0.0}, {-1.0, 1.0, 0}}, 1},     // s e^-s
+      {{{-0.01, 0.0}, {-100.0, 1.0, 0}}, 1},  // overdamped release
+      {{{-1.0, 1.0}, {Complex(-1.0, 3.0), 0.9}}, 0},
+  };
+  for (const auto& [terms, zeros] : cases) {
+    for (const double horizon : {30.0, 100.0, 1e4, 1e6}) {
+      const Result result = search(terms, horizon, zeros);
+      CAPTURE(terms.size(), horizon);
+      CHECK_FALSE(result.crossing.found);
+      CHECK(result.grazings.empty());
+    }
+  }
+}
+
+TEST_CASE("A crossing far down a decay is found") {
+  // e^-s (1 - s/60) at 60, where the guard has fallen to 1e-26 of its start.
+  check_crossing(search({{-1.0, 1.0}, {-1.0, -1.0 / 60.0, 0}}, 100.0), 0, 60.0, 256 * epsilon * 60.0);
+  // e^-s - 1e-15 e^(-s/2) at 2 ln 1e15.
+  check_crossing(search({{-1.0, 1.0}, {-0.5, -1e-15}}, 100.0), 0, 2.0 * std::log(1e15), 256 * epsilon * 70.0);
+}
+
+TEST_CASE("Growing guards") {
+  // 2 - e^s at ln 2; e^s (1 + 0.9 cos 5s) never; e^(s/10) cos s at pi/2; cosh-like growth past all bounds.
+  check_crossing(search({constant(2.0), {1.0, -1.0}}, 50.0), 0, std::log(2.0), 16 * epsilon);
+  CHECK_FALSE(search({{1.0, 1.0}, {Complex(1.0, 5.0), 0.9}}, 100.0).crossing.found);
+  check_crossing(search({{Complex(0.1, 1.0), 1.0}}, 50.0), 0, pi / 2.0, 16 * epsilon);
+  const Result late = search({{0.5, 1e-12}, constant(-1.0), {-1e-3, 2.0}}, 50.0);
+  CHECK_FALSE(late.crossing.found);
+  check_crossing(search({{0.5, -1e-12}, constant(1.0)}, 100.0), 0, 2.0 * std::log(1e12), 1024 * epsilon);
+}
+
+TEST_CASE("A guard that leaves the range of double precision ends the search, with values that show it") {
+  const Result result = search({{1.0, 1.0}}, 1e4);
+  CHECK_FALSE(result.crossing.found);
+  CHECK_FALSE(std::isfinite(result.crossing.values.re[0]));
+}
+
+TEST_CASE("Secular terms: resonance without damping, critical damping, polynomials") {
+  // 1 - s sin(s)/20 with s exp(is) for the nodes i, i; against the reference.
+  const Terms forced = {constant(1.0), cosine(0.0, 1.0), {Complex(0.0, 1.0), Complex(0.0, 0.05), 1}};
+  check_crossing(search(forced, 100.0), 0, static_cast<double>(reference(forced).first_crossing(100.0L, 0.0L).s),
+                 1e-13);
+  // e^-s (1 - s)
+  check_crossing(search({{-1.0, 1.0}, {-1.0, -1.0, 0}}, 10.0), 0, 1.0, 16 * epsilon);
+  // 1 - s^5
+  check_crossing(search(polynomial({1.0, 0.0, 0.0, 0.0, 0.0, -1.0}), 10.0), 0, 1.0, 1024 * epsilon);
+}
+
+TEST_CASE("Constant and identically zero guards never cross") {
+  const Result zero = search({constant(0.0), cosine(0.0, 3.0)}, 100.0);
+  CHECK_FALSE(zero.crossing.found);
+  CHECK(zero.grazings.empty());
+  CHECK_FALSE(search({constant(1e-9)}, 1e12).crossing.found);
+  CHECK_FALSE(search({constant(1.0), cosine(0.0, 3.0)}, 1e3).crossing.found);
+  // A zero guard beside one that crosses.
+  check_crossing(search(Problem({{constant(0.0)}, {cosine(1.0, 1.0)}}), 10.0), 1, pi / 2.0, 4 * epsilon);
+}
+
+TEST_CASE("The germ tells the order of the zero at the start and the sign behind it") {
+  const auto germ_of = [](const std::vector<double>& c) {
+    const Problem problem({polynomial(c)});
+    const Germ found = germ(problem.basis(), problem.guards()[0], 0.0);
+    return std::pair(found.sign, found.zeros);
+  };
+  CHECK(germ_of({1e-3, -1.0}) == std::pair(1, 0));
+  CHECK(germ_of({-1e-3, 1.0}) == std::pair(-1, 0));
+  CHECK(germ_of({0.0, 1e-9, -1.0}) == std::pair(1, 1));
+  CHECK(germ_of({0.0, 0.0, -1e-9, 1.0}) == std::pair(-1, 2));
+  CHECK(germ_of({0.0, 0.0, 0.0, 1.0}) == std::pair(1, 3));
+  CHECK(germ_of({0.0, 0.0, 0.0, 0.0, 1.0}).first == 0);
+  // Rounding counts as zero: 1 - cos s with its constant off by an ulp.
+  const Problem problem({{constant(1.0 + epsilon), cosine(-1.0, 1.0)}});
+  CHECK(germ(problem.basis(), problem.guards()[0], 0.0).sign == 1);
+  CHECK(germ(problem.basis(), problem.guards()[0], 0.0).zeros == 2);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The campaign: random guards against the search in long double.
+
+namespace {
+
+struct RandomGuard {
+  Terms terms;
+  int zeros = 0;
+};
+
+struct RandomCase {
+  std::vector<RandomGuard> guards;
+  double horizon = 0.0;
+  bool built_near_tangent = false;
+};
+
+/// Sum of oscillations, decays and a constant with |g(0)| of its order.
+Terms random_terms(Random& random, double rate) {
+  Terms terms = {constant(random.sign() * random.logarithmic(1e-2, 2.0))};
+  terms.push_back({Complex(-random.logarithmic(1e-4, 1.0), random.logarithmic(0.3, 3.0)) * rate,
+                   std::polar(random.logarithmic(1e-2, 1.0), random.angle())});
+  const int harmonics = 1 + random.pick(3);
+  const double drive = rate * random.logarithmic(0.2, 3.0);
+  for (int j = 1; j <= harmonics; ++j) {
+    terms.push_back(cosine(random.logarithmic(1e-3, 1.0) / j, j * drive, random.angle()));
+  }
+  if (random.chance(0.2)) terms.push_back({-rate * random.logarithmic(3.0, 1e4), random.uniform(-1.0, 1.0)});
+  if (random.chance(0.1)) {
+    const double growth = random.logarithmic(1e-2, 0.3);
+    terms.push_back({Complex(growth, random.chance(0.5) ? 0.0 : 1.0) * rate, 1e-2 * random.uniform(-1.0, 1.0)});
+  }
+  return terms;
+}
+
+/// Adds chains: a ramp, critical damping, resonance.
+void add_chain(Terms& terms, Random& random, double rate) {
+  const auto next = [&] { return static_cast<int>(terms.size()); };
+  switch (random.pick(3)) {
+    case 0:
+      terms.push_back({0.0, rate * random.uniform(-0.2, 0.2), 0});
+      break;
+    case 1: {
+      const double z = -rate * random.logarithmic(1e-2, 1.0);
+      terms.push_back({z, random.uniform(-1.0, 1.0)});
+      terms.push_back({z * (1.0 + random.logarithmic(1e-16, 10.0)), rate * random.uniform(-1.0, 1.0), next() - 1});
+      break;
+    }
+    default: {
+      const double w = rate * random.logarithmic(0.3, 3.0);
+      const double near = random.logarithmic(1e-16, 1e-2);
+      terms.push_back(cosine(random.uniform(-1.0, 1.0), w, random.angle()));
+      terms.push_back(
+          {Complex(-near * w, w), rate * std::polar(random.uniform(0.0, 0.3), random.angle()), next() - 1});
+    }
+  }
+}
+
+/// Takes the zeroth to (order-1)th derivative at 0 out by changing three real coefficients.
+void plant_zeros(Terms& terms, int order, double rate, Random& random) {
+  // Coefficients of constant, and of the real and imaginary part of one oscillation.
+  const auto derivatives = [&] { return reference(terms).jet(0.0L); };
+  const double w = rate * random.logarithmic(0.5, 2.0);
+  terms.push_back(cosine(0.0, w));
+  Term& free = terms.back();
+  if (order >= 3) free.coefficient += Complex(static_cast<double>(derivatives()[2]) / (w * w), 0.0);
+  if (order >= 2) free.coefficient += Complex(0.0, static_cast<double>(derivatives()[1]) / w);
+  terms[0].coefficient -= static_cast<double>(derivatives()[0]);
+}
+
+/// Moves the constant so that the smallest value within the horizon becomes `least`.
+void plant_minimum(Terms& terms, double horizon, double least) {
+  const ExponentialSum f = reference(terms);
+  const int samples = std::min(4000, static_cast<int>(8.0 * horizon * static_cast<double>(f.rate())) + 16);
+  long double best = 0.0L;
+  long double lowest = f.at(0.0L);
+  for (int i = 1; i < samples; ++i) {
+    const long double s = static_cast<long double>(horizon) * i / samples;
+    const long double value = f.at(s);
+    if (value < lowest) {
+      lowest = value;
+      best = s;
+    }
+  }
+  long double s = best;
+  for (int i = 0; i < 60 && best > 0.0L; ++i) {
+    const auto jet = f.jet(s);
+    const long double step = jet[1] / jet[2];
+    if (!(std::abs(step) < 0.1L / f.rate())) break;
+    s -= step;
+    if (std::abs(step) < 1e-18L * s) break;
+  }
+  terms[0].coefficient += static_cast<double>(least - f.at(s));
+}
+
+RandomCase random_case(Random& random) {
+  RandomCase result;
+  const double rate = random.logarithmic(1e-3, 1e3);
+  result.horizon = random.logarithmic(0.3, 40.0) / rate;
+  const int guards = random.chance(0.3) ? 2 + random.pick(2) : 1;
+  for (int i = 0; i < guards; ++i) {
+    RandomGuard guard;
+    guard.terms = random_terms(random, rate);
+    if (random.chance(0.15)) add_chain(guard.terms, random, rate);
+    const int kind = random.pick(10);
+    if (kind < 4) {
+      // A minimum from 1e-1 down to 1e-17 above or below zero.
+      plant_minimum(guard.terms, result.horizon,
+                    random.sign() * random.logarithmic(1e-17, 1e-1) * amplitude(guard.terms));
+      result.built_near_tangent = true;
+    } else if (kind < 7) {
+      guard.zeros = 1 + random.pick(3);
+      plant_zeros(guard.terms, guard.zeros, rate, random);
+    }
+    // The side is positive: by the value at the start, or by the first derivative that is left.
+    const auto lead = [&] {
+      return static_cast<double>(reference(guard.terms).jet(0.0L)[static_cast<std::size_t>(guard.zeros)]);
+    };
+    if (guard.zeros == 0 && std::abs(lead()) < 1e-6 * amplitude(guard.terms)) guard.terms[0].coefficient += 1.0;
+    if (lead() < 0.0) {
+      for (Term& term : guard.terms) term.coefficient = -term.coefficient;
+    }
+    result.guards.push_back(guard);
+  }
+  return result;
+}
+
+/// The whole case on one basis; guards keep their own numbers of known zeros.
+Result search(const RandomCase& random_case) {
+  ExponentialBasis basis;
+  for (const RandomGuard& guard : random_case.guards) {
+    const int offset = basis.size();
+    for (const Term& term : guard.terms)
+      basis.add(term.exponent, term.parent < 0 ? term.parent : term.parent + offset);
+  }
+  basis.finish();
+  std::vector<Guard> guards;
+  std::size_t next = 0;
+  for (const RandomGuard& random_guard : random_case.guards) {
+    Guard guard;
+    clear(basis, guard.value);
+    for (const Term& term : random_guard.terms) {
+      guard.value.re[next] = term.coefficient.real();
+      guard.value.im[next++] = term.coefficient.imag();
+    }
+    guard.known_zeros = random_guard.zeros;
+    prepare(basis, guard);
+    guards.push_back(guard);
+  }
+  Result result;
+  first_crossing(basis, guards, random_case.horizon, result.crossing, result.grazings, result.count);
+  return result;
+}
+
+struct Tally {
+  long crossings = 0;
+  long grazings = 0;
+  long near_tangent = 0;
+  long cells = 0;
+  double smallest_gap = 1.0;  ///< of a period of the fastest element
+  double worst_time = 0.0;    ///< error of a crossing in units of the allowance
+};
+
+template <class... Values>
+std::string print(const Values&... values) {
+  std::ostringstream text;
+  text.precision(17);
+  (text << ... << values);
+  return text.str();
+}
+
+std::string describe(const RandomCase& c) {
+  std::string text = print("horizon ", c.horizon);
+  for (const RandomGuard& guard : c.guards) {
+    text += print("\nguard with ", guard.zeros, " known zeros");
+    for (const Term& t : guard.terms) {
+      text += print("\n  {{", t.exponent.real(), ", ", t.exponent.imag(), "}, {", t.coefficient.real(), ", ",
+                    t.coefficient.imag(), "}, ", t.parent, "}");
+    }
+  }
+  return text;
+}
+
+/// Rounding z s turns an element by eps |Im z| s / 2, and makes it grow or shrink likewise.
+double largest_turning(const Terms& terms) {
+  double rate = 0.0;
+  for (const Term& term : terms) rate = std::max({rate, std::abs(term.exponent.imag()), term.exponent.real()});
+  return rate;
+}
+
+/// The amplitudes' sum, with chains as large as they have grown.
+double size_until(const ExponentialSum& f, double s) {
+  return static_cast<double>(std::max(f.size(0.0L), f.size(s)));
+}
+
+double fastest(const RandomCase& c) {
+  double rate = 0.0;
+  for (const RandomGuard& guard : c.guards) {
+    for (const Term& term : guard.terms) rate = std::max(rate, std::abs(term.exponent));
+  }
+  return rate;
+}
+
+/// Nothing missed, nothing invented. What rounding may decide either way: minima within 4 times the rounding of
+/// zero.
+bool agrees(const RandomCase& c, const Result& found, Tally& tally, std::string& why) {
+  const double end = found.crossing.found ? found.crossing.s : c.horizon;
+  for (std::size_t i = 0; i < c.guards.size(); ++i) {
+    const ExponentialSum f = reference(c.guards[i].terms, c.guards[i].zeros);
+    const double size = size_until(f, end);
+    const double turning = largest_turning(c.guards[i].terms);
+    const auto shallow = static_cast<long double>(4.0 * (graze + epsilon * turning * c.horizon) * size);
+    const auto expected = f.first_crossing(static_cast<long double>(c.horizon), shallow);
+    tally.cells += expected.cells;
+    const bool own = found.crossing.found && found.crossing.guard == static_cast<int>(i);
+    if (own) {
+      const auto s = static_cast<long double>(found.crossing.s);
+      bool real = false;
+      if (expected.crossed) {
+        const auto jet = f.jet(expected.s);
+        double rounding = (16.0 + 2.0 * turning * found.crossing.s) * epsilon * size;
+        // Near the start the factored zero is exact; further on the guard is evaluated as it stands.
+        const double angle = found.crossing.s * fastest(c);
+        for (int n = 0; n < c.guards[i].zeros && angle < 0.5; ++n) rounding *= angle;
+        const auto allowed = static_cast<double>(static_cast<long double>(rounding) / std::abs(jet[1]) +
+                                                 static_cast<long double>(8.0 * epsilon) * expected.s);
+        const auto error = static_cast<double>(std::abs(s - expected.s));
+        real = error <= allowed;
+        if (real) tally.worst_time = std::max(tally.worst_time, error / allowed);
+        if (real && jet[2] > 0.0L) {
+          const auto gap = static_cast<double>(-2.0L * jet[1] / jet[2] * f.rate()) / (2.0 * pi);
+          tally.smallest_gap = std::min(tally.smallest_gap, gap);
+        }
+      }
+      real = real || (!expected.touches.empty() && std::abs(f.at(s)) <= shallow);
+      if (!real) {
+        why = print("invented: guard ", i, " at ", found.crossing.s, ", expected ",
+                    expected.crossed ? static_cast<double>(expected.s) : -1.0);
+      }
+      if (!real) return false;
+    } else if (expected.crossed && static_cast<double>(expected.s) < end * (1.0 - 1e-12)) {
+      why = print("missed: guard ", i, " at ", static_cast<double>(expected.s), ", found ", end);
+      return false;
+    }
+  }
+  for (const Grazing& grazing : found.grazings) {
+    const RandomGuard& guard = c.guards[static_cast<std::size_t>(grazing.guard)];
+    const ExponentialSum f = reference(guard.terms);
+    const double value = std::abs(static_cast<double>(f.at(grazing.s)));
+    if (value > 4.0 * (graze + epsilon * largest_turning(guard.terms) * grazing.s) * size_until(f, grazing.s)) {
+      why = print("not a grazing: guard ", grazing.guard, " at ", grazing.s, ", value ", value);
+      return false;
+    }
+  }
+  tally.crossings += found.crossing.found ? 1 : 0;
+  tally.grazings += static_cast<long>(found.grazings.size());
+  tally.near_tangent += c.built_near_tangent ? 1 : 0;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("Random guards: nothing missed, nothing invented") {
+  // DUALDAMP_CROSSING_CASES=1000000 for the long run; DUALDAMP_CROSSING_SEED for another one.
+  const long cases = dualdamp::test::case_count("DUALDAMP_CROSSING_CASES", 20000);
+  Random random(static_cast<std::uint64_t>(dualdamp::test::case_count("DUALDAMP_CROSSING_SEED", 2026)));
+  Tally tally;
+  long wrong = 0;
+  for (long i = 0; i < cases; ++i) {
+    const RandomCase c = random_case(random);
+    const Result found = search(c);
+    std::string why;
+    if (agrees(c, found, tally, why)) continue;
+    if (++wrong > 5) break;
+    UNSCOPED_INFO("case " << i << ", " << why << ", " << describe(c));
+  }
+  CHECK(wrong == 0);
+  WARN(cases << " searches, " << tally.near_tangent << " built near a tangency: " << tally.crossings
+             << " crossings, " << tally.grazings << " grazings; smallest gap of a root pair resolved: "
+             << tally.smallest_gap << " periods; largest error of a crossing: " << tally.worst_time
+             << " of the rounding allowed; " << tally.cells << " cells of the reference");
+}
