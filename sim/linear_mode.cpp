@@ -13,6 +13,10 @@ namespace {
 
 /// Relative distance of exponents below which divided differences take over; naive forms lose at most this factor.
 constexpr double closeness = 1e-2;
+/// The same for a ramp, whose naive form loses the square.
+constexpr double ramp_closeness = 1e-1;
+/// Own exponents below this part of the drive's frequency hardly move within a period: a vanishing stiffness.
+constexpr double vanishing = 1e-3;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -25,15 +29,20 @@ void add(ModeFunction& f, int k, Complex coefficient) {
 
 LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies,
                        bool ramped, std::span<const double> decays)
-    : mass_(mass), damping_(damping), stiffness_(stiffness), decays_(decays.begin(), decays.end()), ramped_(ramped) {
+    : mass_(mass),
+      damping_(damping),
+      stiffness_(stiffness),
+      decays_(decays.begin(), decays.end()),
+      ramped_(ramped) {
+  for (const double frequency : frequencies) fastest_drive_ = std::max(fastest_drive_, frequency);
   lay_own_motion();
-  constant_ = drive(0.0, basis_.add(0.0));
-  if (ramped) ramp_ = drive(0.0, basis_.add(0.0, constant_.source));
+  constant_ = drive(0.0, basis_.add(0.0), closeness);
+  if (ramped) ramp_ = drive(0.0, basis_.add(0.0, constant_.source), ramp_closeness);
   for (const double frequency : frequencies) {
     const Complex z(0.0, frequency);
-    harmonics_.push_back(drive(z, basis_.add(z)));
+    harmonics_.push_back(drive(z, basis_.add(z), closeness));
   }
-  for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay)));
+  for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), closeness));
   basis_.finish();
 }
 
@@ -56,14 +65,15 @@ void LinearMode::lay_own_motion() {
   if (!pair) own_second_ = basis_.add(second_, own_first_);
 }
 
-bool LinearMode::close_to_own(Complex z) const {
+bool LinearMode::close_to_own(Complex z, double part) const {
   const double scale = std::max({std::abs(z), std::abs(first_), std::abs(second_)});
-  return std::min(std::abs(z - first_), std::abs(z - second_)) <= closeness * scale;
+  const double distance = std::min(std::abs(z - first_), std::abs(z - second_));
+  return distance <= part * scale || distance <= vanishing * fastest_drive_;
 }
 
 /// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z.
-LinearMode::Driven LinearMode::drive(Complex z, int source) {
-  if (!close_to_own(z)) return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_))};
+LinearMode::Driven LinearMode::drive(Complex z, int source, double part) {
+  if (!close_to_own(z, part)) return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_))};
   const int target = basis_.add(second_, basis_.add(first_, source));
   return {source, target, 1.0 / mass_};
 }

@@ -17,8 +17,8 @@ namespace dualdamp::sim {
 
 /// The right-hand side of a mode, relative to the start of the phase.
 struct ModeForcing {
-  double constant = 0.0;                ///< N
-  double ramp = 0.0;                    ///< N/s; only for a mode laid out with a ramp
+  double constant = 0.0;                 ///< N
+  double ramp = 0.0;                     ///< N/s; only for a mode laid out with a ramp
   std::vector<core::Complex> phasors{};  ///< N, one for each frequency of the mode, or none
   std::vector<double> transients{};      ///< N, one for each decay of the mode, or none
 };
@@ -54,19 +54,20 @@ class LinearMode {
   };
 
   void lay_own_motion();
-  [[nodiscard]] bool close_to_own(core::Complex z) const;
-  Driven drive(core::Complex z, int source);
+  [[nodiscard]] bool close_to_own(core::Complex z, double part) const;
+  Driven drive(core::Complex z, int source, double part);
 
   core::ExponentialBasis basis_;
   double mass_;
   double damping_;
   double stiffness_;
   std::vector<double> decays_;
-  core::Complex first_;   ///< the oscillator's own exponents
+  double fastest_drive_ = 0.0;  ///< rad/s
+  core::Complex first_;         ///< the oscillator's own exponents
   core::Complex second_;
   double inverse_beat_ = 0.0;  ///< 1/Im first_ when underdamped [s]
-  int own_first_ = 0;     ///< exp(first_ s)
-  int own_second_ = -1;   ///< divided difference of first_ and second_; -1: underdamped, one complex element
+  int own_first_ = 0;          ///< exp(first_ s)
+  int own_second_ = -1;        ///< divided difference of first_ and second_; -1: underdamped, one complex element
   Driven constant_;
   Driven ramp_;
   bool ramped_;
