@@ -57,7 +57,7 @@ int compare(int batches) {
     fmt::print("{:32}{:>14.3f}{:>22}{:>10.1f}{:>18.1e}\n", rows[i].name, times[i].median * per_period,
                fmt::format("{:.3f} - {:.3f}", times[i].low * per_period, times[i].high * per_period),
                times[i].median / times[0].median, std::abs(followed.amplitude / exact_amplitude - 1.0));
-    sound = sound && followed.reversals == 2 * periods_per_start;
+    sound = sound && followed.reversals == 2L * periods_per_start;
   }
   fmt::print(
       "\nratio: median time over that of the exact engine; error: relative, to the closed form (checksum {:.0f})\n",
