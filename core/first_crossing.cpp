@@ -28,26 +28,32 @@ struct Jet {
   int zeros = 0;  ///< known order of the zero here
 };
 
+/// Halley's step to a root of the guard [s].
+double halley(const Jet& j) {
+  return 2.0 * j.value * j.slope / (2.0 * j.slope * j.slope - j.value * j.curvature);
+}
+
 /// Quintic Hermite interpolant of a panel on t in [0, 1], in Bernstein form of degree six.
 struct Bernstein {
   std::array<double, 7> b;
 
   Bernstein(const Jet& left, const Jet& right) {
     const double h = right.s - left.s;
-    const std::array<double, 6> five = {
-        left.value,
-        left.value + left.slope * h / 5.0,
-        left.value + 2.0 * left.slope * h / 5.0 + left.curvature * h * h / 20.0,
-        right.value - 2.0 * right.slope * h / 5.0 + right.curvature * h * h / 20.0,
-        right.value - right.slope * h / 5.0,
-        right.value,
-    };
-    b[0] = five[0];
-    for (std::size_t i = 1; i < 6; ++i) {
-      const double part = static_cast<double>(i) / 6.0;
-      b[i] = part * five[i - 1] + (1.0 - part) * five[i];
-    }
-    b[6] = five[5];
+    const double bend = 0.05 * h * h;
+    const double left_rise = 0.2 * h * left.slope;
+    const double right_rise = 0.2 * h * right.slope;
+    // Degree five, raised to six.
+    const double b1 = left.value + left_rise;
+    const double b2 = b1 + left_rise + bend * left.curvature;
+    const double b4 = right.value - right_rise;
+    const double b3 = b4 - right_rise + bend * right.curvature;
+    b[0] = left.value;
+    b[1] = left.value + (5.0 / 6.0) * left_rise;
+    b[2] = b1 + (2.0 / 3.0) * (b2 - b1);
+    b[3] = 0.5 * (b2 + b3);
+    b[4] = b4 + (2.0 / 3.0) * (b3 - b4);
+    b[5] = right.value - (5.0 / 6.0) * right_rise;
+    b[6] = right.value;
   }
 
   /// Lowers all coefficients by a rounding allowance but those that a factored zero at an end makes exactly zero;
@@ -250,14 +256,14 @@ Jet PanelSearch::polish(double s) {
   basis_.evaluate(s, root_values_);
   Jet j = jet(s, root_values_);
   for (int i = 0; i < 8; ++i) {
-    const double newton = j.value / j.slope;
-    const double step = newton / (1.0 - 0.5 * newton * j.curvature / j.slope);
+    const double step = halley(j);
     if (!(std::abs(step) > 2.0 * epsilon * s) || !(s - step >= 0.0)) break;
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
     // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
-    const double scale = std::max(basis_.fastest(), std::abs(j.curvature / j.slope));
-    if (std::abs(step) * scale < 5e-6 && basis_.fastest() > 0.0) {
+    const double size = std::abs(step);
+    if (size * basis_.fastest() < 5e-6 && size * std::abs(j.curvature) < 5e-6 * std::abs(j.slope) &&
+        basis_.fastest() > 0.0) {
       j.slope -= j.curvature * step;
       break;
     }
@@ -288,12 +294,11 @@ struct Interpolant {
     return c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
   }
 
-  /// The root of an interpolant that starts positive and ends negative: Newton from the far end, bisection as a
+  /// The root of an interpolant that starts positive and ends negative, from a guess: Newton with bisection as a
   /// safeguard. Two more digits than the interpolant itself has are enough.
-  [[nodiscard]] double root() const {
+  [[nodiscard]] double root(double t) const {
     double low = 0.0;
     double high = 1.0;
-    double t = 1.0;
     for (int i = 0; i < 12; ++i) {
       const double value = at(t);
       (value > 0.0 ? low : high) = t;
@@ -311,7 +316,9 @@ struct Interpolant {
 double PanelSearch::accept_root(const Jet& a, const Jet& b, double remainder) {
   const double width = b.s - a.s;
   const Interpolant interpolant(a, b);
-  const Jet at = polish(a.s + width * interpolant.root());
+  // Seen from the far end, where the guard is negative.
+  const double guess = 1.0 - halley(b) / width;
+  const Jet at = polish(a.s + width * interpolant.root(guess > 0.0 && guess <= 1.0 ? guess : 1.0));
   const double root = at.s;
   if (!(root > a.s && root <= b.s) || !(at.slope < 0.0)) return none;
   // |g - H| <= 14400/46080 of `remainder` anywhere on the panel.
