@@ -1,0 +1,117 @@
+// The conformance suite must pass a law that keeps the contract and name what is wrong with one that does not.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/support/law_conformance.hpp"
+
+namespace {
+
+using namespace dualdamp;
+using friction::Affine;
+using friction::Direction;
+using friction::Instant;
+using friction::Memory;
+using friction::Trigger;
+
+enum class Planted { nothing, wrong_guard, endless_jump, wrong_advance, active, lopsided, wrong_rate };
+
+/// A spring of stiffness kt that slips at F, elastic-perfectly-plastic; state: where the slider stands.
+/// Stuck: mode 0, F = kt (x - a). Slipping: mode +-1, F = +-level, a = x - F/kt.
+class Slider {
+ public:
+  explicit Slider(Planted planted) : planted_(planted) {}
+
+  [[nodiscard]] Memory start(const Instant& now) const { return {0, {now.x}}; }
+  [[nodiscard]] double force(const Memory& m, const Instant& now, Direction) const {
+    if (m.mode != 0) return m.mode * level(m.mode);
+    const double stretched = stiffness * (now.x - m.state[0]);
+    return planted_ == Planted::active ? -stretched : stretched;
+  }
+  void guards(const Memory& m, const Instant& now, Direction, std::vector<double>& values) const {
+    if (m.mode != 0) return;
+    const double stretched = stiffness * (now.x - m.state[0]);
+    values.push_back(level(1) - stretched);
+    values.push_back(level(-1) + stretched);
+  }
+  void jump(Memory& m, Trigger trigger, const Instant& now, Direction direction) const {
+    if (trigger.guard != Trigger::direction_change) {
+      if (planted_ == Planted::endless_jump) return;
+      m.mode = trigger.guard == 0 ? 1 : -1;
+    } else if (m.mode != 0 && friction::sign(direction) != m.mode) {
+      m.state[0] = now.x - m.mode * level(m.mode) / stiffness;
+      m.mode = 0;
+    }
+  }
+  [[nodiscard]] Affine affine_force(const Memory& m, const Instant& now, Direction direction) const {
+    if (m.mode != 0) return {.constant = force(m, now, direction)};
+    return {.constant = -stiffness * m.state[0],
+            .rate = planted_ == Planted::wrong_rate ? 1.0 : 0.0,
+            .position = planted_ == Planted::active ? -stiffness : stiffness};
+  }
+  void affine_guards(const Memory& m, const Instant&, Direction, std::vector<Affine>& guards) const {
+    if (m.mode != 0) return;
+    const double sign = planted_ == Planted::wrong_guard ? -1.0 : 1.0;
+    guards.push_back({.constant = level(1) + stiffness * m.state[0], .position = -stiffness});
+    guards.push_back({.constant = level(-1) - sign * stiffness * m.state[0], .position = sign * stiffness});
+  }
+  void advance(Memory& m, const Instant&, const Instant& end, Direction) const {
+    if (m.mode != 0) m.state[0] = end.x - m.mode * level(m.mode) / stiffness;
+    if (planted_ == Planted::wrong_advance) m.state[0] += 1e-3;
+  }
+
+ private:
+  static constexpr double stiffness = 100.0;
+  [[nodiscard]] double level(int side) const { return planted_ == Planted::lopsided && side < 0 ? 1.5 : 1.0; }
+
+  Planted planted_;
+};
+
+/// z' = v - |v| z/z0, F = s0 z: Dahl's law, a smooth one.
+struct Dahl {
+  [[nodiscard]] Memory start(const Instant&) const { return {0, {0.0}}; }
+  [[nodiscard]] double force(const Memory& m, const Instant&, Direction) const { return 100.0 * m.state[0]; }
+  void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const {}
+  void jump(Memory&, Trigger, const Instant&, Direction) const {}
+  void rates(const Memory& m, const Instant& now, Direction direction, std::span<double> rates) const {
+    rates[0] = now.v * (1.0 - friction::sign(direction) * m.state[0] / 0.01);
+  }
+};
+
+bool named(const std::vector<std::string>& faults, const std::string& part) {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](const std::string& fault) { return fault.find(part) != std::string::npos; });
+}
+
+std::vector<std::string> faults_with(Planted planted) {
+  return test::nonconformities({.law = friction::Law(Slider(planted))});
+}
+
+}  // namespace
+
+TEST_CASE("laws that keep the contract conform", "[friction][conformance]") {
+  CHECK(faults_with(Planted::nothing) == std::vector<std::string>{});
+  CHECK(test::nonconformities({.law = friction::Law(Dahl{})}) == std::vector<std::string>{});
+}
+
+TEST_CASE("the conformance suite names planted faults", "[friction][conformance]") {
+  CHECK(named(faults_with(Planted::wrong_guard), "affine guards differ"));
+  CHECK(named(faults_with(Planted::endless_jump), "jumps do not end"));
+  CHECK(named(faults_with(Planted::wrong_advance), "after advance"));
+  CHECK(named(faults_with(Planted::wrong_rate), "affine force differs"));
+  CHECK(named(faults_with(Planted::active), "more work"));
+  CHECK(named(faults_with(Planted::lopsided), "mirrored"));
+}
+
+TEST_CASE("the conformance suite names faults of parameter tables", "[friction][conformance]") {
+  // 'limit' has no lower end, though the law needs one; 'length' says nothing about itself.
+  const std::vector<friction::Parameter> table = {
+      {.name = "limit", .unit = "N", .range = {.low = 0.0}, .meaning = "level"}, {.name = "length", .unit = "m"}};
+  const auto faults = test::nonconformities({.law = friction::Law(Slider(Planted::nothing)),
+                                             .parameters = &table,
+                                             .values = {{"limit", 1.0}, {"length", 1.0}}});
+  CHECK(faults == std::vector<std::string>{"'length' has no meaning or no unit"});
+}

@@ -1,0 +1,42 @@
+#pragma once
+/// What every friction law must pass, whoever wrote it: the law contract as a test.
+///
+///     CHECK(nonconformities(law_case("coulomb", {{"kinetic", 2.0}})) == std::vector<std::string>{});
+///
+/// The law is led along random paths: strokes with smooth speed, reversals, rests, releases; the suite plays the
+/// driver. On every step it asks for
+///   * guards on the right side after a mode change, reached within 32 jumps;
+///   * a finite force, the same when asked twice, and a static limit >= 0;
+///   * affine form = force, guards and limit, at the start of a step and, by `advance`, at its end;
+///   * `advance` over two halves = `advance` over the whole;
+///   * work done against it >= 0 from its unstretched start on, when declared passive;
+///   * the mirrored path to give the mirrored force, when declared odd;
+/// and of its parameters, that each is refused with range and value when it is missing, unknown, not finite or out
+/// of range.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "friction_models/law.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::test {
+
+struct LawCase {
+  friction::Law law;
+  const std::vector<friction::Parameter>* parameters = nullptr;  ///< none: not examined
+  friction::ParameterValues values{};                            ///< as a user gives them
+  double stroke = 0.1;                                           ///< m: strokes up to this visit all modes
+  double stroke_time = 0.5;                                      ///< s
+  bool odd = true;
+  bool passive = true;
+};
+
+/// A law of the registry with these values, defaults filled in.
+[[nodiscard]] LawCase law_case(std::string_view name, const friction::ParameterValues& values);
+
+/// One sentence for each kind of fault; empty for a law that conforms.
+[[nodiscard]] std::vector<std::string> nonconformities(const LawCase& law_case);
+
+}  // namespace dualdamp::test
