@@ -607,24 +607,30 @@ std::string describe(const RandomCase& c) {
   return text;
 }
 
-/// Rounding z s turns an element by eps |Im z| s / 2, and makes it grow or shrink likewise.
-double largest_turning(const Terms& terms) {
-  double rate = 0.0;
-  for (const Term& term : terms) rate = std::max({rate, std::abs(term.exponent.imag()), term.exponent.real()});
-  return rate;
-}
-
-/// The amplitudes' sum, with chains as large as they have grown.
-double size_until(const ExponentialSum& f, double s) {
-  return static_cast<double>(std::max(f.size(0.0L), f.size(s)));
-}
-
+/// The fastest element of the case's basis.
 double fastest(const RandomCase& c) {
   double rate = 0.0;
   for (const RandomGuard& guard : c.guards) {
     for (const Term& term : guard.terms) rate = std::max(rate, std::abs(term.exponent));
   }
   return rate;
+}
+
+/// What the header calls rounding at s, relative to the amplitudes: 16 eps, and eps |z| s by which rounding z s
+/// turns an element or makes it grow.
+double rounding_at(const RandomCase& c, double s) {
+  double rate = 0.0;
+  for (const RandomGuard& guard : c.guards) {
+    for (const Term& term : guard.terms) {
+      rate = std::max({rate, std::abs(term.exponent.imag()), term.exponent.real()});
+    }
+  }
+  return graze + epsilon * rate * s;
+}
+
+/// The amplitudes' sum, with chains as large as they have grown.
+double size_until(const ExponentialSum& f, double s) {
+  return static_cast<double>(std::max(f.size(0.0L), f.size(s)));
 }
 
 /// Nothing missed, nothing invented. What rounding may decide either way: minima within 4 times the rounding of
@@ -634,8 +640,7 @@ bool agrees(const RandomCase& c, const Result& found, Tally& tally, std::string&
   for (std::size_t i = 0; i < c.guards.size(); ++i) {
     const ExponentialSum f = reference(c.guards[i].terms, c.guards[i].zeros);
     const double size = size_until(f, end);
-    const double turning = largest_turning(c.guards[i].terms);
-    const auto shallow = static_cast<long double>(4.0 * (graze + epsilon * turning * c.horizon) * size);
+    const auto shallow = static_cast<long double>(4.0 * rounding_at(c, c.horizon) * size);
     const auto expected = f.first_crossing(static_cast<long double>(c.horizon), shallow);
     tally.cells += expected.cells;
     const bool own = found.crossing.found && found.crossing.guard == static_cast<int>(i);
@@ -644,7 +649,7 @@ bool agrees(const RandomCase& c, const Result& found, Tally& tally, std::string&
       bool real = false;
       if (expected.crossed) {
         const auto jet = f.jet(expected.s);
-        double rounding = (16.0 + 2.0 * turning * found.crossing.s) * epsilon * size;
+        double rounding = 4.0 * rounding_at(c, found.crossing.s) * size;
         // Near the start the factored zero is exact; further on the guard is evaluated as it stands.
         const double angle = found.crossing.s * fastest(c);
         for (int n = 0; n < c.guards[i].zeros && angle < 0.5; ++n) rounding *= angle;
@@ -668,12 +673,24 @@ bool agrees(const RandomCase& c, const Result& found, Tally& tally, std::string&
       why = print("missed: guard ", i, " at ", static_cast<double>(expected.s), ", found ", end);
       return false;
     }
+    // A contact well within rounding is reported, or is the crossing itself.
+    const auto reach = static_cast<long double>(0.05 / fastest(c));
+    for (const ExponentialSum::Touch& touch : expected.touches) {
+      if (std::abs(touch.value) > static_cast<long double>(0.25 * graze * size)) continue;
+      if (touch.s < reach || touch.s > static_cast<long double>(end) - reach) continue;
+      const bool reported = std::any_of(found.grazings.begin(), found.grazings.end(), [&](const Grazing& grazing) {
+        return grazing.guard == static_cast<int>(i) &&
+               std::abs(static_cast<long double>(grazing.s) - touch.s) < reach;
+      });
+      if (!reported) why = print("dropped: contact of guard ", i, " at ", static_cast<double>(touch.s));
+      if (!reported) return false;
+    }
   }
   for (const Grazing& grazing : found.grazings) {
     const RandomGuard& guard = c.guards[static_cast<std::size_t>(grazing.guard)];
     const ExponentialSum f = reference(guard.terms);
     const double value = std::abs(static_cast<double>(f.at(grazing.s)));
-    if (value > 4.0 * (graze + epsilon * largest_turning(guard.terms) * grazing.s) * size_until(f, grazing.s)) {
+    if (value > 4.0 * rounding_at(c, grazing.s) * size_until(f, grazing.s)) {
       why = print("not a grazing: guard ", grazing.guard, " at ", grazing.s, ", value ", value);
       return false;
     }
