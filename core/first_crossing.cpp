@@ -29,9 +29,7 @@ struct Jet {
 };
 
 /// Halley's step to a root of the guard [s].
-double halley(const Jet& j) {
-  return 2.0 * j.value * j.slope / (2.0 * j.slope * j.slope - j.value * j.curvature);
-}
+double halley(const Jet& j) { return 2.0 * j.value * j.slope / (2.0 * j.slope * j.slope - j.value * j.curvature); }
 
 /// Quintic Hermite interpolant of a panel on t in [0, 1], in Bernstein form of degree six.
 struct Bernstein {

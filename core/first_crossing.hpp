@@ -11,7 +11,8 @@
 ///                They are factored out of the first panel, never stepped over; g is taken positive just after 0.
 ///   s = horizon  Belongs to the next search: a guard that reaches zero there within rounding is not reported here
 ///                and the caller's check at the start of the next mode finds it.
-/// Tangency. Rounding of g at s is taken as (16 eps + eps max|Im z| s) times the sum of the guard's amplitudes there,
+/// Tangency. Rounding of g at s is taken as (16 eps + eps max|Im z| s) times the sum of the guard's amplitudes
+/// there,
 ///   the second part from the phases z s. A minimum within it of zero is one grazing contact: reported, not a
 ///   crossing. Deeper dips are two crossings, of which the first is returned.
 /// Range. A guard that leaves the range of double precision ends the search: nothing found, values infinite.
@@ -41,8 +42,8 @@ struct Guard {
   // Filled by prepare().
   ModeFunction slope;
   ModeFunction curvature;
-  ModeFunction sixth;      ///< sixth derivative; unused on an even basis
-  double amplitude = 0.0;  ///< sum of |c_k|
+  ModeFunction sixth;            ///< sixth derivative; unused on an even basis
+  double amplitude = 0.0;        ///< sum of |c_k|
   double curvature_bound = 0.0;  ///< of |g''|, on an even basis for all s
   double sixth_bound = 0.0;      ///< of |g^(6)|, likewise
 };
@@ -75,8 +76,8 @@ struct SearchCount {
 
 /// First crossing of any of `guards` (each prepared) in (0, horizon); tangencies before it are appended to
 /// `grazings`. The horizon must be finite and >= 0.
-void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon, Crossing& crossing,
-                    std::vector<Grazing>& grazings, SearchCount& count);
+void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon,
+                    Crossing& crossing, std::vector<Grazing>& grazings, SearchCount& count);
 
 /// The sign of a function just after s = 0 and the order of its zero there, from its Taylor coefficients; a
 /// coefficient within 16 eps times its own amplitudes' sum plus `tolerance` times the basis' rate counts as zero.

@@ -4,10 +4,7 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& Coulomb::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "kinetic",
-       .unit = "N",
-       .range = {.low = 0.0},
-       .meaning = "friction force while slipping"},
+      {.name = "kinetic", .unit = "N", .range = {.low = 0.0}, .meaning = "friction force while slipping"},
       {.name = "static",
        .unit = "N",
        .same_as = "kinetic",

@@ -1,9 +1,9 @@
 #pragma once
 /// The law contract: what a friction law tells the driver, and what the driver does for it.
 ///
-/// A law is a force, and where it has modes: guards and a jump. It is pure: it holds its parameters; what it remembers (`Memory`) belongs to
-/// the driver. The driver owns the motion of the mass: position x and velocity v are continuous across every
-/// event, and the direction of slip is frozen between events.
+/// A law is a force, and where it has modes: guards and a jump. It is pure: it holds its parameters; what it
+/// remembers (`Memory`) belongs to the driver. The driver owns the motion of the mass: position x and velocity v
+/// are continuous across every event, and the direction of slip is frozen between events.
 ///
 ///   force       F(memory, now, direction) [N], F > 0 opposes v > 0; the branch of sgn v is `direction`, so the
 ///               formula stays smooth across the event that ends the phase.
@@ -36,7 +36,9 @@ namespace dualdamp::friction {
 /// Direction of slip in which a branch is frozen.
 enum class Direction : int { backward = -1, rest = 0, forward = 1 };
 
-[[nodiscard]] constexpr double sign(Direction direction) { return static_cast<double>(static_cast<int>(direction)); }
+[[nodiscard]] constexpr double sign(Direction direction) {
+  return static_cast<double>(static_cast<int>(direction));
+}
 
 /// The mass at one instant.
 struct Instant {
@@ -96,9 +98,10 @@ concept AffineLaw =
     requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
       { law.affine_force(memory, now, direction) } -> std::same_as<Affine>;
     } &&
-    (!HoldsMass<L> || requires(const L& law, const Memory& memory, const Instant& now) {
-      { law.affine_limit(memory, now) } -> std::same_as<Affine>;
-    }) &&
+    (!HoldsMass<L> ||
+     requires(const L& law, const Memory& memory, const Instant& now) {
+       { law.affine_limit(memory, now) } -> std::same_as<Affine>;
+     }) &&
     (!ModalLaw<L> || requires(const L& law, const Memory& frozen, Memory& memory, const Instant& now,
                               Direction direction, std::vector<Affine>& guards) {
       { law.affine_guards(frozen, now, direction, guards) } -> std::same_as<void>;  // appends
@@ -107,15 +110,17 @@ concept AffineLaw =
 
 /// Ability: own continuous states for the smooth engine.
 template <class L>
-concept StateLaw = requires(const L& law, const Memory& frozen, const Instant& now, Direction direction,
-                            std::span<double> rates) {
-  { law.rates(frozen, now, direction, rates) } -> std::same_as<void>;
-};
+concept StateLaw =
+    requires(const L& law, const Memory& frozen, const Instant& now, Direction direction, std::span<double> rates) {
+      { law.rates(frozen, now, direction, rates) } -> std::same_as<void>;
+    };
 
 /// Any law as a value, for choice at run time. Cheap to copy; parameters are shared and immutable.
 class Law {
  public:
-  template <FrictionLaw L>
+  // Not for Law itself: whether it is copyable must not depend on this constructor.
+  template <class L>
+    requires(!std::same_as<L, Law> && FrictionLaw<L>)
   explicit Law(L law) : model_(std::make_shared<const Model<L>>(std::move(law))) {}
 
   [[nodiscard]] Memory start(const Instant& now) const { return model_->start(now); }

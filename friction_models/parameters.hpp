@@ -24,10 +24,10 @@ struct Range {
 };
 
 struct Parameter {
-  std::string_view name;     ///< YAML key
-  std::string_view unit;     ///< SI unit in udunits2 spelling: "N", "N/m", "N.s/m", "m/s", "m", "s", "1"
+  std::string_view name;             ///< YAML key
+  std::string_view unit;             ///< SI unit in udunits2 spelling: "N", "N/m", "N.s/m", "m/s", "m", "s", "1"
   std::optional<double> fallback{};  ///< default; none and no `same_as`: the parameter is required
-  std::string_view same_as{};      ///< default is the value of this earlier parameter
+  std::string_view same_as{};        ///< default is the value of this earlier parameter
   Range range{};
   std::string_view at_least{};  ///< must be >= the value of this earlier parameter
   std::string_view meaning{};   ///< one line for documentation

@@ -17,7 +17,8 @@ const std::vector<LawEntry>& laws() {
 
 const LawEntry* find_law(std::string_view name) {
   const auto& list = laws();
-  const auto found = std::find_if(list.begin(), list.end(), [&](const LawEntry& entry) { return entry.name == name; });
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const LawEntry& entry) { return entry.name == name; });
   return found == list.end() ? nullptr : &*found;
 }
 

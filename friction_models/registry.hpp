@@ -13,9 +13,9 @@ namespace dualdamp::friction {
 enum class EngineKind { exact, smooth };
 
 struct LawEntry {
-  std::string_view name;     ///< YAML name
-  std::string_view summary;  ///< one line
-  std::string_view equation; ///< plain text, for `dualdamp laws NAME`
+  std::string_view name;      ///< YAML name
+  std::string_view summary;   ///< one line
+  std::string_view equation;  ///< plain text, for `dualdamp laws NAME`
   EngineKind engine;
   const std::vector<Parameter>& parameters;
   Law (*make)(const ParameterValues& values);  ///< `values` complete and in range

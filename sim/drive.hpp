@@ -47,10 +47,10 @@ class Drive {
   std::vector<core::Complex> force_;       ///< N
   std::vector<core::Complex> turns_;
   double period_;
-  double offset_ = 0.0;      ///< N
-  double ramp_ = 0.0;        ///< m/s or N/s
-  double ramp_time_ = 0.0;   ///< s
-  double force_ramp_ = 0.0;  ///< N/s
+  double offset_ = 0.0;           ///< N
+  double ramp_ = 0.0;             ///< m/s or N/s
+  double ramp_time_ = 0.0;        ///< s
+  double force_ramp_ = 0.0;       ///< N/s
   double force_from_rate_ = 0.0;  ///< N, from c y' of a base ramp
   double steady_scale_ = 0.0;     ///< N, sum of moduli of all parts but the ramp
   bool base_ = false;

@@ -23,11 +23,16 @@ constexpr double clearly = 1e-9;
 
 std::string_view name(EventKind kind) {
   switch (kind) {
-    case EventKind::reversal: return "reversal";
-    case EventKind::stop: return "stop";
-    case EventKind::release: return "release";
-    case EventKind::grazing: return "grazing";
-    case EventKind::switching: return "switching";
+    case EventKind::reversal:
+      return "reversal";
+    case EventKind::stop:
+      return "stop";
+    case EventKind::release:
+      return "release";
+    case EventKind::grazing:
+      return "grazing";
+    case EventKind::switching:
+      return "switching";
   }
   return "";
 }
@@ -70,9 +75,7 @@ class ExactEngine::PhaseInterval final : public Interval {
 };
 
 ExactEngine::ExactEngine(const Model& model)
-    : model_(model),
-      drive_(model.oscillator, model.excitation),
-      interval_(std::make_unique<PhaseInterval>(*this)) {
+    : model_(model), drive_(model.oscillator, model.excitation), interval_(std::make_unique<PhaseInterval>(*this)) {
   for (const friction::Law& law : model_.friction) {
     assert(law.is_affine());
     holds_mass_.push_back(law.holds_mass());
@@ -121,8 +124,8 @@ double ExactEngine::time() const {
   return cycle_ == 0 ? local_time_ : static_cast<double>(cycle_) * drive_.period() + local_time_;
 }
 
-/// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold the
-/// mass and the forces of the others; and the guards.
+/// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold
+/// the mass and the forces of the others; and the guards.
 void ExactEngine::collect(bool with_guards) {
   const friction::Instant at = now();
   const bool resting = direction_ == Direction::rest;
@@ -226,8 +229,8 @@ void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFu
 
 /// The pull at this instant; total_ holds the laws that do not hold the mass.
 double ExactEngine::pull_now() const {
-  double pull = drive_.force_constant() - total_.force.constant -
-                (model_.oscillator.stiffness + total_.force.position) * x_;
+  double pull =
+      drive_.force_constant() - total_.force.constant - (model_.oscillator.stiffness + total_.force.position) * x_;
   for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) pull += drive_.force_phasor(j).real();
   for (const double transient : total_.transients) pull -= transient;
   return pull;
@@ -327,16 +330,15 @@ void ExactEngine::add_law_guards() {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     for (std::size_t j = 0; j < law_guard_counts_[i]; ++j) {
       const Affine& g = law_guards_[next++];
-      core::Guard& guard = new_guard({.kind = Owner::Kind::law,
-                                      .law = static_cast<int>(i),
-                                      .guard = static_cast<int>(j),
-                                      .by_position = g.position,
-                                      .by_velocity = g.velocity,
-                                      .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
-                                                               std::abs(g.velocity * v_))});
-      ModeForcing own{.constant = g.constant,
-                      .ramp = g.rate,
-                      .transients = std::vector<double>(mode_->decays().size())};
+      core::Guard& guard = new_guard(
+          {.kind = Owner::Kind::law,
+           .law = static_cast<int>(i),
+           .guard = static_cast<int>(j),
+           .by_position = g.position,
+           .by_velocity = g.velocity,
+           .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) + std::abs(g.velocity * v_))});
+      ModeForcing own{
+          .constant = g.constant, .ramp = g.rate, .transients = std::vector<double>(mode_->decays().size())};
       for (std::size_t d = 0; d < mode_->decays().size(); ++d) {
         if (mode_->decays()[d] == g.decay) own.transients[d] = g.transient;
       }
@@ -390,7 +392,8 @@ void ExactEngine::advance(double s, bool to_period_end) {
   const friction::Instant before = now();
   if (direction_ != Direction::rest) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
-    const bool turns = crossing_.found && owners_[static_cast<std::size_t>(crossing_.guard)].kind == Owner::Kind::velocity;
+    const bool turns =
+        crossing_.found && owners_[static_cast<std::size_t>(crossing_.guard)].kind == Owner::Kind::velocity;
     v_ = turns ? 0.0 : core::evaluate(basis, velocity_, crossing_.values);
   }
   local_time_ += s;
@@ -422,7 +425,8 @@ EventKind ExactEngine::act(const Owner& owner) {
     case Owner::Kind::limit:
       change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
       return EventKind::release;
-    case Owner::Kind::law: break;
+    case Owner::Kind::law:
+      break;
   }
   const auto law = static_cast<std::size_t>(owner.law);
   model_.friction[law].jump(memories_[law], {owner.guard}, now(), direction_);
@@ -453,9 +457,8 @@ void ExactEngine::apply_saltation() {
   if (saltation_.slope == 0.0) return;
   const double after = core::at_start(mode_->basis(), acceleration_);
   const double gain = (after - saltation_.acceleration) / saltation_.slope;
-  sensitivity_.row(1) += (gain * (saltation_.by_position * sensitivity_.row(0) +
-                                  saltation_.by_velocity * sensitivity_.row(1)))
-                             .eval();
+  sensitivity_.row(1) +=
+      (gain * (saltation_.by_position * sensitivity_.row(0) + saltation_.by_velocity * sensitivity_.row(1))).eval();
 }
 
 const Interval* ExactEngine::next(double horizon) {

@@ -1,7 +1,8 @@
 #pragma once
 /// The exact engine: walks from event to event for laws that are affine in every mode.
 ///
-/// Between events the motion is closed-form (`sim/linear_mode.hpp`); the next event is found by the certified search
+/// Between events the motion is closed-form (`sim/linear_mode.hpp`); the next event is found by the certified
+/// search
 /// (`core/first_crossing.hpp`). The driver knows no law by name. At v = 0 it decides by the sum of forces:
 ///   rest      while |pull| <= sum of static limits, equality included when the excess is not growing;
 ///   slip      otherwise, in the direction of the pull.
@@ -48,10 +49,10 @@ class ExactEngine {
   [[nodiscard]] const Interval* next_in_period();
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
-  [[nodiscard]] double time() const;                       ///< s
-  [[nodiscard]] long cycle() const { return cycle_; }      ///< whole forcing periods passed
-  [[nodiscard]] double position() const { return x_; }     ///< m
-  [[nodiscard]] double velocity() const { return v_; }     ///< m/s
+  [[nodiscard]] double time() const;                    ///< s
+  [[nodiscard]] long cycle() const { return cycle_; }   ///< whole forcing periods passed
+  [[nodiscard]] double position() const { return x_; }  ///< m
+  [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
   [[nodiscard]] const core::SearchCount& count() const { return count_; }
   /// Tangencies within the last interval.
@@ -69,8 +70,8 @@ class ExactEngine {
   /// What a guard of the present phase belongs to.
   struct Owner {
     enum class Kind { velocity, limit, law } kind = Kind::velocity;
-    int law = 0;    ///< index of the law; for a limit the direction of release, +1 or -1
-    int guard = 0;  ///< index among the law's own guards
+    int law = 0;               ///< index of the law; for a limit the direction of release, +1 or -1
+    int guard = 0;             ///< index among the law's own guards
     double by_position = 0.0;  ///< dg/dx
     double by_velocity = 0.0;  ///< dg/dv
     double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
@@ -125,7 +126,7 @@ class ExactEngine {
   Drive drive_;
   std::vector<char> holds_mass_;  ///< of each law
   std::vector<char> modal_;       ///< of each law
-  bool can_rest_ = false;  ///< some law has a static limit
+  bool can_rest_ = false;         ///< some law has a static limit
   double x_ = 0.0;
   double v_ = 0.0;
   double local_time_ = 0.0;  ///< within the forcing period

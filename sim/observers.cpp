@@ -62,7 +62,8 @@ void Extremes::observe(const Interval& interval) {
   max_speed_ = std::max({max_speed_, std::abs(begin.v), std::abs(end.v)});
   if (interval.direction == friction::Direction::rest || interval.duration <= 0.0) return;
   // The speed is largest where the acceleration changes sign; a grid brackets it, bisection finds it.
-  const int cells = static_cast<int>(std::clamp(std::ceil(8.0 * interval.duration / interval.resolution()), 8.0, 4096.0));
+  const int cells =
+      static_cast<int>(std::clamp(std::ceil(8.0 * interval.duration / interval.resolution()), 8.0, 4096.0));
   double left = 0.0;
   double left_a = begin.a;
   for (int i = 1; i <= cells; ++i) {
@@ -110,9 +111,8 @@ Energy EnergyAudit::account() const {
 }
 
 void Fundamental::observe(const Interval& interval) {
-  quadrature(interval, [&](const Sample& s, double weight) {
-    sum_ += weight * s.x * std::polar(1.0, -omega_ * s.t);
-  });
+  quadrature(interval,
+             [&](const Sample& s, double weight) { sum_ += weight * s.x * std::polar(1.0, -omega_ * s.t); });
 }
 
 std::complex<double> Fundamental::coefficient() const { return sum_ * (omega_ / std::numbers::pi); }

@@ -42,7 +42,8 @@ class Extremes {
   double max_speed_ = 0.0;
 };
 
-/// A sum that carries its own rounding error along (Neumaier): equal periods would otherwise add up a systematic one.
+/// A sum that carries its own rounding error along (Neumaier): equal periods would otherwise add up a systematic
+/// one.
 class CompensatedSum {
  public:
   void add(double term) {

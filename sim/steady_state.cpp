@@ -73,8 +73,8 @@ class OrbitFinder {
   SteadyStateOptions options_;
   double omega_;
   ExactEngine engine_;
-  bool memoryless_ = true;  ///< (x, v) is the whole state at a period boundary
-  double first_half_ = 0.0;   ///< largest |x| in either half of the periods followed [m]
+  bool memoryless_ = true;   ///< (x, v) is the whole state at a period boundary
+  double first_half_ = 0.0;  ///< largest |x| in either half of the periods followed [m]
   double second_half_ = 0.0;
   bool weakening_ = false;  ///< some static limit exceeds its kinetic level: orbits may coexist
 };
@@ -154,9 +154,10 @@ core::Outcome OrbitFinder::failure(const Passage& passage, const SteadyState& re
             "no steady state: the amplitude still grows" + after + "; damping does not limit the motion"};
   }
   if (passage.closure(omega_) < creeping) {
-    return {core::OutcomeKind::not_unique,
-            "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
-                after};
+    return {
+        core::OutcomeKind::not_unique,
+        "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
+            after};
   }
   return {core::OutcomeKind::no_steady_state,
           "no steady state: the motion from the initial state has not become periodic" + after};
@@ -177,7 +178,8 @@ void OrbitFinder::find(SteadyState& result) {
     found = follow(passage, 10.0 * options_.tolerance, options_.max_periods, result);
     if (found && passage.moves && radius(passage) >= 1.0 - neutral) {
       result.warnings.emplace_back(
-          "not unique: a multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is the "
+          "not unique: a multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
+          "the "
           "one approached from the initial state");
     }
   }

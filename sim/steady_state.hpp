@@ -21,12 +21,12 @@ struct SteadyState {
   core::Outcome outcome;              ///< when not ok() the numbers below mean nothing
   std::vector<std::string> warnings;  ///< e.g. other orbits exist
 
-  double peak = 0.0;       ///< max x [m]
-  double trough = 0.0;     ///< min x [m]
-  double amplitude = 0.0;  ///< (peak - trough)/2 [m]
-  double phase = 0.0;      ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
-  double period = 0.0;     ///< s
-  double max_speed = 0.0;  ///< m/s
+  double peak = 0.0;        ///< max x [m]
+  double trough = 0.0;      ///< min x [m]
+  double amplitude = 0.0;   ///< (peak - trough)/2 [m]
+  double phase = 0.0;       ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
+  double period = 0.0;      ///< s
+  double max_speed = 0.0;   ///< m/s
   int stops_per_cycle = 0;  ///< instants per period at which the mass comes to rest and stays
   std::vector<Stick> sticks;
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
@@ -42,8 +42,8 @@ struct SteadyState {
 };
 
 struct SteadyStateOptions {
-  double tolerance = 1e-14;     ///< closure of the orbit relative to its size
-  int max_periods = 20'000;     ///< of transient followed before giving up
+  double tolerance = 1e-14;  ///< closure of the orbit relative to its size
+  int max_periods = 20'000;  ///< of transient followed before giving up
 };
 
 /// Needs a harmonic excitation.

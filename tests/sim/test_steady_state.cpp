@@ -69,12 +69,12 @@ TEST_CASE("200 random orbits that do not stick agree with Den Hartog") {
     const double Y = x_f / sim::analytic::non_sticking_boundary(functions) * std::exp(uniform(0.02, 3.0));
     const auto expected = sim::analytic::non_sticking_state(functions, Y, x_f);
     REQUIRE(expected);
-    const sim::SteadyState state = sim::steady_state(base_driven(
-        m, k, 2.0 * zeta * std::sqrt(m * k), force, force, Y, r * std::sqrt(k / m), uniform(0.0, 6.0)));
+    const sim::SteadyState state = sim::steady_state(
+        base_driven(m, k, 2.0 * zeta * std::sqrt(m * k), force, force, Y, r * std::sqrt(k / m), uniform(0.0, 6.0)));
     REQUIRE(state.outcome.ok());
     worst = std::max(worst, std::abs(state.amplitude / expected->amplitude - 1.0));
-    worst_phase = std::max(worst_phase,
-                           std::abs(std::remainder(state.phase - expected->phase, 2.0 * std::numbers::pi)));
+    worst_phase =
+        std::max(worst_phase, std::abs(std::remainder(state.phase - expected->phase, 2.0 * std::numbers::pi)));
   }
   CHECK(worst < 1e-12);
   CHECK(worst_phase < 1e-11);
