@@ -3,8 +3,13 @@
 
 root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd)
 readonly root
-trap 'exit 130' INT
-trap 'exit 143' TERM
+
+# An interrupted build is no failed one. A subshell has to say so again.
+heed_signals() {
+  trap 'exit 130' INT
+  trap 'exit 143' TERM
+}
+heed_signals
 
 say() { printf '%s: %s\n' "$(basename -- "$0")" "$*" >&2; }
 
@@ -79,6 +84,7 @@ prepare() {
   shift
   mkdir -p "$root/build/$preset" || fail "cannot write to $root/build"
   (
+    heed_signals
     flock 9
     ensure_packages "${kinds[@]}"
     configure "$preset" || fail "could not configure build/$preset"
