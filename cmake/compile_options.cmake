@@ -32,7 +32,7 @@ target_compile_options(dualdamp_options INTERFACE
 # or four exponentials: vector code for long loops only gets in the way.
 set(DUALDAMP_LINK_TIME_FOLDERS core friction_models sim)
 set(DUALDAMP_LINK_TIME "$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>")
-target_link_options(dualdamp_options INTERFACE "$<${DUALDAMP_LINK_TIME}:-flto=auto>")
+target_link_options(dualdamp_options INTERFACE "$<${DUALDAMP_LINK_TIME}:-flto=auto;-Wno-stringop-overflow>")
 
 if(DUALDAMP_SANITIZE)
   target_compile_options(dualdamp_options INTERFACE
