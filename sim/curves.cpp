@@ -4,32 +4,27 @@ namespace dualdamp::sim {
 
 namespace {
 
-CurvePoint point(const Model& model, const SteadyStateOptions& options) {
-  return {model.excitation.frequency, model.excitation.amplitude, steady_state(model, options)};
+/// Steady states with one quantity of the excitation set to each of `values`.
+std::vector<CurvePoint> sweep(Model model, double Excitation::* quantity, const std::vector<double>& values,
+                              const SteadyStateOptions& options) {
+  std::vector<CurvePoint> curve;
+  for (const double value : values) {
+    model.excitation.*quantity = value;
+    curve.push_back({model.excitation.frequency, model.excitation.amplitude, steady_state(model, options)});
+  }
+  return curve;
 }
 
 }  // namespace
 
 std::vector<CurvePoint> xy_curve(const Model& model, const std::vector<double>& amplitudes,
                                  const SteadyStateOptions& options) {
-  std::vector<CurvePoint> curve;
-  Model at = model;
-  for (const double amplitude : amplitudes) {
-    at.excitation.amplitude = amplitude;
-    curve.push_back(point(at, options));
-  }
-  return curve;
+  return sweep(model, &Excitation::amplitude, amplitudes, options);
 }
 
 std::vector<CurvePoint> frequency_response(const Model& model, const std::vector<double>& frequencies,
                                            const SteadyStateOptions& options) {
-  std::vector<CurvePoint> curve;
-  Model at = model;
-  for (const double frequency : frequencies) {
-    at.excitation.frequency = frequency;
-    curve.push_back(point(at, options));
-  }
-  return curve;
+  return sweep(model, &Excitation::frequency, frequencies, options);
 }
 
 }  // namespace dualdamp::sim
