@@ -41,7 +41,10 @@ std::optional<ParameterFault> fault_of(const Parameter& parameter, double value,
 
 std::string names(const std::vector<Parameter>& table) {
   std::string text;
-  for (const Parameter& parameter : table) text += (text.empty() ? "" : ", ") + std::string(parameter.name);
+  for (const Parameter& parameter : table) {
+    if (!text.empty()) text += ", ";
+    text += parameter.name;
+  }
   return text.empty() ? "no parameter" : text;
 }
 

@@ -60,8 +60,8 @@ class Checker {
  private:
   void complain(Place place, std::string message, std::string allowed = {}, std::string found = {},
                 std::string suggestion = {}) {
-    reading_.problems.push_back(
-        {document_.locate(place), std::move(message), std::move(allowed), std::move(found), std::move(suggestion)});
+    reading_.complain(document_, place, std::move(message), std::move(allowed), std::move(found),
+                      std::move(suggestion));
   }
 
   /// Of the value at `path`, or of what contains it.

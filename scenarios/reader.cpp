@@ -55,13 +55,13 @@ class Reader {
     return values;
   }
 
-  Reading take() { return {{}, std::move(places_), std::move(problems_)}; }
+  Reading take() { return std::move(reading_); }
 
  private:
   void complain(Place place, std::string message, std::string allowed = {}, std::string found = {},
                 std::string suggestion = {}) {
-    problems_.push_back(
-        {document_.locate(place), std::move(message), std::move(allowed), std::move(found), std::move(suggestion)});
+    reading_.complain(document_, place, std::move(message), std::move(allowed), std::move(found),
+                      std::move(suggestion));
   }
 
   void refuse_unknown(const Node& node, const Section& section, const std::string& path, const Choice* choice) {
@@ -97,7 +97,7 @@ class Reader {
   /// null when the value is faulty; the fault is then noted.
   Json value(const Node& node, const Field& field, const std::string& path) {
     if (node.kind == Node::Kind::null) return nullptr;  // the tree has said so
-    places_.emplace(path, node.place);
+    reading_.places.emplace(path, node.place);
     switch (field.kind) {
       case Kind::choice:
         return map_or_list(node, field, path);
@@ -214,7 +214,7 @@ class Reader {
       const std::string item_path = path + "[" + std::to_string(i) + "]";
       const Node& item = node.items[i];
       if (item.kind == Node::Kind::null) continue;
-      places_.emplace(item_path, item.place);
+      reading_.places.emplace(item_path, item.place);
       Json value = list_item(item, field, item_path);
       if (field.kind == Kind::word_list && std::ranges::find(values, value) != values.end() && !value.is_null())
         complain(item.place, "'" + path + "' names '" + item.text + "' twice", "each once");
@@ -244,15 +244,15 @@ class Reader {
   }
 
   Json range_of_grid(const Node& node, const Field& field, const std::string& path) {
-    const std::size_t before = problems_.size();
+    const std::size_t before = reading_.problems.size();
     Json values = section(node, grid_section(field), path, nullptr);
-    if (problems_.size() != before) return nullptr;
+    if (reading_.problems.size() != before) return nullptr;
     const auto is_zero = [&](const char* end) {
       return values[end].is_number() && values[end].get<double>() <= 0.0;
     };
     for (const char* end : {"from", "to"}) {
       if (values["spacing"] != "log" || !is_zero(end)) continue;
-      complain(places_.at(path + "." + end),
+      complain(reading_.places.at(path + "." + end),
                "'" + path + "." + end + "' must be positive: equal ratios do not reach zero", "> 0",
                shown(node.find(end)->value));
       return nullptr;
@@ -269,7 +269,7 @@ class Reader {
       const Node& item = node.items[i];
       const std::string item_path = path + "[" + std::to_string(i) + "]";
       if (item.kind == Node::Kind::null) continue;
-      places_.emplace(item_path, item.place);
+      reading_.places.emplace(item_path, item.place);
       if (item.kind == Node::Kind::map)
         values.push_back(one_map(item, field, item_path));
       else
@@ -300,7 +300,7 @@ class Reader {
       return nullptr;
     }
     if (entry->value.kind == Node::Kind::null) return nullptr;
-    places_.emplace(path + "." + choice.key, entry->value.place);
+    reading_.places.emplace(path + "." + choice.key, entry->value.place);
     const Variant* variant = choice.find(entry->value.text);
     if (variant == nullptr || entry->value.kind != Node::Kind::scalar) {
       complain(entry->value.place,
@@ -320,7 +320,7 @@ class Reader {
     const friction::ParameterValues given = numbers;
     for (friction::ParameterFault& fault : friction::complete(friction::find_law(name)->parameters, numbers)) {
       if (!given.contains(fault.name)) continue;  // missing: noted already
-      complain(places_.at(path + "." + fault.name),
+      complain(reading_.places.at(path + "." + fault.name),
                "'" + path + "." + fault.name + "' is not possible: " + fault.message, std::move(fault.allowed),
                shown(node.find(fault.name)->value));
     }
@@ -329,11 +329,17 @@ class Reader {
 
   const Document& document_;
   std::string amplitude_unit_ = "m";
-  std::map<std::string, Place> places_;
-  std::vector<core::Diagnostic> problems_;
+  Reading reading_;
 };
 
 }  // namespace
+
+void Reading::complain(const Document& document, Place place, std::string message, std::string allowed,
+                       std::string found, std::string suggestion) {
+  if (problems.size() >= max_reported) return;
+  problems.push_back(
+      {document.locate(place), std::move(message), std::move(allowed), std::move(found), std::move(suggestion)});
+}
 
 Reading read(const Document& document, const Section& format) {
   Reader reader(document);

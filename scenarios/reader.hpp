@@ -15,10 +15,17 @@
 
 namespace dualdamp::scenarios {
 
+/// A list of 300,000 wrong items needs no 300,000 messages.
+inline constexpr std::size_t max_reported = 200;
+
 struct Reading {
   Json values;                          ///< what could be read; faulty values are left out
   std::map<std::string, Place> places;  ///< of each value by path: "system.friction[0].static"
   std::vector<core::Diagnostic> problems;
+
+  /// Notes a problem, up to `max_reported` of them.
+  void complain(const Document& document, Place place, std::string message, std::string allowed = {},
+                std::string found = {}, std::string suggestion = {});
 };
 
 [[nodiscard]] Reading read(const Document& document, const Section& format);

@@ -184,11 +184,13 @@ class TreeBuilder final : public YAML::EventHandler {
   /// Events come in order of the text: counting on from the last place keeps a long line linear.
   [[nodiscard]] Place place(const YAML::Mark& mark) {
     const std::size_t where = offset(mark);
-    if (where < last_offset_ || last_place_.line == 0 || text_.find('\n', last_offset_) < where) {
+    const bool forward = last_place_.line > 0 && where >= last_offset_;
+    const std::string_view between =
+        std::string_view(text_).substr(last_offset_, forward ? where - last_offset_ : 0);
+    if (forward && between.find('\n') == std::string_view::npos)
+      last_place_.column += count_characters(between);
+    else
       last_place_ = document_.place_at(source_, where);
-    } else {
-      last_place_.column += count_characters(std::string_view(text_).substr(last_offset_, where - last_offset_));
-    }
     last_offset_ = where;
     return last_place_;
   }
@@ -311,8 +313,9 @@ std::vector<std::size_t> starts_of_lines(std::string_view text) {
 std::optional<std::size_t> find_directive(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '%') return at;
-    if (text[at] != '#' && text[at] != '\n') return std::nullopt;
-    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::size_t content = text.find_first_not_of(' ', at);
+    if (content == std::string_view::npos || (text[content] != '#' && text[content] != '\n')) return std::nullopt;
+    at = std::min(text.find('\n', content), text.size() - 1) + 1;
   }
   return std::nullopt;
 }
