@@ -12,6 +12,7 @@
 #include "scenarios/files.hpp"
 #include "scenarios/format.hpp"
 #include "scenarios/formulas.hpp"
+#include "scenarios/result_fields.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -114,7 +115,7 @@ class Checker {
 
   /// "analysis 'identify' with a measurement 'xy_curve'"
   [[nodiscard]] std::string subject() const {
-    const std::string name = "analysis '" + analysis_ + "'";
+    std::string name = "analysis '" + analysis_ + "'";
     if (needs_->measurement.empty()) return name;
     return name +
            (needs_->measurement == "data" ? " with data" : " with a measurement '" + needs_->measurement + "'");
@@ -222,7 +223,7 @@ class Checker {
 
   /// The path of a data file, unless it leads out of the scenario's directory.
   std::optional<fs::path> safe_path(const std::string& name) {
-    const fs::path path(name);
+    fs::path path(name);
     const std::string allowed = "a relative path inside the scenario's directory";
     const Place place = place_of("analysis.data");
     if (options_.data_anywhere) return path;
@@ -232,7 +233,7 @@ class Checker {
     }
     std::error_code error;
     const fs::path root = fs::canonical(options_.directory.empty() ? "." : options_.directory, error);
-    const fs::path target = fs::canonical(root / path, error);
+    fs::path target = fs::canonical(root / path, error);
     if (error) {
       complain(place, "'analysis.data': " + name + " cannot be opened: " + error.message(), allowed);
       return std::nullopt;

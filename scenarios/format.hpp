@@ -35,14 +35,4 @@ struct Needs {
 
 [[nodiscard]] const std::vector<Needs>& needs();
 
-/// A number in a result: its path with `[]` for any index, SI unit, meaning.
-struct ResultField {
-  std::string path;
-  std::string unit;
-  std::string meaning;
-};
-
-/// The numbers an analysis returns; for a formula those of `formula`.
-[[nodiscard]] std::vector<ResultField> result_fields(const std::string& analysis, const std::string& formula = {});
-
 }  // namespace dualdamp::scenarios

@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scenarios/format.hpp"
+#include "scenarios/keys.hpp"
+#include "scenarios/result_fields.hpp"
 
 namespace dualdamp::scenarios {
 

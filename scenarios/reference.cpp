@@ -4,6 +4,7 @@
 #include "core/units.hpp"
 #include "scenarios/format.hpp"
 #include "scenarios/formulas.hpp"
+#include "scenarios/result_fields.hpp"
 #include "scenarios/schema.hpp"
 
 namespace dualdamp::scenarios {

@@ -362,7 +362,7 @@ std::optional<std::vector<Step>> split_path(std::string_view path) {
 
 }  // namespace
 
-Document::Document(std::string name, std::string text) {
+Document::Document(std::string name, const std::string& text) {
   sources_.push_back({std::move(name), normalised(text), {}});
   sources_.front().line_starts = starts_of_lines(sources_.front().text);
   const std::string& content = sources_.front().text;

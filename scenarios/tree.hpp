@@ -59,7 +59,7 @@ struct Entry {
 class Document {
  public:
   /// `name` stands for the file in messages.
-  Document(std::string name, std::string text);
+  Document(std::string name, const std::string& text);
 
   /// Applies `PATH=VALUE`, PATH like `system.friction[0].kinetic`, VALUE in YAML. Keys on the way that do not exist
   /// are created; list items must exist. `origin` stands for the file in messages.

@@ -2,12 +2,14 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
 #include "identify/csv_reader.hpp"
 #include "scenarios/output.hpp"
+#include "scenarios/result_fields.hpp"
 
 using namespace dualdamp;
 using nlohmann::json;
@@ -74,6 +76,35 @@ TEST_CASE("run: the keys of the results are those of the contract", "[scenarios]
   for (const char* key : {"method", "zeta", "c", "x_f", "F0", "std", "interval95", "diagnostics", "usable"})
     CHECK(estimates.at("estimates").at(0).contains(key));
   CHECK(estimates.contains("fit"));
+}
+
+TEST_CASE("run: every number of a result is in the tables", "[scenarios][run]") {
+  const auto patterns_of = [](const Scenario& scenario) {
+    const auto* formula = std::get_if<scenarios::Formula>(&scenario.analysis);
+    std::vector<std::string> patterns;
+    for (const auto& field :
+         scenarios::result_fields(scenario.analysis_name, formula == nullptr ? std::string() : formula->name))
+      patterns.push_back(field.path);
+    return patterns;
+  };
+  const std::function<void(const json&, const std::string&, const std::vector<std::string>&)> check_paths =
+      [&](const json& value, const std::string& path, const std::vector<std::string>& patterns) {
+        if (value.is_object())
+          for (const auto& [key, item] : value.items())
+            check_paths(item, path.empty() ? key : path + "." + key, patterns);
+        if (value.is_array())
+          for (const json& item : value) check_paths(item, path + "[]", patterns);
+        if (value.is_number()) {
+          CAPTURE(path);
+          CHECK(std::ranges::find(patterns, path) != patterns.end());
+        }
+      };
+  for (const std::string folder : {"scenarios/paper", "scenarios/examples"})
+    for (const auto& path : testing::yaml_files(folder)) {
+      CAPTURE(path.string());
+      const Scenario scenario = scenarios::load_scenario(path.string());
+      check_paths(result_of(scenarios::run(scenario)), "", patterns_of(scenario));
+    }
 }
 
 TEST_CASE("run: an expected value that is off ends with status 1 and says by how much", "[scenarios][run]") {

@@ -1,0 +1,138 @@
+#include "scenarios/result_fields.hpp"
+
+#include <map>
+
+#include "scenarios/formulas.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+using Fields = std::vector<ResultField>;
+
+Fields joined(Fields first, const Fields& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+Fields energy() {
+  return {{"energy.input", "J", "work of the excitation"},
+          {"energy.friction", "J", "work dissipated by the friction laws"},
+          {"energy.viscous", "J", "work dissipated by the damper"},
+          {"energy.stored", "J", "change of kinetic and elastic energy"},
+          {"energy.defect", "J", "input - friction - viscous - stored"}};
+}
+
+Fields history() {
+  return joined({{"events[].t", "s", "time"},
+                 {"events[].kind", "", "reversal, stop, release, grazing, switching"},
+                 {"events[].x", "m", "position"},
+                 {"events[].v", "m/s", "velocity"},
+                 {"final.t", "s", "time at the end"},
+                 {"final.x", "m", "position at the end"},
+                 {"final.v", "m/s", "velocity at the end"}},
+                joined(energy(), {{"search.searches", "1", "searches for the next event"},
+                                  {"search.panels", "1", "panels certified free of events"},
+                                  {"search.grazings", "1", "guards touched and not crossed"}}));
+}
+
+Fields steady_state() {
+  return joined({{"peak", "m", "max x"},
+                 {"trough", "m", "min x"},
+                 {"amplitude", "m", "(peak - trough)/2"},
+                 {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi)"},
+                 {"period", "s", "forcing period"},
+                 {"max_speed", "m/s", "max |v|"},
+                 {"stops_per_cycle", "1", "times a period the mass comes to rest and stays"},
+                 {"sticks[].start", "s", "begin of a rest, modulo one period"},
+                 {"sticks[].duration", "s", "its duration"},
+                 {"sticks[].position", "m", "its position"},
+                 {"multipliers[][]", "1", "Floquet multipliers of the full period, [re, im]"},
+                 {"stable", "", "all multipliers inside the unit circle"}},
+                energy());
+}
+
+Fields curve(const Fields& own) {
+  return joined(own, {{"points[].x", "m", "output amplitude (peak - trough)/2"},
+                      {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+                      {"points[].sticks", "1", "rests a period"},
+                      {"points[].stable", "", "all multipliers inside the unit circle"},
+                      {"points[].reason", "", "only of a point without numbers: why"}});
+}
+
+Fields free_decay() {
+  return {{"peaks[].t", "s", "time of the extreme"},
+          {"peaks[].x", "m", "its position, signed"},
+          {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"}};
+}
+
+/// The four parameters under `prefix`.
+Fields parameters(const std::string& prefix, const std::string& suffix, const std::string& what) {
+  return {{prefix + "zeta" + suffix, "1", what + "damping ratio"},
+          {prefix + "c" + suffix, "N.s/m", what + "damping"},
+          {prefix + "x_f" + suffix, "m", what + "friction displacement F0/k"},
+          {prefix + "F0" + suffix, "N", what + "friction force"}};
+}
+
+Fields diagnostics() {
+  const std::string at = "estimates[].diagnostics.";
+  return joined({{at + "reason", "", "why it is not usable, or what it rests on"},
+                 {at + "used[]", "1", "numbers of the data used"},
+                 {at + "excluded[].number", "1", "number of a datum left out"},
+                 {at + "excluded[].reason", "", "why it was left out"},
+                 {at + "covariance[][]", "", "of (zeta, F0)"},
+                 {at + "correlation", "1", "of (zeta, F0)"},
+                 {at + "lack_of_fit.statistic", "1", "F statistic"},
+                 {at + "lack_of_fit.freedom", "1", "degrees of freedom left"},
+                 {at + "lack_of_fit.p_value", "1", "its probability when the model holds"},
+                 {at + "lack_of_fit.effect", "1", "rms of the added term over the range of the data"},
+                 {at + "lack_of_fit.level", "1", "p_value below which it fires"},
+                 {at + "lack_of_fit.least_effect", "1", "effect above which it fires"},
+                 {at + "lack_of_fit.fired", "", "the model does not hold"},
+                 {at + "subsets[].label", "", "which part"},
+                 {at + "subsets[].used", "1", "data of the part"},
+                 {at + "line.slope", "1", "of x over Y"},
+                 {at + "line.intercept", "m", "x at Y = 0"},
+                 {at + "line.residual_deviation", "m", "standard deviation of the residuals"},
+                 {at + "line.G", "1", "parameter function G at the estimate"},
+                 {at + "line.residuals[]", "m", "residuals of the data used"},
+                 {at + "decay.R", "1", "decay of a half swing without friction"},
+                 {at + "decay.first_amplitude", "m", "first extreme without offset"},
+                 {at + "decay.offset", "m", "position the extremes are about"},
+                 {at + "decay.residual_deviation", "m", "standard deviation of the residuals"},
+                 {at + "decay.residuals[]", "m", "residuals of the data used"},
+                 {at + "warnings[]", "", "doubts"}},
+                parameters(at + "subsets[].", "", "from a part of the data: "));
+}
+
+Fields identify() {
+  Fields fields = {{"estimates[].method", "", "name of the method"},
+                   {"estimates[].usable", "", "the method stands by its number"}};
+  fields = joined(fields, parameters("estimates[].", "", ""));
+  fields = joined(fields, parameters("estimates[].std.", "", "standard error of the "));
+  fields = joined(fields, parameters("estimates[].interval95.", "[]", "95 % interval of the "));
+  fields = joined(fields, diagnostics());
+  return joined(fields, {{"fit.method", "", "the method of the fit: the first usable one"},
+                         {"fit.points[].number", "1", "number of the datum"},
+                         {"fit.points[].Y", "m", "measured input amplitude"},
+                         {"fit.points[].x", "m", "measured output amplitude or extreme"},
+                         {"fit.points[].fitted", "m", "x by the fit"}});
+}
+
+}  // namespace
+
+std::vector<ResultField> result_fields(const std::string& analysis, const std::string& formula) {
+  static const std::map<std::string, Fields> table = {
+      {"simulate", history()},
+      {"steady_state", steady_state()},
+      {"xy_curve", curve({{"points[].Y", "m or N", "excitation amplitude"}})},
+      {"frequency_response", curve({{"points[].omega", "rad/s", "forcing frequency"},
+                                    {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}})},
+      {"free_decay", free_decay()},
+      {"identify", identify()}};
+  if (const auto found = table.find(analysis); found != table.end()) return found->second;
+  const FormulaEntry* entry = find_formula(formula);
+  return entry == nullptr ? Fields{} : entry->results;
+}
+
+}  // namespace dualdamp::scenarios
