@@ -13,10 +13,12 @@ namespace {
 
 /// Relative distance of exponents below which divided differences take over; naive forms lose at most this factor.
 constexpr double closeness = 1e-2;
-/// The same for a ramp, whose naive form loses the square.
-constexpr double ramp_closeness = 1e-1;
-/// Own exponents below this part of the drive's frequency hardly move within a period: a vanishing stiffness.
-constexpr double vanishing = 1e-3;
+/// A stiffness vanishes when the mass cannot feel it within the time that matters: own exponents below this part of
+/// the drive's frequency, or (without a drive) the smaller one below that part of the larger one. A ramp loses the
+/// square.
+constexpr double slow_beside_drive = 1e-2;
+constexpr double slow_beside_decay = 1e-8;
+constexpr double ramp_slow_beside_decay = 1e-4;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -36,13 +38,13 @@ LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<
       ramped_(ramped) {
   for (const double frequency : frequencies) fastest_drive_ = std::max(fastest_drive_, frequency);
   lay_own_motion();
-  constant_ = drive(0.0, basis_.add(0.0), closeness);
-  if (ramped) ramp_ = drive(0.0, basis_.add(0.0, constant_.source), ramp_closeness);
+  constant_ = drive(0.0, basis_.add(0.0), slow_beside_decay);
+  if (ramped) ramp_ = drive(0.0, basis_.add(0.0, constant_.source), ramp_slow_beside_decay);
   for (const double frequency : frequencies) {
     const Complex z(0.0, frequency);
-    harmonics_.push_back(drive(z, basis_.add(z), closeness));
+    harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
   }
-  for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), closeness));
+  for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), slow_beside_decay));
   basis_.finish();
 }
 
@@ -59,21 +61,31 @@ void LinearMode::lay_own_motion() {
     second_ = large;
     first_ = large != 0.0 ? stiffness_ / mass_ / large : 0.0;
   }
-  inverse_beat_ = 1.0 / beat;
   own_first_ = basis_.add(first_);
-  const bool pair = discriminant > 0.0 && beat > closeness * std::abs(half);
-  if (!pair) own_second_ = basis_.add(second_, own_first_);
+  const bool slow = discriminant <= 0.0 && beat <= slow_beside_drive * fastest_drive_;
+  if (slow || !(beat > closeness * std::abs(half))) {
+    own_form_ = OwnForm::chain;
+    own_second_ = basis_.add(second_, own_first_);
+  } else if (discriminant > 0.0) {
+    own_form_ = OwnForm::oscillating;
+    inverse_gap_ = 1.0 / beat;
+  } else {
+    own_form_ = OwnForm::decaying;
+    own_second_ = basis_.add(second_);
+    inverse_gap_ = 1.0 / (first_.real() - second_.real());
+  }
 }
 
-bool LinearMode::close_to_own(Complex z, double part) const {
-  const double scale = std::max({std::abs(z), std::abs(first_), std::abs(second_)});
-  const double distance = std::min(std::abs(z - first_), std::abs(z - second_));
-  return distance <= part * scale || distance <= vanishing * fastest_drive_;
+bool LinearMode::close_to_own(Complex z, double slow) const {
+  const Complex own = std::abs(z - first_) <= std::abs(z - second_) ? first_ : second_;
+  const double distance = std::abs(z - own);
+  return distance <= closeness * std::max(std::abs(z), std::abs(own)) ||
+         distance <= slow_beside_drive * fastest_drive_ || distance <= slow * std::abs(second_);
 }
 
 /// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z.
-LinearMode::Driven LinearMode::drive(Complex z, int source, double part) {
-  if (!close_to_own(z, part)) return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_))};
+LinearMode::Driven LinearMode::drive(Complex z, int source, double slow) {
+  if (!close_to_own(z, slow)) return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_))};
   const int target = basis_.add(second_, basis_.add(first_, source));
   return {source, target, 1.0 / mass_};
 }
@@ -116,29 +128,38 @@ void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFun
 
   const double own = x0 - start;
   const double own_slope = v0 - slope - first_.real() * own;
-  if (own_second_ < 0) {
-    add(x, own_first_, Complex(own, -own_slope * inverse_beat_));
-    return;
+  switch (own_form_) {
+    case OwnForm::oscillating:
+      add(x, own_first_, Complex(own, -own_slope * inverse_gap_));
+      break;
+    case OwnForm::decaying:
+      add(x, own_first_, own + own_slope * inverse_gap_);
+      add(x, own_second_, -own_slope * inverse_gap_);
+      break;
+    case OwnForm::chain:
+      add(x, own_first_, own);
+      add(x, own_second_, own_slope);
+      break;
   }
-  add(x, own_first_, own);
-  add(x, own_second_, own_slope);
 }
 
 Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) const {
+  // x = own E1 + own_slope D with D the divided difference of exp(first s) and exp(second s), x' accordingly.
   const Complex e1(values.re[at(own_first_)], values.im[at(own_first_)]);
+  double difference = 0.0;
+  if (own_form_ == OwnForm::oscillating) {
+    difference = e1.imag() * inverse_gap_;
+  } else {
+    const double e2 = values.re[at(own_second_)];
+    difference = own_form_ == OwnForm::chain ? e2 : (e1.real() - e2) * inverse_gap_;
+  }
   Eigen::Matrix2d result;
   for (int column = 0; column < 2; ++column) {
     const double own = column == 0 ? 1.0 : 0.0;
     const double own_slope = (column == 0 ? 0.0 : 1.0) - first_.real() * own;
-    if (own_second_ < 0) {
-      const Complex x = Complex(own, -own_slope * inverse_beat_) * e1;
-      result(0, column) = x.real();
-      result(1, column) = (x * first_).real();
-    } else {
-      const Complex e2(values.re[at(own_second_)], values.im[at(own_second_)]);
-      result(0, column) = (own * e1 + own_slope * e2).real();
-      result(1, column) = (own * first_ * e1 + own_slope * (second_ * e2 + e1)).real();
-    }
+    result(0, column) = own * e1.real() + own_slope * difference;
+    // E1' = first E1 and D' = second D + E1; of complex ones the real part.
+    result(1, column) = own * (first_ * e1).real() + own_slope * (second_.real() * difference + e1.real());
   }
   return result;
 }

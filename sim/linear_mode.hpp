@@ -53,9 +53,16 @@ class LinearMode {
     core::Complex gain;
   };
 
+  /// The own motion on two elements.
+  enum class OwnForm {
+    oscillating,  ///< underdamped: one complex exponential
+    decaying,     ///< overdamped, or a negative stiffness: two real exponentials
+    chain,        ///< exponents too close to each other to be told apart: exponential and divided difference
+  };
+
   void lay_own_motion();
-  [[nodiscard]] bool close_to_own(core::Complex z, double part) const;
-  Driven drive(core::Complex z, int source, double part);
+  [[nodiscard]] bool close_to_own(core::Complex z, double slow) const;
+  Driven drive(core::Complex z, int source, double slow);
 
   core::ExponentialBasis basis_;
   double mass_;
@@ -65,9 +72,10 @@ class LinearMode {
   double fastest_drive_ = 0.0;  ///< rad/s
   core::Complex first_;         ///< the oscillator's own exponents
   core::Complex second_;
-  double inverse_beat_ = 0.0;  ///< 1/Im first_ when underdamped [s]
-  int own_first_ = 0;          ///< exp(first_ s)
-  int own_second_ = -1;        ///< divided difference of first_ and second_; -1: underdamped, one complex element
+  OwnForm own_form_ = OwnForm::oscillating;
+  double inverse_gap_ = 0.0;  ///< 1/Im first_ or 1/(first_ - second_); unused for a chain [s]
+  int own_first_ = 0;         ///< exp(first_ s)
+  int own_second_ = -1;       ///< exp(second_ s), or the divided difference; unused when oscillating
   Driven constant_;
   Driven ramp_;
   bool ramped_;
