@@ -19,6 +19,9 @@ constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 /// Values farther than this (relative) from a limit are decided by their sign; closer ones by their Taylor germ.
 constexpr double clearly = 1e-9;
 
+/// exp(-gone) of an amplitude has died out.
+constexpr double gone = 45.0;
+
 }  // namespace
 
 std::string_view name(EventKind kind) {
@@ -64,7 +67,15 @@ class ExactEngine::PhaseInterval final : public Interval {
     return sample;
   }
 
-  [[nodiscard]] double resolution() const override { return engine_.mode_->basis().panel(); }
+  [[nodiscard]] double resolution(double s) const override {
+    const core::ExponentialBasis& basis = engine_.mode_->basis();
+    double rate = 0.0;
+    for (int k = 0; k < basis.size(); ++k) {
+      const core::Complex z = basis.exponent(k);
+      if (-z.real() * s < gone) rate = std::max(rate, std::abs(z));
+    }
+    return rate > 0.0 ? 1.6 / rate : duration;
+  }
 
   Affine force;  ///< of all laws, without the transients
   std::vector<double> transients;

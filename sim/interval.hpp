@@ -49,8 +49,9 @@ class Interval {
 
   /// The motion at `begin + s`, 0 <= s <= duration.
   [[nodiscard]] virtual Sample at(double s) const = 0;
-  /// A time [s] over which the motion is well resolved by a polynomial of low degree: a quadrature panel.
-  [[nodiscard]] virtual double resolution() const = 0;
+  /// The width [s] of a panel from `begin + s` on over which the motion is well resolved by a polynomial of low
+  /// degree; it grows where fast transients have died out.
+  [[nodiscard]] virtual double resolution(double s) const = 0;
 
   [[nodiscard]] double end() const { return begin + duration; }
   [[nodiscard]] Sample state_at(double t) const { return at(t - begin); }

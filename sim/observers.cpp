@@ -9,26 +9,39 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// Panels of one interval are at most this many: a very fast transient is then under-resolved, and the energy
-/// defect shows it.
-constexpr double max_panels = 4096.0;
+/// Calls visit(begin, width) for panels that cover the interval, each resolved by a polynomial of low degree.
+template <class Visit>
+void for_panels(const Interval& interval, const Visit& visit) {
+  double s = 0.0;
+  while (s < interval.duration) {
+    const double width = std::min(interval.resolution(s), interval.duration - s);
+    visit(s, width);
+    s += width;
+  }
+}
 
 /// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval.
 template <class Visit>
 void quadrature(const Interval& interval, const Visit& visit) {
   using Rule = boost::math::quadrature::gauss<double, 15>;
-  if (interval.duration <= 0.0) return;
-  const double panels = std::clamp(std::ceil(interval.duration / interval.resolution()), 1.0, max_panels);
-  const double half = 0.5 * interval.duration / panels;
-  for (double panel = 0.0; panel < panels; panel += 1.0) {
-    const double middle = (2.0 * panel + 1.0) * half;
+  for_panels(interval, [&](double begin, double width) {
+    const double half = 0.5 * width;
     for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
       const double offset = half * Rule::abscissa()[i];
       const double weight = half * Rule::weights()[i];
-      visit(interval.at(middle + offset), weight);
-      if (offset != 0.0) visit(interval.at(middle - offset), weight);
+      visit(interval.at(begin + half + offset), weight);
+      if (offset != 0.0) visit(interval.at(begin + half - offset), weight);
     }
+  });
+}
+
+/// Where the acceleration changes sign between low and high, by bisection; `sign` is its sign at low.
+double speed_extreme(const Interval& interval, double low, double high, double sign) {
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (interval.at(middle).a * sign > 0.0 ? low : high) = middle;
   }
+  return low;
 }
 
 }  // namespace
@@ -61,26 +74,21 @@ void Extremes::observe(const Interval& interval) {
   trough_ = std::min({trough_, begin.x, end.x});
   max_speed_ = std::max({max_speed_, std::abs(begin.v), std::abs(end.v)});
   if (interval.direction == friction::Direction::rest || interval.duration <= 0.0) return;
-  // The speed is largest where the acceleration changes sign; a grid brackets it, bisection finds it.
-  const int cells =
-      static_cast<int>(std::clamp(std::ceil(8.0 * interval.duration / interval.resolution()), 8.0, 4096.0));
+  // The speed is largest where the acceleration changes sign; eight cells a panel bracket it.
   double left = 0.0;
   double left_a = begin.a;
-  for (int i = 1; i <= cells; ++i) {
-    const double right = interval.duration * i / cells;
-    const double right_a = interval.at(right).a;
-    if (left_a * right_a < 0.0) {
-      double low = left;
-      double high = right;
-      for (int step = 0; step < 60 && high - low > 0.0; ++step) {
-        const double middle = 0.5 * (low + high);
-        (interval.at(middle).a * left_a > 0.0 ? low : high) = middle;
+  for_panels(interval, [&](double from, double width) {
+    for (int cell = 1; cell <= 8; ++cell) {
+      const double right = from + width * cell / 8.0;
+      const double right_a = interval.at(right).a;
+      if (left_a * right_a < 0.0) {
+        const double at = speed_extreme(interval, left, right, left_a);
+        max_speed_ = std::max(max_speed_, std::abs(interval.at(at).v));
       }
-      max_speed_ = std::max(max_speed_, std::abs(interval.at(low).v));
+      left = right;
+      left_a = right_a;
     }
-    left = right;
-    left_a = right_a;
-  }
+  });
 }
 
 double EnergyAudit::stored(const Sample& sample) const {
