@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/numbers.hpp"
 
@@ -255,6 +256,36 @@ Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::
   return {{"method", chosen->method}, {"points", points}};
 }
 
+/// Warnings of the points of a curve; the same words about many points are said once.
+class PointWarnings {
+ public:
+  void add(std::size_t index, const std::string& text) {
+    const auto [place, is_new] = numbers_.emplace(text, entries_.size());
+    if (is_new) entries_.push_back({text, index, 0});
+    ++entries_[place->second].count;
+  }
+
+  [[nodiscard]] std::vector<std::string> take() const {
+    std::vector<std::string> warnings;
+    for (const Entry& entry : entries_) {
+      std::string text = "points[" + std::to_string(entry.first) + "]";
+      if (entry.count > 1) text += " and " + std::to_string(entry.count - 1) + " more";
+      warnings.push_back(text + ": " + entry.text);
+    }
+    return warnings;
+  }
+
+ private:
+  struct Entry {
+    std::string text;
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+
+  std::vector<Entry> entries_;
+  std::map<std::string, std::size_t> numbers_;
+};
+
 Answer failed(const std::string& reason) {
   Answer answer;
   answer.failure = reason;
@@ -327,17 +358,18 @@ Answer answer(const sim::FreeDecay& decay) {
 Answer answer(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit) {
   Answer answer;
   std::size_t good = 0;
+  PointWarnings warnings;
   Json list = Json::array();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const sim::SteadyState& state = points[i].state;
     list.push_back(point_json(points[i], over));
-    const std::string where = "points[" + std::to_string(i) + "]: ";
     if (state.outcome.ok())
       ++good;
     else
-      answer.warnings.push_back(where + state.outcome.reason);
-    for (const std::string& warning : state.warnings) answer.warnings.push_back(where + warning);
+      warnings.add(i, state.outcome.reason);
+    for (const std::string& warning : state.warnings) warnings.add(i, warning);
   }
+  answer.warnings = warnings.take();
   if (good == 0)
     return failed("no point of the curve has a number; the first: " + points.front().state.outcome.reason);
   answer.result["points"] = std::move(list);
