@@ -673,10 +673,10 @@ bool agrees(const RandomCase& c, const Result& found, Tally& tally, std::string&
       why = print("missed: guard ", i, " at ", static_cast<double>(expected.s), ", found ", end);
       return false;
     }
-    // A contact well within rounding is reported, or is the crossing itself.
+    // A contact well within the rounding of what is left there is reported, or is the crossing itself.
     const auto reach = static_cast<long double>(0.05 / fastest(c));
     for (const ExponentialSum::Touch& touch : expected.touches) {
-      if (std::abs(touch.value) > static_cast<long double>(0.25 * graze * size)) continue;
+      if (std::abs(touch.value) > static_cast<long double>(0.25 * graze) * f.size(touch.s)) continue;
       if (touch.s < reach || touch.s > static_cast<long double>(end) - reach) continue;
       const bool reported = std::any_of(found.grazings.begin(), found.grazings.end(), [&](const Grazing& grazing) {
         return grazing.guard == static_cast<int>(i) &&

@@ -642,7 +642,7 @@ TEST_CASE("After every release from exact stick the next event is found, and non
 
     CAPTURE(m, k, model.oscillator.damping, drive, w, model.excitation.phase, kinetic, static_level,
             model.initial.position);
-    if (!expected.crossed) {
+    if (!expected.crossed || expected.s > 2.9L * static_cast<long double>(engine.period())) {
       CHECK(next.empty());
       continue;
     }
