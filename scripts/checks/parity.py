@@ -99,28 +99,25 @@ def order_faults(kind, names):
         yield f"{kind}: the program's list is not sorted or names one twice"
 
 
+def built_files(root):
+    """Paths of the sources and headers that the folders' CMakeLists.txt name."""
+    found = set()
+    for folder in CODE:
+        for cmake in (root / folder).rglob("CMakeLists.txt"):
+            for name in re.findall(r"[\w./-]+\.[ch]pp\b", re.sub(r"#.*", "", cmake.read_text())):
+                found.add((cmake.parent / name).resolve())
+    return found
+
+
 def build_faults(root):
-    """Sources and headers that no CMakeLists.txt between them and the root names."""
+    built = built_files(root)
     for folder in CODE:
         for path in sorted((root / folder).rglob("*.[ch]pp")):
             if (root / "tests/package") in path.parents or (path.suffix == ".hpp" and folder not in LIBRARIES):
                 continue
-            if not any(names_file(cmake, path) for cmake in cmake_files(root, path)):
+            if path not in built:
                 where = "CMakeLists.txt (under HEADERS, or SOURCES when private)" if path.suffix == ".hpp" else "CMakeLists.txt"
                 yield f"{path.relative_to(root)}: not in a {where}"
-
-
-def cmake_files(root, path):
-    folder = path.parent
-    while folder != root:
-        if (folder / "CMakeLists.txt").is_file():
-            yield folder / "CMakeLists.txt"
-        folder = folder.parent
-
-
-def names_file(cmake, path):
-    text = re.sub(r"#.*", "", cmake.read_text())
-    return str(path.relative_to(cmake.parent)) in text.replace(")", " ").split()
 
 
 def scenario_faults(root):
