@@ -444,8 +444,8 @@ struct RandomCase {
 /// Sum of oscillations, decays and a constant with |g(0)| of its order.
 Terms random_terms(Random& random, double rate) {
   Terms terms = {constant(random.sign() * random.logarithmic(1e-2, 2.0))};
-  terms.push_back({Complex(-random.logarithmic(1e-4, 1.0), random.logarithmic(0.3, 3.0)) * rate,
-                   std::polar(random.logarithmic(1e-2, 1.0), random.angle())});
+  terms.push_back(
+      {Complex(-random.logarithmic(1e-4, 1.0), random.logarithmic(0.3, 3.0)) * rate, random.phasor(1e-2, 1.0)});
   const int harmonics = 1 + random.pick(3);
   const double drive = rate * random.logarithmic(0.2, 3.0);
   for (int j = 1; j <= harmonics; ++j) {
@@ -476,8 +476,7 @@ void add_chain(Terms& terms, Random& random, double rate) {
       const double w = rate * random.logarithmic(0.3, 3.0);
       const double near = random.logarithmic(1e-16, 1e-2);
       terms.push_back(cosine(random.uniform(-1.0, 1.0), w, random.angle()));
-      terms.push_back(
-          {Complex(-near * w, w), rate * std::polar(random.uniform(0.0, 0.3), random.angle()), next() - 1});
+      terms.push_back({Complex(-near * w, w), rate * random.phasor(1e-3, 0.3), next() - 1});
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "sim/exact_engine.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -421,6 +422,64 @@ TEST_CASE("The engine follows brute-force integration event by event", "[exact]"
   }
 }
 
+TEST_CASE("Random oscillators follow brute-force integration event by event", "[exact]") {
+  // DUALDAMP_WALK_CASES for a longer run. Brute force looks at the velocity 400 times a period of the fastest part:
+  // it cannot see slips and stops shorter than that. The comparison ends at the first of them, and where a touch of
+  // the limits is decided by less than its errors.
+  const long cases = test::case_count("DUALDAMP_WALK_CASES", 150);
+  Random random(25);
+  long compared = 0;
+  long cut_short = 0;
+  for (long i = 0; i < cases; ++i) {
+    const double wn = random.logarithmic(1.0, 30.0);
+    const double w = wn * random.logarithmic(0.15, 4.0);
+    Model model = base_driven(random.logarithmic(0.2, 5.0), 100.0, 0.0, 0.1, w, random.angle());
+    model.oscillator.stiffness = model.oscillator.mass * wn * wn;
+    const double k = model.oscillator.stiffness;
+    if (random.chance(0.8))
+      model.oscillator.damping = 2.0 * model.oscillator.mass * wn * random.logarithmic(1e-3, 2.0);
+    if (random.chance(0.3)) model.oscillator.damper_to = DamperTo::base;
+    if (random.chance(0.3)) {
+      model.excitation.type = ExcitationType::force_harmonic;
+      model.excitation.amplitude = 0.1 * k;
+      model.excitation.offset = random.uniform(-0.05, 0.05) * k;
+    }
+    for (int order = 2; order < 5; ++order) {
+      if (!random.chance(0.25)) continue;
+      model.excitation.harmonics.push_back({.order = order,
+                                            .amplitude = model.excitation.amplitude * random.uniform(0.0, 0.4),
+                                            .phase = random.angle()});
+    }
+    const double kinetic = 0.1 * k * random.logarithmic(1e-2, 0.9);
+    const double static_level = random.chance(0.5) ? kinetic : kinetic * random.uniform(1.0, 1.8);
+    model.friction.push_back(coulomb(kinetic, static_level));
+    model.initial = {random.uniform(-0.15, 0.15), wn * random.uniform(-0.1, 0.1)};
+    const double duration = 6.0 * 2.0 * pi / w;
+    const double blind =
+        2.0 * pi / std::max({wn, w, 2.0 * model.oscillator.damping / model.oscillator.mass}) / 50.0;
+
+    const test::BruteForce expected = test::follow_coulomb(model, kinetic, static_level, duration);
+    const auto events = events_of(model, duration);
+    CAPTURE(i, model.oscillator.mass, k, model.oscillator.damping, w, model.excitation.phase, kinetic, static_level,
+            model.initial.position, model.initial.velocity, model.excitation.harmonics.size());
+    bool blinded = false;
+    for (std::size_t j = 0; j < events.size() && !blinded; ++j) {
+      blinded = j + 1 < events.size() && events[j + 1].t - events[j].t < blind;
+      const bool same = j < expected.events.size() && expected.events[j].kind == events[j].kind &&
+                        std::abs(expected.events[j].t - events[j].t) <= 1e-8 / w;
+      if (blinded && !same) break;
+      REQUIRE(j < expected.events.size());
+      CHECK(expected.events[j].kind == events[j].kind);
+      CHECK(std::abs(expected.events[j].t - events[j].t) <= 1e-8 / w);
+      CHECK(std::abs(expected.events[j].x - events[j].x) <= 1e-9);
+      ++compared;
+    }
+    cut_short += blinded ? 1 : 0;
+    if (!blinded) CHECK(expected.events.size() == events.size());
+  }
+  WARN(compared << " events of " << cases << " oscillators compared, " << cut_short << " walks cut short");
+}
+
 TEST_CASE("Two Coulomb laws are one with the sums", "[exact]") {
   Model one = standard(2.0, 3.0);
   one.excitation.frequency = 4.0;
@@ -537,6 +596,93 @@ TEST_CASE("Walking by periods gives the events of walking by time", "[exact]") {
     CHECK(found[i].kind == expected[i].kind);
     CHECK(std::abs(found[i].t - expected[i].t) <= 1e-12);
   }
+}
+
+TEST_CASE("A friction of zero and a drive of zero are no friction and no drive", "[exact]") {
+  Model none = base_driven(1.0, 100.0, 1.0, 0.1, 7.0);
+  none.initial = {0.1, 0.5};
+  Model zero = none;
+  zero.friction.push_back(coulomb(0.0, 0.0));
+  const auto expected = events_of(none, 20.0);
+  const auto found = events_of(zero, 20.0);
+  REQUIRE(expected.size() > 20);
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i].t == Approx(expected[i].t).epsilon(1e-14));
+
+  Model still = ramped(1.0, 100.0, 1.0, ExcitationType::none, 0.0);
+  still.friction.push_back(coulomb(0.5, 0.7));
+  still.initial = {0.1, 0.5};
+  Model undriven = base_driven(1.0, 100.0, 1.0, 0.0, 7.0);
+  undriven.friction = still.friction;
+  undriven.initial = still.initial;
+  const auto free = events_of(still, 20.0);
+  const auto driven_by_nothing = events_of(undriven, 20.0);
+  REQUIRE(free.size() > 3);
+  REQUIRE(driven_by_nothing.size() == free.size());
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    CHECK(driven_by_nothing[i].kind == free[i].kind);
+    CHECK(driven_by_nothing[i].t == Approx(free[i].t).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("Without friction a mass in equilibrium stays until the drive moves it", "[exact]") {
+  Model model = ramped(1.0, 100.0, 1.0, ExcitationType::none, 0.0);
+  ExactEngine resting(model);
+  CHECK(events_of(resting, 1e3).empty());
+  CHECK(resting.position() == 0.0);
+  model.excitation = {.type = ExcitationType::base_ramp, .slope = -0.01};
+  ExactEngine moving(model);
+  CHECK(moving.direction() == Direction::backward);
+  // y = sin(w t): force zero and growing at the start.
+  Model driven = base_driven(1.0, 100.0, 1.0, 0.1, 7.0, -pi / 2.0);
+  CHECK(ExactEngine(driven).direction() == Direction::forward);
+}
+
+TEST_CASE("The sensitivity is the derivative of the end state by the start", "[exact]") {
+  // Central differences of second order: (relative step)^2 = 1e-12 and rounding 1e-15/1e-6 leave 1e-8 of the
+  // largest entry. A stop makes the map forget the direction of the perturbation: its determinant is zero.
+  Random random(26);
+  int stopped = 0;
+  for (int i = 0; i < 60; ++i) {
+    Model model = base_driven(1.0, 100.0, 4.0, 0.1, random.uniform(4.0, 20.0));
+    const double kinetic = random.uniform(0.5, 8.0);
+    model.friction.push_back(coulomb(kinetic, kinetic * random.uniform(1.0, 1.5)));
+    model.initial = {random.uniform(-0.1, 0.1), random.sign() * random.uniform(0.2, 1.0)};
+    const double duration = 1.7 * 2.0 * pi / model.excitation.frequency;
+    ExactEngine engine(model);
+    engine.track_sensitivity(true);
+    const auto events = events_of(engine, duration);
+    const Eigen::Matrix2d found = engine.sensitivity();
+    const auto end_of = [&](double dx, double dv, std::vector<Event>& seen) {
+      Model moved = model;
+      moved.initial.position += dx;
+      moved.initial.velocity += dv;
+      ExactEngine other(moved);
+      seen = events_of(other, duration);
+      return Eigen::Vector2d(other.position(), other.velocity());
+    };
+    bool same_events = true;
+    Eigen::Matrix2d expected;
+    for (int column = 0; column < 2; ++column) {
+      const double step = column == 0 ? 1e-7 : 1e-6;
+      std::vector<Event> above;
+      std::vector<Event> below;
+      const Eigen::Vector2d difference = end_of(column == 0 ? step : 0.0, column == 1 ? step : 0.0, above) -
+                                         end_of(column == 0 ? -step : 0.0, column == 1 ? -step : 0.0, below);
+      expected.col(column) = difference / (2.0 * step);
+      same_events = same_events && above.size() == events.size() && below.size() == events.size();
+    }
+    if (!same_events) continue;  // a branch of the map ends here
+    CAPTURE(i, kinetic, events.size());
+    // Columns by position and by velocity, rows of m and m/s: scaled by the frequency.
+    const double scale = expected.cwiseAbs().maxCoeff();
+    CHECK((found - expected).cwiseAbs().maxCoeff() <= 1e-6 * scale + 1e-8);
+    const bool stops =
+        std::any_of(events.begin(), events.end(), [](const Event& e) { return e.kind == EventKind::stop; });
+    stopped += stops ? 1 : 0;
+    if (stops) CHECK(std::abs(found.determinant()) <= 1e-12 * scale * scale);
+  }
+  CHECK(stopped > 10);
 }
 
 TEST_CASE("Intervals join: position and velocity are continuous, acceleration obeys the equation of motion",

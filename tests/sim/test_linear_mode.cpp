@@ -187,8 +187,7 @@ TEST_CASE("A mode of any signs of damping and stiffness follows the 50-digit sol
     if (random.chance(0.1)) p.damping = 0.0;
     if (random.chance(0.3)) p.ramp = random.uniform(-1.0, 1.0) * rate;
     for (int j = random.pick(4); j > 0; --j) {
-      p.harmonics.push_back(
-          {rate * random.logarithmic(0.1, 5.0), std::polar(random.logarithmic(1e-2, 1.0), random.angle())});
+      p.harmonics.push_back({rate * random.logarithmic(0.1, 5.0), random.phasor(1e-2, 1.0)});
     }
     if (random.chance(0.3))
       p.transients.push_back({rate * random.logarithmic(0.1, 20.0), random.uniform(-1.0, 1.0)});

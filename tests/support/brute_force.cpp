@@ -30,7 +30,7 @@ class Walk {
     direction_ = z_[1] > 0.0 ? 1 : z_[1] < 0.0 ? -1 : 0;
     if (direction_ == 0) settle();
     while (t_ < duration) {
-      const double h = std::min(step_, duration - t_);
+      const double h = std::min(careful(step_), duration - t_);
       if (direction_ == 0) {
         rest(h);
       } else {
@@ -82,6 +82,16 @@ class Walk {
 
   void note(sim::EventKind kind) { result_.events.push_back({t_, kind, z_[0]}); }
 
+  /// Steps are shortened where something might come and go within one.
+  [[nodiscard]] double careful(double h) {
+    if (direction_ == 0) return std::abs(std::abs(pull(t_)) - static_) < 0.01 * static_ ? h / 64.0 : h;
+    const auto acceleration = [&](const State& z, double t) {
+      return direction_ * (drive(t) - o_.damping * z[1] - o_.stiffness * z[0]) - kinetic_;
+    };
+    const bool turns = acceleration(z_, t_) < 0.0 && acceleration(stepped(h), t_ + h) > 0.0;
+    return turns ? h / 64.0 : h;
+  }
+
   void rest(double h) {
     z_[1] = 0.0;
     if (std::abs(pull(t_ + h)) <= static_) {
@@ -97,10 +107,7 @@ class Walk {
     t_ += low;
     direction_ = pull(t_) > 0.0 ? 1 : -1;
     note(sim::EventKind::release);
-    // The first step leaves the zero of the velocity behind.
-    const State z = stepped(h);
-    t_ += h;
-    z_ = z;
+    leave_zero();
   }
 
   void slip(double h) {
@@ -121,7 +128,12 @@ class Walk {
     t_ += low;
     settle();
     note(direction_ == 0 ? sim::EventKind::stop : sim::EventKind::reversal);
-    if (direction_ == 0) return;
+    if (direction_ != 0) leave_zero();
+  }
+
+  /// A step long enough to leave the zero of the velocity, perhaps a double one, well behind.
+  void leave_zero() {
+    const double h = step_ / 8.0;
     z_ = stepped(h);
     t_ += h;
   }

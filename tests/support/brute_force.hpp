@@ -1,7 +1,8 @@
 #pragma once
 /// An oscillator with Coulomb friction by Boost.Odeint: Runge-Kutta-Fehlberg 7(8) with fixed small steps, the sign
-/// of the friction frozen between events, events by bisection within a step. It reads the model's numbers and
-/// shares no code with the engines.
+/// of the friction frozen between events, events by bisection within a step; 64 times smaller steps where the
+/// velocity or the pull might cross its limit and return. It reads the model's numbers and shares no code with the
+/// engines.
 
 #include <vector>
 

@@ -1,7 +1,9 @@
 #pragma once
-/// Random draws for tests: the same on every platform (the standard's distributions are not).
+/// Random draws for tests: the same with every standard library. Draws within one statement come in the order the
+/// compiler chooses.
 
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <cstdlib>
 #include <random>
@@ -23,6 +25,11 @@ class Random {
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
   double angle() { return uniform(-3.14159, 3.14159); }
+  /// Of a modulus uniform in the logarithm, and any angle.
+  std::complex<double> phasor(double low, double high) {
+    const double modulus = logarithmic(low, high);
+    return std::polar(modulus, angle());
+  }
 
  private:
   std::mt19937_64 bits_;
