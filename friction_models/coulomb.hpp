@@ -21,15 +21,10 @@ class Coulomb {
   /// Levels in N, 0 <= kinetic <= static_level.
   Coulomb(double kinetic, double static_level) : kinetic_(kinetic), static_(static_level) {}
 
-  [[nodiscard]] double force(const Memory&, const Instant&, Direction direction) const {
-    return sign(direction) * kinetic_;
+  [[nodiscard]] Affine affine_force(const Memory&, const Instant& now, Direction direction) const {
+    return sign(direction) * now.limit(kinetic_);
   }
-  [[nodiscard]] double static_limit(const Memory&, const Instant&) const { return static_; }
-
-  [[nodiscard]] Affine affine_force(const Memory&, const Instant&, Direction direction) const {
-    return {.constant = sign(direction) * kinetic_};
-  }
-  [[nodiscard]] Affine affine_limit(const Memory&, const Instant&) const { return {.constant = static_}; }
+  [[nodiscard]] Affine affine_limit(const Memory&, const Instant& now) const { return now.limit(static_); }
 
  private:
   double kinetic_;

@@ -8,26 +8,37 @@
 ///   force       F(memory, now, direction) [N], F > 0 opposes v > 0; the branch of sgn v is `direction`, so the
 ///               formula stays smooth across the event that ends the phase.
 ///   guards      values that are > 0 while the law's mode holds; the mode ends when one reaches 0 from above.
-///   jump        the mode change at an own guard (`trigger` = its index) or when the mass reverses, stops or is
-///               released (`Trigger::direction_change`). Called again while a guard is violated in the new mode.
+///   jump        the mode change at an own guard (`trigger` = its index), when the mass reverses, stops or is
+///               released (`Trigger::direction_change`), or at a time of the law's own schedule. Called again while
+///               a guard is violated in the new mode. It decides by the mode and the trigger, not by values.
 ///
 /// Sticking of the mass belongs to the driver: a law that can hold the mass at rest says by how much with
 /// `static_limit`. With v = 0 the mass rests while |pull| <= the sum of the static limits, pull = all forces on
-/// the mass except those of laws with a static limit; otherwise it slips in the direction of the pull.
+/// the mass except those of laws with a static limit; otherwise it slips in the direction of the pull. At v = 0
+/// every law first sees a change of direction to rest.
 ///
-/// Only the force is required. Abilities are found by the compiler:
-///   modes          `start`, `guards`, `jump`: the law remembers something.
-///   static limit   `static_limit`: the law holds the mass at rest.
+/// A law asks the instant for its force limits, `now.limit(kinetic)`: modifiers (drift, fluctuation, a slope over
+/// position) act there and stay out of the law.
+///
+/// Abilities are found by the compiler:
 ///   affine form    force, guards and limit as affine functions of time, position and velocity inside a mode: gives
-///                  the exact engine (`affine_force`; `affine_limit`; `affine_guards` and `advance`).
-///   own states     `rates`: d(state)/dt of a mode, for the smooth engine.
+///                  the exact engine (`affine_force`; `affine_limit`; `affine_guards`). A law states either this or
+///                  `force`, `static_limit`, `guards`, which follow from it.
+///   modes          `start`, guards, `jump`: the law remembers something.
+///   static limit   the law holds the mass at rest.
+///   own states     `rates`: d(state)/dt in a mode; without it states are held between events. `advance`: states at
+///                  the end of a phase, in closed form, for an affine law whose states are not held.
+///   schedule       `next_change`: the time at which the mode changes whatever the motion does.
+///   aperiodic      `aperiodic`: why no motion under this law is periodic ("its friction is random").
 ///
 /// Docs: `docs/decisions/002-law-contract.md` works contact compliance, Iwan and LuGre through this contract.
 
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,25 +51,6 @@ enum class Direction : int { backward = -1, rest = 0, forward = 1 };
   return static_cast<double>(static_cast<int>(direction));
 }
 
-/// The mass at one instant.
-struct Instant {
-  double t = 0.0;  ///< s
-  double x = 0.0;  ///< m
-  double v = 0.0;  ///< m/s
-};
-
-/// What a law remembers: its mode and its own continuous states. The meaning is the law's.
-struct Memory {
-  int mode = 0;
-  std::vector<double> state;
-};
-
-/// Why `jump` is called.
-struct Trigger {
-  static constexpr int direction_change = -1;
-  int guard = direction_change;  ///< index into the law's guards, or direction_change
-};
-
 /// constant + rate s + position x + velocity v + transient exp(-decay s), s = time since the phase began [s].
 struct Affine {
   double constant = 0.0;
@@ -69,51 +61,178 @@ struct Affine {
   double decay = 0.0;
 };
 
-/// What every law provides.
+/// Of parts without, or with the same, decay.
+[[nodiscard]] constexpr Affine operator+(const Affine& a, const Affine& b) {
+  return {a.constant + b.constant, a.rate + b.rate,           a.position + b.position,
+          a.velocity + b.velocity, a.transient + b.transient, a.transient != 0.0 ? a.decay : b.decay};
+}
+
+[[nodiscard]] constexpr Affine operator*(double factor, const Affine& a) {
+  return {factor * a.constant, factor * a.rate,      factor * a.position,
+          factor * a.velocity, factor * a.transient, a.decay};
+}
+
+[[nodiscard]] constexpr Affine operator-(const Affine& a, const Affine& b) { return a + -1.0 * b; }
+
+/// What modifiers do to a law's force limits at one instant: limit = factor nominal + slope x, and 0 for nominal
+/// limits up to `vanished`.
+struct Modification {
+  double factor = 1.0;
+  double factor_rate = 0.0;  ///< 1/s
+  double slope = 0.0;        ///< N/m, with the sign of x
+  double vanished = -1.0;    ///< N; below zero: none vanishes
+};
+
+/// The mass at one instant.
+struct Instant {
+  double t = 0.0;  ///< s
+  double x = 0.0;  ///< m
+  double v = 0.0;  ///< m/s
+  Modification modification{};
+
+  /// A force limit of `nominal` [N] from now on, modifiers included.
+  [[nodiscard]] constexpr Affine limit(double nominal) const {
+    if (nominal <= modification.vanished) return {};
+    return {.constant = modification.factor * nominal,
+            .rate = modification.factor_rate * nominal,
+            .position = modification.slope};
+  }
+  /// The same now [N].
+  [[nodiscard]] constexpr double limit_now(double nominal) const {
+    if (nominal <= modification.vanished) return 0.0;
+    return modification.factor * nominal + modification.slope * x;
+  }
+};
+
+/// The value of an affine form at the instant at which its phase begins.
+[[nodiscard]] constexpr double value(const Affine& a, const Instant& now) {
+  return a.constant + a.position * now.x + a.velocity * now.v + a.transient;
+}
+
+/// What a law remembers: its mode and its own continuous states. The meaning is the law's.
+struct Memory {
+  int mode = 0;
+  std::vector<int> indices{};   ///< what the mode holds beyond its number, e.g. which elements hang together
+  std::vector<double> state{};  ///< enters force and guards as an affine function in every mode of an affine law
+
+  friend bool operator==(const Memory&, const Memory&) = default;
+};
+
+/// Why `jump` is called.
+struct Trigger {
+  static constexpr int direction_change = -1;
+  static constexpr int limit_change = -2;  ///< a modifier is about to change the force limits by a step
+  static constexpr int scheduled = -3;     ///< the time of `next_change` has come
+  int cause = direction_change;            ///< index into the law's guards, or one of the above
+};
+
+/// Ability: affine force in every mode.
 template <class L>
-concept FrictionLaw =
-    std::copyable<L> && requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
-      { law.force(memory, now, direction) } -> std::same_as<double>;
+concept AffineForce = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+  { law.affine_force(memory, now, direction) } -> std::same_as<Affine>;
+};
+template <class L>
+concept OwnForce = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+  { law.force(memory, now, direction) } -> std::same_as<double>;
+};
+
+/// What every law provides: a force, or an affine force.
+template <class L>
+concept FrictionLaw = std::copyable<L> && (AffineForce<L> || OwnForce<L>);
+
+/// Ability: modes or states of its own. Without it a law remembers nothing.
+template <class L>
+concept ModalLaw =
+    requires(const L& law, Memory& memory, const Instant& now, Direction direction, Trigger trigger) {
+      { law.start(now) } -> std::same_as<Memory>;
+      { law.jump(memory, trigger, now, direction) } -> std::same_as<void>;
     };
 
-/// Ability: modes or states of its own, with guards and a jump. Without it a law remembers nothing.
+/// Ability: guards on the modes, each > 0 while the mode holds; appended to `guards`.
 template <class L>
-concept ModalLaw = requires(const L& law, const Memory& frozen, Memory& memory, const Instant& now,
-                            Direction direction, Trigger trigger, std::vector<double>& values) {
-  { law.start(now) } -> std::same_as<Memory>;
-  { law.guards(frozen, now, direction, values) } -> std::same_as<void>;  // appends
-  { law.jump(memory, trigger, now, direction) } -> std::same_as<void>;
+concept AffineGuards = requires(const L& law, const Memory& memory, const Instant& now, Direction direction,
+                                std::vector<Affine>& guards) {
+  { law.affine_guards(memory, now, direction, guards) } -> std::same_as<void>;
+};
+template <class L>
+concept Guards = requires(const L& law, const Memory& memory, const Instant& now, Direction direction,
+                          std::vector<double>& values) {
+  { law.guards(memory, now, direction, values) } -> std::same_as<void>;
 };
 
 /// Ability: holds the mass at rest up to a limit [N].
 template <class L>
-concept HoldsMass = requires(const L& law, const Memory& memory, const Instant& now) {
+concept AffineLimit = requires(const L& law, const Memory& memory, const Instant& now) {
+  { law.affine_limit(memory, now) } -> std::same_as<Affine>;
+};
+template <class L>
+concept StaticLimit = requires(const L& law, const Memory& memory, const Instant& now) {
   { law.static_limit(memory, now) } -> std::same_as<double>;
 };
-
-/// Ability: affine in every mode. A law that holds the mass adds `affine_limit`, a modal one `affine_guards` and
-/// `advance`, which brings its states from the start of a phase to its end.
 template <class L>
-concept AffineLaw =
-    requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
-      { law.affine_force(memory, now, direction) } -> std::same_as<Affine>;
-    } &&
-    (!HoldsMass<L> ||
-     requires(const L& law, const Memory& memory, const Instant& now) {
-       { law.affine_limit(memory, now) } -> std::same_as<Affine>;
-     }) &&
-    (!ModalLaw<L> || requires(const L& law, const Memory& frozen, Memory& memory, const Instant& now,
-                              Direction direction, std::vector<Affine>& guards) {
-      { law.affine_guards(frozen, now, direction, guards) } -> std::same_as<void>;  // appends
-      { law.advance(memory, now, now, direction) } -> std::same_as<void>;
-    });
+concept HoldsMass = AffineLimit<L> || StaticLimit<L>;
 
-/// Ability: own continuous states for the smooth engine.
+/// Ability: affine in every mode, which gives the exact engine.
+template <class L>
+concept AffineLaw = AffineForce<L> && (!HoldsMass<L> || AffineLimit<L>) && (!Guards<L> || AffineGuards<L>);
+
+/// Ability: own continuous states that move between events.
 template <class L>
 concept StateLaw =
     requires(const L& law, const Memory& frozen, const Instant& now, Direction direction, std::span<double> rates) {
       { law.rates(frozen, now, direction, rates) } -> std::same_as<void>;
     };
+
+/// Ability: the states of an affine law at the end of a phase of `duration` [s].
+template <class L>
+concept AdvancingLaw =
+    requires(const L& law, Memory& memory, const Instant& now, double duration, Direction direction) {
+      { law.advance(memory, now, now, duration, direction) } -> std::same_as<void>;
+    };
+
+/// Ability: mode changes at times [s] that are known beforehand.
+template <class L>
+concept ScheduledLaw = requires(const L& law, const Memory& memory) {
+  { law.next_change(memory) } -> std::same_as<double>;
+};
+
+/// Ability: says why no motion under this law is periodic; empty when it may be.
+template <class L>
+concept AperiodicLaw = requires(const L& law) {
+  { law.aperiodic() } -> std::convertible_to<std::string_view>;
+};
+
+/// The contract at run time; `Law` holds one. Abilities that a law lacks do nothing.
+class LawModel {
+ public:
+  LawModel() = default;
+  LawModel(const LawModel&) = delete;
+  LawModel& operator=(const LawModel&) = delete;
+  virtual ~LawModel() = default;
+
+  [[nodiscard]] virtual double force(const Memory&, const Instant&, Direction) const = 0;
+
+  [[nodiscard]] virtual bool is_modal() const = 0;
+  [[nodiscard]] virtual Memory start(const Instant&) const = 0;
+  virtual void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const = 0;
+  virtual void jump(Memory&, Trigger, const Instant&, Direction) const = 0;
+
+  [[nodiscard]] virtual bool holds_mass() const = 0;
+  [[nodiscard]] virtual double static_limit(const Memory&, const Instant&) const = 0;
+
+  [[nodiscard]] virtual bool is_affine() const = 0;
+  [[nodiscard]] virtual Affine affine_force(const Memory&, const Instant&, Direction) const = 0;
+  [[nodiscard]] virtual Affine affine_limit(const Memory&, const Instant&) const = 0;
+  virtual void affine_guards(const Memory&, const Instant&, Direction, std::vector<Affine>&) const = 0;
+
+  [[nodiscard]] virtual bool has_rates() const = 0;
+  virtual void rates(const Memory&, const Instant&, Direction, std::span<double>) const = 0;
+  [[nodiscard]] virtual bool advances() const = 0;
+  virtual void advance(Memory&, const Instant& begin, const Instant& end, double duration, Direction) const = 0;
+
+  [[nodiscard]] virtual double next_change(const Memory&) const = 0;
+  [[nodiscard]] virtual std::string_view aperiodic() const = 0;
+};
 
 /// Any law as a value, for choice at run time. Cheap to copy; parameters are shared and immutable.
 class Law {
@@ -122,20 +241,21 @@ class Law {
   template <class L>
     requires(!std::same_as<L, Law> && FrictionLaw<L>)
   explicit Law(L law) : model_(std::make_shared<const Model<L>>(std::move(law))) {}
+  explicit Law(std::shared_ptr<const LawModel> model) : model_(std::move(model)) {}
 
-  [[nodiscard]] Memory start(const Instant& now) const { return model_->start(now); }
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const {
     return model_->force(memory, now, direction);
   }
+
+  /// False: start, guards, jump and advance do nothing and need not be called.
+  [[nodiscard]] bool is_modal() const { return model_->is_modal(); }
+  [[nodiscard]] Memory start(const Instant& now) const { return model_->start(now); }
   void guards(const Memory& memory, const Instant& now, Direction direction, std::vector<double>& values) const {
     model_->guards(memory, now, direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
     model_->jump(memory, trigger, now, direction);
   }
-
-  /// False: start, guards, jump and advance do nothing and need not be called.
-  [[nodiscard]] bool is_modal() const { return model_->is_modal(); }
 
   [[nodiscard]] bool holds_mass() const { return model_->holds_mass(); }
   /// 0 for a law without the ability.
@@ -144,8 +264,7 @@ class Law {
   }
 
   [[nodiscard]] bool is_affine() const { return model_->is_affine(); }
-  [[nodiscard]] bool has_rates() const { return model_->has_rates(); }
-  // The four below need is_affine().
+  // The three below need is_affine().
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction direction) const {
     return model_->affine_force(memory, now, direction);
   }
@@ -156,85 +275,103 @@ class Law {
   [[nodiscard]] Affine affine_limit(const Memory& memory, const Instant& now) const {
     return model_->affine_limit(memory, now);
   }
-  void advance(Memory& memory, const Instant& begin, const Instant& end, Direction direction) const {
-    model_->advance(memory, begin, end, direction);
-  }
-  /// Needs has_rates().
+
+  /// False: rates are zero.
+  [[nodiscard]] bool has_rates() const { return model_->has_rates(); }
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const {
     model_->rates(memory, now, direction, rates);
   }
+  /// False: states are held between events.
+  [[nodiscard]] bool advances() const { return model_->advances(); }
+  void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
+               Direction direction) const {
+    model_->advance(memory, begin, end, duration, direction);
+  }
+
+  /// s; infinite without a schedule.
+  [[nodiscard]] double next_change(const Memory& memory) const { return model_->next_change(memory); }
+  /// Empty: motions may be periodic.
+  [[nodiscard]] std::string_view aperiodic() const { return model_->aperiodic(); }
 
  private:
-  struct Interface {
-    Interface() = default;
-    Interface(const Interface&) = delete;
-    Interface& operator=(const Interface&) = delete;
-    virtual ~Interface() = default;
-    virtual Memory start(const Instant&) const = 0;
-    virtual double force(const Memory&, const Instant&, Direction) const = 0;
-    virtual void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const = 0;
-    virtual void jump(Memory&, Trigger, const Instant&, Direction) const = 0;
-    virtual bool is_modal() const = 0;
-    virtual bool holds_mass() const = 0;
-    virtual double static_limit(const Memory&, const Instant&) const = 0;
-    virtual bool is_affine() const = 0;
-    virtual bool has_rates() const = 0;
-    virtual Affine affine_force(const Memory&, const Instant&, Direction) const = 0;
-    virtual void affine_guards(const Memory&, const Instant&, Direction, std::vector<Affine>&) const = 0;
-    virtual Affine affine_limit(const Memory&, const Instant&) const = 0;
-    virtual void advance(Memory&, const Instant&, const Instant&, Direction) const = 0;
-    virtual void rates(const Memory&, const Instant&, Direction, std::span<double>) const = 0;
-  };
-
   template <class L>
   struct Model;
 
-  std::shared_ptr<const Interface> model_;
+  std::shared_ptr<const LawModel> model_;
 };
 
 template <class L>
-struct Law::Model final : Law::Interface {
+struct Law::Model final : LawModel {
   explicit Model(L value) : law(std::move(value)) {}
 
+  double force(const Memory& memory, const Instant& now, Direction direction) const override {
+    if constexpr (OwnForce<L>) {
+      return law.force(memory, now, direction);
+    } else {
+      return value(law.affine_force(memory, now, direction), now);
+    }
+  }
+
+  bool is_modal() const override { return ModalLaw<L>; }
   Memory start(const Instant& now) const override {
     if constexpr (ModalLaw<L>) return law.start(now);
     return {};
   }
-  double force(const Memory& memory, const Instant& now, Direction direction) const override {
-    return law.force(memory, now, direction);
-  }
   void guards(const Memory& memory, const Instant& now, Direction direction,
               std::vector<double>& values) const override {
-    if constexpr (ModalLaw<L>) law.guards(memory, now, direction, values);
+    if constexpr (Guards<L>) {
+      law.guards(memory, now, direction, values);
+    } else if constexpr (AffineGuards<L>) {
+      std::vector<Affine> forms;
+      law.affine_guards(memory, now, direction, forms);
+      for (const Affine& form : forms) values.push_back(value(form, now));
+    }
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override {
     if constexpr (ModalLaw<L>) law.jump(memory, trigger, now, direction);
   }
-  bool is_modal() const override { return ModalLaw<L>; }
+
   bool holds_mass() const override { return HoldsMass<L>; }
   double static_limit(const Memory& memory, const Instant& now) const override {
-    if constexpr (HoldsMass<L>) return law.static_limit(memory, now);
+    if constexpr (StaticLimit<L>) {
+      return law.static_limit(memory, now);
+    } else if constexpr (AffineLimit<L>) {
+      return value(law.affine_limit(memory, now), now);
+    }
     return 0.0;
   }
+
   bool is_affine() const override { return AffineLaw<L>; }
-  bool has_rates() const override { return StateLaw<L>; }
   Affine affine_force(const Memory& memory, const Instant& now, Direction direction) const override {
     if constexpr (AffineLaw<L>) return law.affine_force(memory, now, direction);
     return {};
   }
   void affine_guards(const Memory& memory, const Instant& now, Direction direction,
                      std::vector<Affine>& guards) const override {
-    if constexpr (AffineLaw<L> && ModalLaw<L>) law.affine_guards(memory, now, direction, guards);
+    if constexpr (AffineGuards<L>) law.affine_guards(memory, now, direction, guards);
   }
   Affine affine_limit(const Memory& memory, const Instant& now) const override {
-    if constexpr (AffineLaw<L> && HoldsMass<L>) return law.affine_limit(memory, now);
+    if constexpr (AffineLimit<L>) return law.affine_limit(memory, now);
     return {};
   }
-  void advance(Memory& memory, const Instant& begin, const Instant& end, Direction direction) const override {
-    if constexpr (AffineLaw<L> && ModalLaw<L>) law.advance(memory, begin, end, direction);
-  }
+
+  bool has_rates() const override { return StateLaw<L>; }
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> out) const override {
     if constexpr (StateLaw<L>) law.rates(memory, now, direction, out);
+  }
+  bool advances() const override { return AdvancingLaw<L>; }
+  void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
+               Direction direction) const override {
+    if constexpr (AdvancingLaw<L>) law.advance(memory, begin, end, duration, direction);
+  }
+
+  double next_change(const Memory& memory) const override {
+    if constexpr (ScheduledLaw<L>) return law.next_change(memory);
+    return std::numeric_limits<double>::infinity();
+  }
+  std::string_view aperiodic() const override {
+    if constexpr (AperiodicLaw<L>) return law.aperiodic();
+    return {};
   }
 
   L law;

@@ -420,7 +420,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
     drive_.pass(s);
   }
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (modal_[i]) model_.friction[i].advance(memories_[i], before, now(), direction_);
+    if (modal_[i]) model_.friction[i].advance(memories_[i], before, now(), s, direction_);
   }
 }
 

@@ -25,7 +25,7 @@ class Slider {
  public:
   explicit Slider(Planted planted) : planted_(planted) {}
 
-  [[nodiscard]] Memory start(const Instant& now) const { return {0, {now.x}}; }
+  [[nodiscard]] Memory start(const Instant& now) const { return {.state = {now.x}}; }
   [[nodiscard]] double force(const Memory& m, const Instant& now, Direction) const {
     if (m.mode != 0) return m.mode * level(m.mode);
     const double stretched = stiffness * (now.x - m.state[0]);
@@ -38,9 +38,9 @@ class Slider {
     values.push_back(level(-1) + stretched);
   }
   void jump(Memory& m, Trigger trigger, const Instant& now, Direction direction) const {
-    if (trigger.guard != Trigger::direction_change) {
+    if (trigger.cause != Trigger::direction_change) {
       if (planted_ == Planted::endless_jump) return;
-      m.mode = trigger.guard == 0 ? 1 : -1;
+      m.mode = trigger.cause == 0 ? 1 : -1;
     } else if (m.mode != 0 && friction::sign(direction) != m.mode) {
       m.state[0] = now.x - m.mode * level(m.mode) / stiffness;
       m.mode = 0;
@@ -58,7 +58,7 @@ class Slider {
     guards.push_back({.constant = level(1) + stiffness * m.state[0], .position = -stiffness});
     guards.push_back({.constant = level(-1) - sign * stiffness * m.state[0], .position = sign * stiffness});
   }
-  void advance(Memory& m, const Instant&, const Instant& end, Direction) const {
+  void advance(Memory& m, const Instant&, const Instant& end, double, Direction) const {
     if (m.mode != 0) m.state[0] = end.x - m.mode * level(m.mode) / stiffness;
     if (planted_ == Planted::wrong_advance) m.state[0] += 1e-3;
   }
@@ -72,9 +72,8 @@ class Slider {
 
 /// z' = v - |v| z/z0, F = s0 z: Dahl's law, a smooth one.
 struct Dahl {
-  [[nodiscard]] Memory start(const Instant&) const { return {0, {0.0}}; }
+  [[nodiscard]] Memory start(const Instant&) const { return {.state = {0.0}}; }
   [[nodiscard]] double force(const Memory& m, const Instant&, Direction) const { return 100.0 * m.state[0]; }
-  void guards(const Memory&, const Instant&, Direction, std::vector<double>&) const {}
   void jump(Memory&, Trigger, const Instant&, Direction) const {}
   void rates(const Memory& m, const Instant& now, Direction direction, std::span<double> rates) const {
     rates[0] = now.v * (1.0 - friction::sign(direction) * m.state[0] / 0.01);

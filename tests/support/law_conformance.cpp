@@ -49,8 +49,6 @@ double size_of(const Affine& a, double s, const Instant& now) {
          std::abs(a.transient);
 }
 
-bool equal(const Memory& a, const Memory& b) { return a.mode == b.mode && a.state == b.state; }
-
 Direction opposite(Direction direction) { return static_cast<Direction>(-static_cast<int>(direction)); }
 
 /// The driver's part: a law, what it remembers, and where the mass is.
@@ -67,9 +65,11 @@ class Host {
   [[nodiscard]] bool broken() const { return broken_; }
 
   void turn(Direction direction) {
-    direction_ = direction;
-    if (law_.is_modal()) law_.jump(memory_, {}, now_, direction_);
-    settle();
+    for (const Direction next : {Direction::rest, direction}) {
+      direction_ = next;
+      if (law_.is_modal()) law_.jump(memory_, {}, now_, direction_);
+      settle();
+    }
   }
 
   /// Moves the mass to `end`, through the events of the law in between.
@@ -106,7 +106,7 @@ class Host {
   /// States from now to `end`, no event in between.
   void go(const Instant& end) {
     if (law_.is_affine()) {
-      law_.advance(memory_, now_, end, direction_);
+      law_.advance(memory_, now_, end, end.t - now_.t, direction_);
     } else if (law_.has_rates()) {
       integrate(end);
     }
@@ -118,7 +118,8 @@ class Host {
     const std::size_t n = memory_.state.size();
     const double h = end.t - now_.t;
     const auto rates = [&](const std::vector<double>& state, double part) {
-      Memory memory{memory_.mode, state};
+      Memory memory = memory_;
+      memory.state = state;
       const Instant now{now_.t + part * h, now_.x + part * (end.x - now_.x), now_.v + part * (end.v - now_.v)};
       std::vector<double> result(n);
       law_.rates(memory, now, direction_, result);
@@ -183,8 +184,7 @@ class Host {
     const Instant begin = now_;
     const double force = law_.force(memory_, now_, direction_);
     if (!std::isfinite(force)) faults_.add("the force is not finite");
-    if (force != law_.force(memory_, now_, direction_) || !equal(memory_, before))
-      faults_.add("the force is not pure");
+    if (force != law_.force(memory_, now_, direction_) || memory_ != before) faults_.add("the force is not pure");
     const double limit = law_.static_limit(memory_, now_);
     if (!(limit >= 0.0) || !std::isfinite(limit)) faults_.add("the static limit is negative or not finite");
     if (limit > 0.0 && !law_.holds_mass()) faults_.add("a law that does not hold the mass has a static limit");
