@@ -1,8 +1,14 @@
 #pragma once
 /// Ways to follow the standard case. Each one finds every reversal and hands out the amplitude.
+///
+/// The general solvers integrate one phase at a time with the sign of the friction frozen, so that a step may
+/// overrun the reversal and keeps its order, and start anew behind it.
+
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "bench/speed/standard_case.hpp"
-#include "sim/exact_engine.hpp"
 
 namespace dualdamp::bench::speed {
 
@@ -12,40 +18,34 @@ struct Followed {
   long reversals = 0;
 };
 
+struct Contender {
+  std::string name;
+  double tolerance = 0.0;  ///< relative and absolute, of a step; 0: exact
+  /// From the start of the orbit over some forcing periods.
+  std::function<Followed(int periods)> follow;
+};
+
 /// The exact engine.
-class ExactContender {
- public:
-  explicit ExactContender(const StandardCase& work) : work_(work), engine_(model_of(work)) {}
+[[nodiscard]] Contender exact_contender(const StandardCase& work);
 
-  /// From the start of the orbit over `periods` forcing periods.
-  [[nodiscard]] Followed follow(int periods);
+/// Boost.Odeint's Dormand-Prince pair with dense output, at 1e-9 and 1e-12 (relative and absolute, of a step). The
+/// reversal is found on the dense output by bisection until the bracket is 1e-15 of the step; for the last one by
+/// Boost.Math's TOMS 748, which needs fewer evaluations. After a reversal a step has the size of the last one.
+[[nodiscard]] std::vector<Contender> odeint_contenders(const StandardCase& work);
 
- private:
-  StandardCase work_;
-  sim::ExactEngine engine_;
+/// SUNDIALS CVODE with a root function, at 1e-9 and 1e-12: Adams with fixed-point iteration, BDF with dense Newton
+/// and the exact Jacobian. CVODE chooses its first step behind a reversal. Empty where SUNDIALS is not installed.
+[[nodiscard]] std::vector<Contender> cvode_contenders(const StandardCase& work);
+
+/// SciPy's solve_ivp, DOP853 with a terminal event, in a child process that times itself.
+struct ScipyResult {
+  Followed followed;
+  std::vector<double> seconds;  ///< of processor time for each batch: one start and `periods` forcing periods
 };
 
-/// How the time of a reversal is found on the dense output of a step.
-enum class Locator {
-  bisection,  ///< until the bracket is 1e-15 of the step
-  toms748,    ///< Boost.Math's bracketing solver to the last bits: fewer evaluations
-};
-
-/// Boost.Odeint's Dormand-Prince pair with dense output. The sign of the friction is frozen within a phase, so that
-/// a step may overrun the reversal and keeps its order; after a reversal the stepper starts anew with its last step
-/// size.
-class OdeintContender {
- public:
-  /// `tolerance`: relative and absolute, of a step.
-  OdeintContender(const StandardCase& work, double tolerance, Locator locator)
-      : work_(work), tolerance_(tolerance), locator_(locator) {}
-
-  [[nodiscard]] Followed follow(int periods) const;
-
- private:
-  StandardCase work_;
-  double tolerance_;
-  Locator locator_;
-};
+/// One result for each tolerance; empty where Python or SciPy is missing.
+[[nodiscard]] std::vector<ScipyResult> follow_with_scipy(const StandardCase& work,
+                                                         const std::vector<double>& tolerances, int batches,
+                                                         int periods);
 
 }  // namespace dualdamp::bench::speed

@@ -1,21 +1,33 @@
 #include <cmath>
+#include <memory>
 
 #include "bench/speed/contender.hpp"
+#include "sim/exact_engine.hpp"
 
 namespace dualdamp::bench::speed {
+namespace {
 
-Followed ExactContender::follow(int periods) {
-  engine_.start(work_.start_position, work_.start_velocity);
-  const double end = periods * engine_.period();
+Followed follow(const StandardCase& work, sim::ExactEngine& engine, int periods) {
+  engine.start(work.start_position, work.start_velocity);
+  const double end = periods * engine.period();
   Followed followed;
   double turning = 0.0;
-  while (const sim::Interval* interval = engine_.next(end)) {
+  while (const sim::Interval* interval = engine.next(end)) {
     if (interval->ending != sim::EventKind::reversal) continue;
-    followed.amplitude = 0.5 * std::abs(engine_.position() - turning);
-    turning = engine_.position();
+    followed.amplitude = 0.5 * std::abs(engine.position() - turning);
+    turning = engine.position();
     ++followed.reversals;
   }
   return followed;
+}
+
+}  // namespace
+
+Contender exact_contender(const StandardCase& work) {
+  return {"dualdamp, exact engine", 0.0,
+          [work, engine = std::make_shared<sim::ExactEngine>(model_of(work))](int periods) {
+            return follow(work, *engine, periods);
+          }};
 }
 
 }  // namespace dualdamp::bench::speed

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <stdexcept>
 
 #include "bench/speed/contender.hpp"
 
@@ -16,28 +15,10 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using State = std::array<double, 2>;
 
-/// The right side of one phase: sgn v is `direction` throughout.
-struct Field {
-  double damping;  // per mass, all of them
-  double stiffness;
-  double base;
-  double friction;
-  double frequency;
-  double direction = 0.0;
-
-  explicit Field(const StandardCase& work)
-      : damping(work.damping / work.mass),
-        stiffness(work.stiffness / work.mass),
-        base(work.stiffness * work.base_amplitude / work.mass),
-        friction(work.friction / work.mass),
-        frequency(work.frequency) {}
-
-  [[nodiscard]] double pull(double x, double t) const { return base * std::cos(frequency * t) - stiffness * x; }
-
-  void operator()(const State& state, State& rate, double t) const {
-    rate[0] = state[1];
-    rate[1] = pull(state[0], t) - damping * state[1] - friction * direction;
-  }
+/// How the time of a reversal is found on the dense output of a step.
+enum class Locator {
+  bisection,  ///< until the bracket is 1e-15 of the step
+  toms748,    ///< Boost.Math's bracketing solver to the last bits: fewer evaluations
 };
 
 /// A time between `low` and `high`, where `velocity` changes sign.
@@ -58,20 +39,22 @@ double locate(Locator locator, const Velocity& velocity, double low, double high
   return high;
 }
 
-}  // namespace
-
-Followed OdeintContender::follow(int periods) const {
-  const double end = periods * 2.0 * std::numbers::pi / work_.frequency;
-  auto stepper = odeint::make_dense_output(tolerance_, tolerance_, odeint::runge_kutta_dopri5<State>());
-  Field field(work_);
-  State state{work_.start_position, work_.start_velocity};
+Followed follow(const StandardCase& work, double tolerance, Locator locator, int periods) {
+  const double end = periods * 2.0 * std::numbers::pi / work.frequency;
+  auto stepper = odeint::make_dense_output(tolerance, tolerance, odeint::runge_kutta_dopri5<State>());
+  PhaseField field(work);
+  const auto system = [&field](const State& state, State& rate, double t) {
+    rate[0] = state[1];
+    rate[1] = field.acceleration(state[0], state[1], t);
+  };
+  State state{work.start_position, work.start_velocity};
   field.direction = std::copysign(1.0, state[1]);
-  stepper.initialize(state, 0.0, 0.01 / work_.frequency);
+  stepper.initialize(state, 0.0, 0.01 / work.frequency);
 
   Followed followed;
   double turning = 0.0;
   for (;;) {
-    const auto [begin, reached] = stepper.do_step(field);
+    const auto [begin, reached] = stepper.do_step(system);
     double time = reached;
     const bool reverses = field.direction * stepper.current_state()[1] < 0.0;
     if (reverses) {
@@ -81,21 +64,31 @@ Followed OdeintContender::follow(int periods) const {
       };
       // Right after a reversal the velocity at the beginning is zero; its sign is that of the phase.
       const double before = field.direction * std::max(std::abs(stepper.previous_state()[1]), 1e-300);
-      time = locate(locator_, velocity, begin, reached, before, stepper.current_state()[1]);
+      time = locate(locator, velocity, begin, reached, before, stepper.current_state()[1]);
     }
     if (time >= end) return followed;
     if (!reverses) continue;
 
     stepper.calc_state(time, state);
-    const double pull = field.pull(state[0], time);
-    if (std::abs(pull) <= field.friction) throw std::logic_error("the standard case does not stick");
-    field.direction = std::copysign(1.0, pull);
+    field.direction = field.direction_after(state[0], time);
     state[1] = 0.0;
     stepper.initialize(state, time, stepper.current_time_step());
     followed.amplitude = 0.5 * std::abs(state[0] - turning);
     turning = state[0];
     ++followed.reversals;
   }
+}
+
+Contender contender(const char* name, const StandardCase& work, double tolerance, Locator locator) {
+  return {name, tolerance, [=](int periods) { return follow(work, tolerance, locator, periods); }};
+}
+
+}  // namespace
+
+std::vector<Contender> odeint_contenders(const StandardCase& work) {
+  return {contender("Odeint dopri5 1e-9, bisection", work, 1e-9, Locator::bisection),
+          contender("Odeint dopri5 1e-12, bisection", work, 1e-12, Locator::bisection),
+          contender("Odeint dopri5 1e-9, TOMS 748", work, 1e-9, Locator::toms748)};
 }
 
 }  // namespace dualdamp::bench::speed

@@ -4,6 +4,8 @@
 ///   m x'' + c x' + k x + F0 sgn x' = k Y cos(w t),   m = 1 kg, k = 100 N/m, c = 4 N.s/m, F0 = 2 N, w = 10 rad/s, Y
 ///   = 0.1 m
 
+#include <cmath>
+
 #include "sim/model.hpp"
 
 namespace dualdamp::bench::speed {
@@ -18,6 +20,30 @@ struct StandardCase {
   /// On the orbit at t = 0.
   double start_position = 0.0;
   double start_velocity = 0.0;
+};
+
+/// The right side of one phase, per mass: sgn v is `direction` throughout. What every general solver integrates.
+struct PhaseField {
+  double damping;
+  double stiffness;
+  double base;
+  double friction;
+  double frequency;
+  double direction = 0.0;
+
+  explicit PhaseField(const StandardCase& work)
+      : damping(work.damping / work.mass),
+        stiffness(work.stiffness / work.mass),
+        base(work.stiffness * work.base_amplitude / work.mass),
+        friction(work.friction / work.mass),
+        frequency(work.frequency) {}
+
+  [[nodiscard]] double pull(double x, double t) const { return base * std::cos(frequency * t) - stiffness * x; }
+  [[nodiscard]] double acceleration(double x, double v, double t) const {
+    return pull(x, t) - damping * v - friction * direction;
+  }
+  /// Direction of the phase behind a reversal at x.
+  [[nodiscard]] double direction_after(double x, double t) const;
 };
 
 /// Steady amplitude [m] of Den Hartog's closed form, evaluated with 40 digits.

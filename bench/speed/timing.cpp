@@ -24,13 +24,13 @@ int batch_size(const std::function<void(int)>& work, double batch_seconds) {
   }
 }
 
+}  // namespace
+
 Time quartiles(std::vector<double> times) {
   std::sort(times.begin(), times.end());
   const std::size_t last = times.size() - 1;
   return {.median = times[last / 2], .low = times[last / 4], .high = times[last - last / 4]};
 }
-
-}  // namespace
 
 std::vector<Time> time_in_turns(std::span<const std::function<void(int)>> works, int batches,
                                 double batch_seconds) {

@@ -14,6 +14,9 @@ struct Time {
   double high = 0.0;  ///< third quartile
 };
 
+/// Median and quartiles of `times`, which is not empty.
+[[nodiscard]] Time quartiles(std::vector<double> times);
+
 /// Work(units) does that many units. Each work is warmed up, its batch sized to `batch_seconds`, and then timed
 /// `batches` times, one batch of each work after the other.
 [[nodiscard]] std::vector<Time> time_in_turns(std::span<const std::function<void(int)>> works, int batches,

@@ -38,6 +38,7 @@ LIBRARIES = {
     "SLEEF": (r"sleef\.h", ["sim"], SOURCES),
     "oneTBB": (r"(tbb|oneapi)/", ["sim", *ABOVE_SIM], SOURCES),
     "Boost.Odeint": (r"boost/numeric/odeint", ["sim", "bench"], SOURCES),
+    "SUNDIALS": (r"(cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/", ["bench"], SOURCES),
     "Boost": (r"boost/", ["core", "sim", *ABOVE_SIM], SOURCES),
     "Ceres": (r"(ceres|glog)/", ["identify"], SOURCES),
     "yaml-cpp": (r"yaml-cpp/", ["scenarios"], SOURCES),

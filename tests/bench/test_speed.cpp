@@ -8,28 +8,52 @@
 
 using namespace dualdamp::bench::speed;
 
-TEST_CASE("The exact engine and Odeint follow the same motion") {
-  const StandardCase work = standard_case();
-  const int periods = 50;
+namespace {
 
-  ExactContender exact(work);
-  const Followed ours = exact.follow(periods);
+constexpr int periods = 50;
+
+double error_of(const Followed& followed) { return std::abs(followed.amplitude / exact_amplitude - 1.0); }
+
+}  // namespace
+
+TEST_CASE("The exact engine follows the standard case to the last bits") {
+  const Followed ours = exact_contender(standard_case()).follow(periods);
   CHECK(ours.reversals == 100);
   // Four turns of rounding at most: the orbit contracts, so errors of single periods do not add up.
-  CHECK(std::abs(ours.amplitude / exact_amplitude - 1.0) < 1e-15);
+  CHECK(error_of(ours) < 1e-15);
+}
 
-  // The error of an orbit is a few times the tolerance of a step, divided by how much a period forgets (a third).
-  for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-    for (const Locator locator : {Locator::bisection, Locator::toms748}) {
-      const Followed theirs = OdeintContender(work, tolerance, locator).follow(periods);
-      CHECK(theirs.reversals == 100);
-      CHECK(std::abs(theirs.amplitude / exact_amplitude - 1.0) < 10.0 * tolerance);
-    }
+TEST_CASE("The general solvers follow the same motion") {
+  // The error of an orbit is that of a step times the steps, divided by how much a period forgets (a third). Odeint
+  // holds its tolerance closely; CVODE takes few steps of high order, each with a constant of its own.
+  for (const Contender& odeint : odeint_contenders(standard_case())) {
+    const Followed theirs = odeint.follow(periods);
+    CHECK(theirs.reversals == 100);
+    CHECK(error_of(theirs) < 10.0 * odeint.tolerance);
+  }
+  for (const Contender& cvode : cvode_contenders(standard_case())) {
+    INFO(cvode.name);
+    const Followed theirs = cvode.follow(periods);
+    CHECK(theirs.reversals == 100);
+    CHECK(error_of(theirs) < 1000.0 * cvode.tolerance);
+  }
+}
+
+TEST_CASE("SciPy follows the same motion and times each batch") {
+  const std::vector<double> tolerances{1e-6, 1e-9};
+  const auto results = follow_with_scipy(standard_case(), tolerances, 2, 10);
+  if (results.empty()) return;  // SciPy is not installed
+  REQUIRE(results.size() == tolerances.size());
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    CHECK(results[i].followed.reversals == 20);
+    CHECK(error_of(results[i].followed) < 1000.0 * tolerances[i]);
+    REQUIRE(results[i].seconds.size() == 2);
+    CHECK(results[i].seconds.front() > 0.0);
   }
 }
 
 TEST_CASE("A contender starts from the same state each time") {
-  ExactContender exact(standard_case());
+  const Contender exact = exact_contender(standard_case());
   const double first = exact.follow(3).amplitude;
   CHECK(exact.follow(3).amplitude == first);
 }
