@@ -59,17 +59,24 @@ struct Affine {
   double velocity = 0.0;
   double transient = 0.0;
   double decay = 0.0;
+  double cancelled = 0.0;  ///< sum of the moduli of terms that the numbers above are small differences of, if any
 };
 
 /// Of parts without, or with the same, decay.
 [[nodiscard]] constexpr Affine operator+(const Affine& a, const Affine& b) {
-  return {a.constant + b.constant, a.rate + b.rate,           a.position + b.position,
-          a.velocity + b.velocity, a.transient + b.transient, a.transient != 0.0 ? a.decay : b.decay};
+  return {a.constant + b.constant,  a.rate + b.rate,           a.position + b.position,
+          a.velocity + b.velocity,  a.transient + b.transient, a.transient != 0.0 ? a.decay : b.decay,
+          a.cancelled + b.cancelled};
 }
 
 [[nodiscard]] constexpr Affine operator*(double factor, const Affine& a) {
-  return {factor * a.constant, factor * a.rate,      factor * a.position,
-          factor * a.velocity, factor * a.transient, a.decay};
+  return {factor * a.constant,
+          factor * a.rate,
+          factor * a.position,
+          factor * a.velocity,
+          factor * a.transient,
+          a.decay,
+          (factor < 0.0 ? -factor : factor) * a.cancelled};
 }
 
 [[nodiscard]] constexpr Affine operator-(const Affine& a, const Affine& b) { return a + -1.0 * b; }

@@ -92,6 +92,9 @@ ExactEngine::ExactEngine(const Model& model)
     holds_mass_.push_back(law.holds_mass());
     modal_.push_back(law.is_modal());
     can_rest_ = can_rest_ || law.holds_mass();
+    some_modal_ = some_modal_ || law.is_modal();
+    const friction::Memory memory = law.start({.x = model.initial.position, .v = model.initial.velocity});
+    scheduled_ = scheduled_ || std::isfinite(law.next_change(memory));
   }
   law_guard_counts_.resize(model_.friction.size());
   forcing_.phasors.resize(drive_.frequencies().size());
@@ -116,19 +119,37 @@ void ExactEngine::restart(double x, double v) {
   place(x, v);
 }
 
+void ExactEngine::restart(const State& state) {
+  local_time_ = 0.0;
+  cycle_ = 0;
+  x_ = state.x;
+  v_ = state.v;
+  direction_ = state.direction;
+  memories_ = state.memories;
+  begin_motion();
+}
+
 void ExactEngine::place(double x, double v) {
   x_ = x;
   v_ = v;
-  drive_.reset(0.0);
-  repeats_ = 0;
-  outcome_ = {};
-  sensitivity_.setIdentity();
-  saltation_.pending = false;
+  begin_motion();
   if (v_ != 0.0) {
     change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
   } else {
     settle();
   }
+}
+
+void ExactEngine::begin_motion() {
+  drive_.reset(0.0);
+  repeats_ = 0;
+  outcome_ = {};
+  if (tracking_) reset_sensitivity();
+}
+
+void ExactEngine::track_sensitivity(bool track) {
+  tracking_ = track;
+  if (tracking_) reset_sensitivity();
 }
 
 double ExactEngine::time() const {
@@ -189,20 +210,24 @@ void ExactEngine::add_transient(double size, double decay) {
   total_.decays.push_back(decay);
 }
 
-const LinearMode& ExactEngine::mode_for(double damping, double stiffness, const std::vector<double>& decays) {
+const LinearMode& ExactEngine::mode_for(double damping, double stiffness) {
   const auto fits = [&](const LinearMode& mode) {
     return mode.damping() == damping && mode.stiffness() == stiffness && mode.ramped() == total_.ramped &&
-           mode.decays() == decays;
+           mode.decays() == total_.decays;
   };
   if (mode_ != nullptr && fits(*mode_)) return *mode_;
-  for (const auto& mode : modes_) {
-    if (fits(*mode)) return *mode;
-  }
+  key_.damping = damping;
+  key_.stiffness = stiffness;
+  key_.ramped = total_.ramped;
+  key_.decays = total_.decays;
+  const auto known = modes_.find(key_);
+  if (known != modes_.end()) return known->second;
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
-  if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& mode) { return mode.get() != mode_; });
-  modes_.push_back(std::make_unique<LinearMode>(model_.oscillator.mass, damping, stiffness, drive_.frequencies(),
-                                                total_.ramped, decays));
-  return *modes_.back();
+  if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& entry) { return &entry.second != mode_; });
+  return modes_
+      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_.ramped,
+                   total_.decays)
+      .first->second;
 }
 
 /// forcing_ = drive + extra - the laws' parts that do not move with the mass.
@@ -223,7 +248,7 @@ double ExactEngine::force_scale() const {
 const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
   const Oscillator& o = model_.oscillator;
   const double stiffness = o.stiffness + total_.force.position;
-  const LinearMode& mode = mode_for(o.damping + total_.force.velocity, stiffness, total_.decays);
+  const LinearMode& mode = mode_for(o.damping + total_.force.velocity, stiffness);
   load_forcing(-stiffness * x_);
   mode.represent(forcing_, pull);
   return mode;
@@ -249,7 +274,7 @@ double ExactEngine::pull_now() const {
 
 /// Decides what happens at v = 0: rest, or slip in the direction of the pull.
 void ExactEngine::settle() {
-  direction_ = Direction::rest;
+  change_direction(Direction::rest);
   collect(false);
   const double pull = pull_now();
   const double level = total_.limit.constant;
@@ -260,7 +285,7 @@ void ExactEngine::settle() {
   } else if (std::abs(pull) <= level + clearly * scale) {
     direction = settle_closely(rounding * scale);
   }
-  change_direction(direction);
+  if (direction != Direction::rest) change_direction(direction);
 }
 
 /// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
@@ -281,8 +306,15 @@ Direction ExactEngine::settle_closely(double tolerance) {
 void ExactEngine::change_direction(Direction direction) {
   direction_ = direction;
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (modal_[i]) model_.friction[i].jump(memories_[i], {}, now(), direction_);
+    if (modal_[i]) jump(i, {});
   }
+}
+
+void ExactEngine::jump(std::size_t law, friction::Trigger trigger) {
+  if (!tracking_) return model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+  const friction::Memory before = memories_[law];
+  model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+  sensitivity_.jump(model_.friction[law], law, before, memories_[law], trigger, now(), direction_);
 }
 
 core::Guard& ExactEngine::new_guard(const Owner& owner) {
@@ -318,7 +350,7 @@ void ExactEngine::lay_rest() {
 
 void ExactEngine::lay_slip() {
   const Oscillator& o = model_.oscillator;
-  mode_ = &mode_for(o.damping + total_.force.velocity, o.stiffness + total_.force.position, total_.decays);
+  mode_ = &mode_for(o.damping + total_.force.velocity, o.stiffness + total_.force.position);
   load_forcing(0.0);
   const core::ExponentialBasis& basis = mode_->basis();
   mode_->solve(forcing_, x_, v_, motion_);
@@ -341,13 +373,13 @@ void ExactEngine::add_law_guards() {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     for (std::size_t j = 0; j < law_guard_counts_[i]; ++j) {
       const Affine& g = law_guards_[next++];
-      core::Guard& guard = new_guard(
-          {.kind = Owner::Kind::law,
-           .law = static_cast<int>(i),
-           .guard = static_cast<int>(j),
-           .by_position = g.position,
-           .by_velocity = g.velocity,
-           .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) + std::abs(g.velocity * v_))});
+      core::Guard& guard = new_guard({.kind = Owner::Kind::law,
+                                      .law = static_cast<int>(i),
+                                      .guard = static_cast<int>(j),
+                                      .by_position = g.position,
+                                      .by_velocity = g.velocity,
+                                      .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
+                                                               std::abs(g.velocity * v_) + g.cancelled)});
       ModeForcing own{
           .constant = g.constant, .ramp = g.rate, .transients = std::vector<double>(mode_->decays().size())};
       for (std::size_t d = 0; d < mode_->decays().size(); ++d) {
@@ -426,50 +458,83 @@ void ExactEngine::advance(double s, bool to_period_end) {
 
 EventKind ExactEngine::act(const Owner& owner) {
   switch (owner.kind) {
-    case Owner::Kind::velocity: {
+    case Owner::Kind::velocity:
       settle();
-      if (direction_ != Direction::rest) return EventKind::reversal;
-      saltation_.pending = false;
-      sensitivity_.row(1).setZero();
-      return EventKind::stop;
-    }
+      return direction_ == Direction::rest ? EventKind::stop : EventKind::reversal;
     case Owner::Kind::limit:
       change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
       return EventKind::release;
     case Owner::Kind::law:
       break;
   }
-  const auto law = static_cast<std::size_t>(owner.law);
-  model_.friction[law].jump(memories_[law], {owner.guard}, now(), direction_);
+  jump(static_cast<std::size_t>(owner.law), {owner.guard});
   return EventKind::switching;
 }
 
-void ExactEngine::propagate() {
+/// The time at which some law changes its mode whatever the motion does [s].
+double ExactEngine::next_schedule() const {
+  double next = std::numeric_limits<double>::infinity();
+  if (!scheduled_) return next;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i)
+    next = std::min(next, model_.friction[i].next_change(memories_[i]));
+  return next;
+}
+
+/// Every law whose time has come; a mass at rest is then weighed anew.
+void ExactEngine::act_on_schedule(double due) {
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});
+  }
+  if (direction_ == Direction::rest) settle();
+}
+
+/// Once the phase is laid: perturbations left at a crossing come back to the common time, unless the next event
+/// follows at once.
+void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
+  if (!at_once)
+    sensitivity_.leave(core::at_start(mode_->basis(), acceleration_), model_.friction, memories_, begin,
+                       direction_);
+  sensitivity_.lay(model_.friction, memories_, begin, direction_, holds_mass_, total_.decays);
+  if (sensitivity_.has_states()) memories_before_ = memories_;
+}
+
+/// Over the phase, `s` long: motion and guard, while the memories are still those of its begin.
+void ExactEngine::track_motion(const friction::Instant& begin, double s) {
   if (direction_ == Direction::rest) {
-    sensitivity_.row(1).setZero();
+    sensitivity_.rest();
   } else {
-    sensitivity_ = (mode_->propagator(crossing_.values) * sensitivity_).eval();
+    responses_.clear();
+    for (std::size_t j = 0; sensitivity_.has_states() && j <= total_.decays.size(); ++j)
+      responses_.push_back(mode_->response(j, crossing_.values));
+    sensitivity_.slip(mode_->propagator(crossing_.values), responses_);
+  }
+  if (!crossing_.found || sensitivity_.at_crossing()) return;
+  const Owner& owner = owners_[static_cast<std::size_t>(crossing_.guard)];
+  if (owner.kind == Owner::Kind::limit) sensitivity_.perturb_limit(-owner.law, total_.decays, s);
+  if (owner.kind == Owner::Kind::law) {
+    sensitivity_.perturb_guard(model_.friction, memories_, begin, direction_, static_cast<std::size_t>(owner.law),
+                               static_cast<std::size_t>(owner.guard), s);
   }
 }
 
-void ExactEngine::prepare_saltation(const Owner& owner, const core::Guard& guard) {
-  saltation_ = {.pending = true,
-                .by_position = owner.by_position,
-                .by_velocity = owner.by_velocity,
-                .slope = core::evaluate(mode_->basis(), guard.slope, crossing_.values),
-                .acceleration = core::evaluate(mode_->basis(), acceleration_, crossing_.values)};
-}
-
-/// A perturbation shifts the event by dt = -(g_x dx + g_v dv)/g'; x is continuous with equal slopes, v gains the
-/// difference of accelerations over dt.
-void ExactEngine::apply_saltation() {
-  if (!saltation_.pending) return;
-  saltation_.pending = false;
-  if (saltation_.slope == 0.0) return;
-  const double after = core::at_start(mode_->basis(), acceleration_);
-  const double gain = (after - saltation_.acceleration) / saltation_.slope;
-  sensitivity_.row(1) +=
-      (gain * (saltation_.by_position * sensitivity_.row(0) + saltation_.by_velocity * sensitivity_.row(1))).eval();
+/// Behind the phase: states of the laws, and at an event the way to the crossing.
+void ExactEngine::track_states(const friction::Instant& begin, double s, bool event) {
+  for (std::size_t i = 0; i < model_.friction.size() && sensitivity_.has_states(); ++i) {
+    const friction::Law& law = model_.friction[i];
+    if (modal_[i] && law.advances())
+      sensitivity_.advance(law, i, memories_before_[i], memories_[i], begin, now(), s, direction_);
+  }
+  if (!event || sensitivity_.at_crossing()) return;
+  Sensitivity::Event crossing{.velocity = v_,
+                              .acceleration = core::evaluate(mode_->basis(), acceleration_, crossing_.values)};
+  if (crossing_.found) {
+    const Owner& owner = owners_[static_cast<std::size_t>(crossing_.guard)];
+    const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
+    crossing.by_position = owner.by_position;
+    crossing.by_velocity = owner.by_velocity;
+    crossing.slope = core::evaluate(mode_->basis(), guard.slope, crossing_.values);
+  }
+  sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);
 }
 
 const Interval* ExactEngine::next(double horizon) {
@@ -482,38 +547,50 @@ const Interval* ExactEngine::next_in_period() { return step(drive_.period() - lo
 /// One phase, at most `left` long; `to_period_end`: `left` ends exactly at a period boundary.
 const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (!outcome_.ok() || !(left > 0.0)) return nullptr;
+  const friction::Instant begin = now();
+  const double due = next_schedule();
+  const bool by_schedule = due - begin.t < left;
+  if (by_schedule) left = std::max(0.0, due - begin.t);
   lay_phase();
-  if (tracking_) apply_saltation();
   grazings_.clear();
   const bool at_once = find_violated();
+  if (tracking_) track_begin(begin, at_once);
   if (!at_once) {
     core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, left, crossing_, grazings_, count_);
   }
-  if (at_once && ++repeats_ > max_repeats) {
+  const core::Crossing& end = crossing_;
+  repeats_ = at_once || left == 0.0 ? repeats_ + 1 : 0;
+  if (repeats_ > max_repeats) {
     outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
     return nullptr;
   }
-  if (!at_once) repeats_ = 0;
+  describe_phase(begin.t);
+  const bool ends = end.found || by_schedule;
+  if (tracking_) track_motion(begin, end.s);
+  advance(end.s, to_period_end && !ends);
+  if (tracking_) track_states(begin, end.s, ends);
+  if (!std::isfinite(x_) || !std::isfinite(v_)) {
+    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+    return nullptr;
+  }
+  if (end.found) {
+    interval_->ending = act(owners_[static_cast<std::size_t>(end.guard)]);
+  } else if (by_schedule) {
+    act_on_schedule(due);
+    interval_->ending = EventKind::switching;
+  }
+  return interval_.get();
+}
 
-  interval_->begin = time();
+/// What the interval tells of the phase laid last.
+void ExactEngine::describe_phase(double begin) {
+  interval_->begin = begin;
   interval_->duration = crossing_.s;
   interval_->direction = direction_;
   interval_->force = total_.force;
   if (!total_.decays.empty()) interval_->transients = total_.transients;
   if (!total_.decays.empty() || !interval_->decays.empty()) interval_->decays = total_.decays;
   interval_->ending.reset();
-  if (tracking_) propagate();
-  const core::Crossing& end = crossing_;
-  if (tracking_ && end.found) {
-    prepare_saltation(owners_[static_cast<std::size_t>(end.guard)], guards_[static_cast<std::size_t>(end.guard)]);
-  }
-  advance(end.s, to_period_end && !end.found);
-  if (!std::isfinite(x_) || !std::isfinite(v_)) {
-    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
-    return nullptr;
-  }
-  if (end.found) interval_->ending = act(owners_[static_cast<std::size_t>(end.guard)]);
-  return interval_.get();
 }
 
 }  // namespace dualdamp::sim

@@ -14,6 +14,7 @@
 /// after the first period.
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,8 @@
 #include "sim/interval.hpp"
 #include "sim/linear_mode.hpp"
 #include "sim/model.hpp"
+#include "sim/sensitivity.hpp"
+#include "sim/state.hpp"
 
 namespace dualdamp::sim {
 
@@ -38,8 +41,10 @@ class ExactEngine {
 
   /// Places the mass at t = 0 with all laws at their start.
   void start(double x, double v);
-  /// Same, keeping what the laws remember: closes a period.
+  /// Same, keeping what the laws remember.
   void restart(double x, double v);
+  /// Same, in a state met earlier: closes a period.
+  void restart(const State& state);
 
   /// The next interval, ending at an event or at `horizon` [s], whichever is first, and not longer than one forcing
   /// period. Valid until the next call. A null pointer: the horizon is reached, or outcome() is not ok().
@@ -54,6 +59,7 @@ class ExactEngine {
   [[nodiscard]] double position() const { return x_; }  ///< m
   [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
+  [[nodiscard]] State state() const { return {x_, v_, direction_, memories_}; }
   [[nodiscard]] const core::SearchCount& count() const { return count_; }
   /// Tangencies within the last interval.
   [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
@@ -61,12 +67,22 @@ class ExactEngine {
   /// Forcing period [s]; infinite without a harmonic excitation.
   [[nodiscard]] double period() const { return drive_.period(); }
 
-  /// Tracks d(x, v)(now)/d(x, v)(start or restart): products of propagators and saltation matrices.
-  void track_sensitivity(bool track) { tracking_ = track; }
-  void reset_sensitivity() { sensitivity_.setIdentity(); }
-  [[nodiscard]] const Eigen::Matrix2d& sensitivity() const { return sensitivity_; }
+  /// Tracks the derivative of the present state by the state at start, restart or the last reset.
+  void track_sensitivity(bool track);
+  void reset_sensitivity() { sensitivity_.begin(memories_, some_modal_); }
+  /// Rows and columns: x, v, then the states of every law.
+  [[nodiscard]] Eigen::MatrixXd sensitivity() const { return sensitivity_.matrix(); }
 
  private:
+  /// By what one mode differs from another.
+  struct ModeKey {
+    double damping = 0.0;
+    double stiffness = 0.0;
+    bool ramped = false;
+    std::vector<double> decays;
+
+    friend auto operator<=>(const ModeKey&, const ModeKey&) = default;
+  };
   /// What a guard of the present phase belongs to.
   struct Owner {
     enum class Kind { velocity, limit, law } kind = Kind::velocity;
@@ -84,14 +100,6 @@ class ExactEngine {
     std::vector<double> transients;
     std::vector<double> decays;
   };
-  /// An event waiting for the acceleration after it, to complete the saltation matrix.
-  struct Saltation {
-    bool pending = false;
-    double by_position = 0.0;
-    double by_velocity = 0.0;
-    double slope = 0.0;
-    double acceleration = 0.0;
-  };
   class PhaseInterval;
 
   [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
@@ -100,7 +108,7 @@ class ExactEngine {
   void add_force(const friction::Affine& part);
   void add_limit(const friction::Affine& part);
   void add_transient(double size, double decay);
-  const LinearMode& mode_for(double damping, double stiffness, const std::vector<double>& decays);
+  const LinearMode& mode_for(double damping, double stiffness);
   void load_forcing(double extra_constant);
   const LinearMode& pull_on_mode(core::ModeFunction& pull);
   void limit_guard(const core::ModeFunction& pull, double direction, core::ModeFunction& guard) const;
@@ -114,10 +122,15 @@ class ExactEngine {
   friction::Direction settle_closely(double tolerance);
   [[nodiscard]] double pull_now() const;
   void change_direction(friction::Direction direction);
+  void jump(std::size_t law, friction::Trigger trigger);
   EventKind act(const Owner& owner);
-  void propagate();
-  void prepare_saltation(const Owner& owner, const core::Guard& guard);
-  void apply_saltation();
+  void act_on_schedule(double due);
+  [[nodiscard]] double next_schedule() const;
+  void track_begin(const friction::Instant& begin, bool at_once);
+  void track_motion(const friction::Instant& begin, double s);
+  void track_states(const friction::Instant& begin, double s, bool event);
+  void describe_phase(double begin);
+  void begin_motion();
   [[nodiscard]] const Interval* step(double left, bool to_period_end);
   void advance(double s, bool to_period_end);
   [[nodiscard]] double force_scale() const;
@@ -126,7 +139,9 @@ class ExactEngine {
   Drive drive_;
   std::vector<char> holds_mass_;  ///< of each law
   std::vector<char> modal_;       ///< of each law
-  bool can_rest_ = false;         ///< some law has a static limit
+  bool some_modal_ = false;
+  bool scheduled_ = false;  ///< some law changes its mode at a known time
+  bool can_rest_ = false;   ///< some law has a static limit
   double x_ = 0.0;
   double v_ = 0.0;
   double local_time_ = 0.0;  ///< within the forcing period
@@ -135,7 +150,8 @@ class ExactEngine {
   std::vector<friction::Memory> memories_;
 
   int repeats_ = 0;  ///< events in a row that took no time
-  std::vector<std::unique_ptr<LinearMode>> modes_;
+  std::map<ModeKey, LinearMode> modes_;
+  ModeKey key_;
   const LinearMode* mode_ = nullptr;  ///< of the present phase
   ModeForcing forcing_;
   Total total_;
@@ -154,8 +170,9 @@ class ExactEngine {
   core::Outcome outcome_;
 
   bool tracking_ = false;
-  Eigen::Matrix2d sensitivity_ = Eigen::Matrix2d::Identity();
-  Saltation saltation_;
+  Sensitivity sensitivity_;
+  std::vector<friction::Memory> memories_before_;  ///< at the begin of the phase, while tracking
+  std::vector<Eigen::Vector2d> responses_;
   std::unique_ptr<PhaseInterval> interval_;
 };
 

@@ -164,4 +164,19 @@ Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) c
   return result;
 }
 
+Eigen::Vector2d LinearMode::response(std::size_t source, const ExponentialBasis::Values& values) const {
+  ModeForcing forcing;
+  if (source == 0) {
+    forcing.constant = 1.0;
+  } else {
+    forcing.transients.assign(decays_.size(), 0.0);
+    forcing.transients[source - 1] = 1.0;
+  }
+  ModeFunction x;
+  ModeFunction v;
+  solve(forcing, 0.0, 0.0, x);
+  core::differentiate(basis_, x, v);
+  return {core::evaluate(basis_, x, values), core::evaluate(basis_, v, values)};
+}
+
 }  // namespace dualdamp::sim

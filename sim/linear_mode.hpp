@@ -44,6 +44,8 @@ class LinearMode {
   void represent(const ModeForcing& forcing, core::ModeFunction& f) const;
   /// d(x, v)(s) / d(x, v)(0), from the elements' values at s.
   [[nodiscard]] Eigen::Matrix2d propagator(const core::ExponentialBasis::Values& values) const;
+  /// (x, v)(s) from rest at zero under a unit constant force (`source` = 0) or a unit of transient `source` - 1.
+  [[nodiscard]] Eigen::Vector2d response(std::size_t source, const core::ExponentialBasis::Values& values) const;
 
  private:
   /// How a forcing exp(z s) enters the particular solution: gain on one element.

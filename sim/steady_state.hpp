@@ -8,6 +8,7 @@
 #include "core/outcome.hpp"
 #include "sim/energy.hpp"
 #include "sim/model.hpp"
+#include "sim/state.hpp"
 
 namespace dualdamp::sim {
 
@@ -32,8 +33,7 @@ struct SteadyState {
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
   Energy energy;                                  ///< J per period
 
-  double start_position = 0.0;  ///< x at t = 0 of the orbit [m]
-  double start_velocity = 0.0;  ///< v at t = 0 of the orbit [m/s]
+  State start;  ///< of the orbit, at t = 0
   int newton_steps = 0;
   int transient_periods = 0;
 
@@ -44,6 +44,8 @@ struct SteadyState {
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient followed before giving up
+  /// Phase, largest speed and energy cost more than the orbit itself; without them they stay zero.
+  bool full_account = true;
 };
 
 /// Needs a harmonic excitation.

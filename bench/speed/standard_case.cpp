@@ -22,8 +22,8 @@ StandardCase standard_case() {
   const sim::SteadyState orbit = sim::steady_state(model_of(work));
   if (!orbit.outcome.ok())
     throw std::runtime_error("the standard case has no steady state: " + orbit.outcome.reason);
-  work.start_position = orbit.start_position;
-  work.start_velocity = orbit.start_velocity;
+  work.start_position = orbit.start.x;
+  work.start_velocity = orbit.start.v;
   return work;
 }
 

@@ -124,10 +124,10 @@ TEST_CASE("the multipliers are those of a difference quotient of the period map"
   };
   // Central differences of an exact map: h^2 truncation, 1e-16/h rounding.
   const double h = 1e-6;
-  const auto x_up = map(state.start_position + h, state.start_velocity);
-  const auto x_down = map(state.start_position - h, state.start_velocity);
-  const auto v_up = map(state.start_position, state.start_velocity + h);
-  const auto v_down = map(state.start_position, state.start_velocity - h);
+  const auto x_up = map(state.start.x + h, state.start.v);
+  const auto x_down = map(state.start.x - h, state.start.v);
+  const auto v_up = map(state.start.x, state.start.v + h);
+  const auto v_down = map(state.start.x, state.start.v - h);
   const double a = (x_up[0] - x_down[0]) / (2.0 * h);
   const double b = (v_up[0] - v_down[0]) / (2.0 * h);
   const double c = (x_up[1] - x_down[1]) / (2.0 * h);

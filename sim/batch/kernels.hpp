@@ -1,0 +1,63 @@
+#pragma once
+/// The loops over packs, compiled once for each width of vector register.
+///
+/// Arrays have one entry for each oscillator; `count` is a multiple of every width. What a kernel cannot certify by its
+/// simple path it leaves to the exact engine and says so: certified = 0, the numbers then mean nothing.
+
+#include <cstddef>
+
+namespace dualdamp::sim::batch {
+
+/// Where the drive acts.
+enum class DriveOn {
+  base,             ///< through the spring; damper to ground
+  base_and_damper,  ///< through spring and damper
+  mass,             ///< a force
+};
+
+/// See sim/batch.hpp for meaning and units.
+struct Oscillators {
+  DriveOn drive = DriveOn::base;
+  std::size_t count = 0;
+  const double* mass = nullptr;
+  const double* damping = nullptr;
+  const double* stiffness = nullptr;
+  const double* kinetic = nullptr;
+  const double* static_level = nullptr;
+  const double* amplitude = nullptr;
+  const double* frequency = nullptr;
+};
+
+struct Orbits {
+  double* peak = nullptr;
+  double* lag = nullptr;
+  double* radius = nullptr;
+  double* certified = nullptr;
+};
+
+struct Passages {
+  int periods = 0;
+  double* position = nullptr;  ///< in and out
+  double* velocity = nullptr;  ///< in and out
+  double* amplitude = nullptr;
+  double* reversals = nullptr;
+  double* certified = nullptr;
+};
+
+struct Kernels {
+  int width = 0;
+  void (*find_orbits)(const Oscillators& oscillators, const Orbits& orbits) = nullptr;
+  void (*follow)(const Oscillators& oscillators, const Passages& passages) = nullptr;
+};
+
+/// The largest width: `count` is a multiple of it.
+inline constexpr std::size_t widest = 8;
+
+extern const Kernels scalar_kernels;
+#ifdef __x86_64__
+extern const Kernels sse2_kernels;
+extern const Kernels avx2_kernels;
+extern const Kernels avx512_kernels;
+#endif
+
+}  // namespace dualdamp::sim::batch

@@ -1,0 +1,115 @@
+#pragma once
+/// The motion of a pack of oscillators between two reversals, in closed form.
+///
+/// In natural time (unit 1/wn) and divided by the stiffness the equation of motion is
+///
+///     x'' + 2 zeta x' + x + side x_f = Re(Y e^{i angle}),   angle' = r,   side = sgn x' frozen,        [m]
+///
+///     x = -side x_f + Re(G e^{i angle}) + Re(c e^{z s}),   G = Y/(1 - r^2 + 2 i zeta r),   z = -zeta + i eta.
+
+#include "sim/batch/kernels.hpp"
+#include "sim/batch/pack.hpp"
+
+namespace dualdamp::sim::batch {
+
+/// Position and its derivatives by natural time.
+template <Pack P>
+struct Motion {
+  typename P::Vector x;
+  typename P::Vector v;
+  typename P::Vector a;
+  typename P::Vector jerk;
+};
+
+template <Pack P>
+struct Oscillation {
+  using Vector = typename P::Vector;
+  using Mask = typename P::Mask;
+  using Complex = ComplexPack<P>;
+
+  Vector natural;  ///< wn [rad/s]
+  Vector zeta;
+  Vector eta;      ///< sqrt(1 - zeta^2)
+  Vector r;        ///< w/wn
+  Vector slip;     ///< x_f = kinetic/k [m]
+  Vector hold;     ///< static/k [m]
+  Complex drive;   ///< Y [m]
+  Complex gain;    ///< G [m]
+  Vector fastest;  ///< max(1, r): the largest modulus of an exponent
+  /// Closed forms above lose no digits: underdamped, off resonance, nothing out of range. The others are not for packs.
+  Mask simple;
+
+  Oscillation(const Oscillators& all, std::size_t first);
+
+  /// exp(z s)
+  [[nodiscard]] Complex own(Vector s) const { return exponential<P>(zeta * s, eta * s); }
+  /// exp(i r s)
+  [[nodiscard]] Complex turn(Vector s) const { return rotation<P>(r * s); }
+};
+
+template <Pack P>
+Oscillation<P>::Oscillation(const Oscillators& all, std::size_t first) {
+  const Vector mass = P::load(all.mass + first);
+  const Vector stiffness = P::load(all.stiffness + first);
+  const Vector amplitude = P::load(all.amplitude + first);
+  natural = P::sqrt(stiffness / mass);
+  zeta = P::load(all.damping + first) / (2.0 * mass * natural);
+  eta = P::sqrt((1.0 - zeta) * (1.0 + zeta));
+  r = P::load(all.frequency + first) / natural;
+  slip = P::load(all.kinetic + first) / stiffness;
+  hold = P::load(all.static_level + first) / stiffness;
+  const Vector none = splat<P>(0.0);
+  switch (all.drive) {
+    case DriveOn::base:
+      drive = {amplitude, none};
+      break;
+    case DriveOn::base_and_damper:
+      drive = {amplitude, 2.0 * zeta * r * amplitude};
+      break;
+    case DriveOn::mass:
+      drive = {amplitude / stiffness, none};
+      break;
+  }
+  gain = drive / Complex{1.0 - r * r, 2.0 * zeta * r};
+  fastest = larger<P>(splat<P>(1.0), r);
+
+  // Comparisons are false for what is not a number.
+  const Vector closeness = 0.02 * fastest;
+  const Vector apart = zeta * zeta + (r - eta) * (r - eta);
+  simple = (zeta >= 0.0) & (eta > 0.05) & (apart > closeness * closeness) & (r > 1.0 / 64.0) & (r < 64.0) &
+           (amplitude > 0.0) & (slip >= 0.0) & (hold >= slip) & (hold < 1e100) & (gain.norm() < 1e200) &
+           (gain.norm() > 1e-200);
+}
+
+/// One phase: the coefficients of the motion from a state on.
+template <Pack P>
+struct Phase {
+  using Vector = typename P::Vector;
+  using Complex = ComplexPack<P>;
+
+  Vector side;
+  Vector middle;   ///< -side x_f [m]
+  Complex forced;  ///< G e^{i angle} at the start
+  Complex own;     ///< c
+
+  /// From position x and velocity v; `turned` = e^{i angle} then.
+  Phase(const Oscillation<P>& o, Vector x, Vector v, Vector direction, const Complex& turned)
+      : side(direction), middle(-direction * o.slip), forced(o.gain * turned) {
+    own.re = x - middle - forced.re;
+    own.im = -(v + o.r * forced.im + o.zeta * own.re) / o.eta;
+  }
+
+  /// For `free` = c e^{z s} and `driven` = G e^{i angle}.
+  [[nodiscard]] Motion<P> at(const Oscillation<P>& o, const Complex& free, const Complex& driven) const {
+    const Vector r2 = o.r * o.r;
+    const Complex z{-o.zeta, o.eta};
+    const Complex z2 = z * z;
+    const Complex z3 = z2 * z;
+    return {.x = middle + driven.re + free.re,
+            .v = z.re * free.re - z.im * free.im - o.r * driven.im,
+            .a = z2.re * free.re - z2.im * free.im - r2 * driven.re,
+            .jerk = z3.re * free.re - z3.im * free.im + o.r * r2 * driven.im};
+  }
+};
+
+}  // namespace dualdamp::sim::batch

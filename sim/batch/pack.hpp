@@ -1,0 +1,82 @@
+#pragma once
+/// Packs: one number of each of `width` oscillators, side by side in a vector register.
+///
+/// Every function of this folder's templates is made of +, -, *, /, sqrt, comparisons and the pack's own exp, sincos and
+/// atan2, which give the same bits for every width. So a lane's result depends on that lane alone: not on the width, nor on
+/// its neighbours. Nothing here may call a library function that is inline: the linker could then hand its
+/// copy for one processor to another.
+
+#include <concepts>
+
+namespace dualdamp::sim::batch {
+
+/// What a pack provides. `Vector` is double or a vector of doubles, `Mask` the type of its comparisons.
+template <class P>
+concept Pack = requires(typename P::Vector v, typename P::Mask mask, const double* from, double* to) {
+  { P::width } -> std::convertible_to<int>;
+  { P::any(mask) } -> std::same_as<bool>;
+  P::load(from);
+  P::store(v, to);
+  P::sqrt(v);
+  P::exp(v);
+  P::sincos(v, v, v);
+  P::atan2(v, v);
+};
+
+template <Pack P>
+typename P::Vector splat(double value) {
+  return typename P::Vector{} + value;
+}
+
+template <Pack P>
+typename P::Vector abs(typename P::Vector v) {
+  return v < 0.0 ? -v : v;
+}
+
+template <Pack P>
+typename P::Vector larger(typename P::Vector a, typename P::Vector b) {
+  return a > b ? a : b;
+}
+
+/// A complex number in each lane.
+template <Pack P>
+struct ComplexPack {
+  using Vector = typename P::Vector;
+  Vector re;
+  Vector im;
+
+  [[nodiscard]] Vector norm() const { return re * re + im * im; }
+
+  friend ComplexPack operator*(const ComplexPack& a, const ComplexPack& b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend ComplexPack operator/(const ComplexPack& a, const ComplexPack& b) {
+    const Vector scale = 1.0 / b.norm();
+    return {(a.re * b.re + a.im * b.im) * scale, (a.im * b.re - a.re * b.im) * scale};
+  }
+};
+
+template <Pack P>
+ComplexPack<P> choose(typename P::Mask mask, const ComplexPack<P>& yes, const ComplexPack<P>& no) {
+  return {mask ? yes.re : no.re, mask ? yes.im : no.im};
+}
+
+/// exp(-decay + i angle)
+template <Pack P>
+ComplexPack<P> exponential(typename P::Vector decay, typename P::Vector angle) {
+  typename P::Vector sine;
+  typename P::Vector cosine;
+  P::sincos(angle, sine, cosine);
+  const typename P::Vector size = P::exp(-decay);
+  return {size * cosine, size * sine};
+}
+
+/// exp(i angle)
+template <Pack P>
+ComplexPack<P> rotation(typename P::Vector angle) {
+  ComplexPack<P> result;
+  P::sincos(angle, result.im, result.re);
+  return result;
+}
+
+}  // namespace dualdamp::sim::batch

@@ -1,0 +1,98 @@
+#include "sim/period_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+double Passage::closure(double omega) const {
+  const double scale = std::max(size, std::abs(begin.v) / omega);
+  if (!same_mode(begin, end)) return std::numeric_limits<double>::infinity();
+  double result = scale > 0.0 ? std::hypot(end.x - begin.x, (end.v - begin.v) / omega) / scale : 0.0;
+  for (std::size_t i = 0; i < begin.memories.size(); ++i) {
+    const std::vector<double>& before = begin.memories[i].state;
+    const std::vector<double>& after = end.memories[i].state;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      // A state near zero is one of the motion's size that happens to pass there.
+      const double own = std::max({std::abs(before[k]), std::abs(after[k]), scale});
+      if (own > 0.0) result = std::max(result, std::abs(after[k] - before[k]) / own);
+    }
+  }
+  return result;
+}
+
+std::vector<std::complex<double>> Passage::multipliers() const {
+  const Eigen::VectorXcd values = derivative.eigenvalues();
+  return {values.begin(), values.end()};
+}
+
+double Passage::radius() const { return derivative.eigenvalues().cwiseAbs().maxCoeff(); }
+
+Passage PeriodMap::pass(Derivative derivative) {
+  Passage passage;
+  passage.begin = engine_.state();
+  passage.size = std::abs(engine_.position());
+  engine_.track_sensitivity(derivative == Derivative::with);
+  const long cycle = engine_.cycle();
+  while (engine_.cycle() == cycle) {
+    const Interval* interval = engine_.next_in_period();
+    if (interval == nullptr) break;
+    passage.moves = passage.moves || interval->direction != Direction::rest;
+    passage.size = std::max(passage.size, std::abs(engine_.position()));
+  }
+  passage.end = engine_.state();
+  if (derivative == Derivative::with) passage.derivative = engine_.sensitivity();
+  return passage;
+}
+
+Passage PeriodMap::from_start(double x, double v, Derivative derivative) {
+  engine_.start(x, v);
+  return pass(derivative);
+}
+
+Passage PeriodMap::from(const State& state, Derivative derivative) {
+  engine_.restart(state);
+  return pass(derivative);
+}
+
+Passage PeriodMap::next(Derivative derivative) { return pass(derivative); }
+
+Eigen::VectorXd coordinates(const State& state) {
+  std::vector<double> list{state.x, state.v};
+  for (const friction::Memory& memory : state.memories)
+    list.insert(list.end(), memory.state.begin(), memory.state.end());
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
+State displaced(const State& state, const Eigen::VectorXd& change) {
+  State result = state;
+  result.x += change[0];
+  if (state.direction != Direction::rest) result.v += change[1];
+  Eigen::Index next = 2;
+  for (friction::Memory& memory : result.memories) {
+    for (double& value : memory.state) value += change[next++];
+  }
+  return result;
+}
+
+Eigen::VectorXd newton_step(const Passage& passage) {
+  if (!same_mode(passage.begin, passage.end)) return {};
+  const Eigen::VectorXd gap = coordinates(passage.end) - coordinates(passage.begin);
+  const Eigen::Index n = gap.size();
+  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - passage.derivative;
+  for (Eigen::Index row = 2; row < n; ++row) {
+    if (gap[row] == 0.0 && system.row(row).isZero(0.0)) system(row, row) = 1.0;
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(system);
+  if (!lu.isInvertible()) return {};
+  Eigen::VectorXd step = lu.solve(gap);
+  if (!step.allFinite()) return {};
+  return step;
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,20 @@
+#pragma once
+/// All that the motion after an instant depends on, apart from the phase of the excitation.
+
+#include <vector>
+
+#include "friction_models/law.hpp"
+
+namespace dualdamp::sim {
+
+struct State {
+  double x = 0.0;  ///< m
+  double v = 0.0;  ///< m/s
+  friction::Direction direction = friction::Direction::rest;
+  std::vector<friction::Memory> memories{};  ///< of each law
+};
+
+/// Both lie in the same mode, so that their difference is one of continuous states.
+[[nodiscard]] bool same_mode(const State& a, const State& b);
+
+}  // namespace dualdamp::sim
