@@ -137,9 +137,10 @@ class Host {
     for (std::size_t i = 0; i < n; ++i) memory_.state[i] += h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
   }
 
-  [[nodiscard]] std::vector<double> guards() const {
+  [[nodiscard]] std::vector<double> guards() const { return guards(memory_); }
+  [[nodiscard]] std::vector<double> guards(const Memory& memory) const {
     std::vector<double> values;
-    if (law_.is_modal()) law_.guards(memory_, now_, direction_, values);
+    if (law_.is_modal()) law_.guards(memory, now_, direction_, values);
     return values;
   }
 
@@ -173,8 +174,21 @@ class Host {
     broken_ = true;
   }
 
-  void compare(const Affine& affine, double s, const Instant& now, double value, const std::string& what) {
-    const double size = size_of(affine, s, now) + std::abs(value);
+  /// Size of the parts of a value that come from the states: their rounding is the value's.
+  template <class Evaluate>
+  [[nodiscard]] double share_of_states(const Evaluate& evaluate) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < memory_.state.size(); ++i) {
+      Memory doubled = memory_;
+      doubled.state[i] *= 2.0;
+      sum += std::abs(evaluate(doubled) - evaluate(memory_));
+    }
+    return sum;
+  }
+
+  void compare(const Affine& affine, double s, const Instant& now, double value, double share,
+               const std::string& what) {
+    const double size = size_of(affine, s, now) + std::abs(value) + share;
     if (!(std::abs(value_of(affine, s, now) - value) <= same * size)) faults_.add(what);
   }
 
@@ -195,15 +209,19 @@ class Host {
     std::vector<Affine> affine_guards;
     if (law_.is_modal()) law_.affine_guards(memory_, now_, direction_, affine_guards);
     const auto agree = [&](double s, const std::string& when) {
-      compare(affine, s, now_, law_.force(memory_, now_, direction_),
+      const auto force_with = [&](const Memory& memory) { return law_.force(memory, now_, direction_); };
+      compare(affine, s, now_, force_with(memory_), share_of_states(force_with),
               "affine force differs from the force " + when);
-      compare(affine_limit, s, now_, law_.static_limit(memory_, now_),
+      const auto limit_with = [&](const Memory& memory) { return law_.static_limit(memory, now_); };
+      compare(affine_limit, s, now_, limit_with(memory_), share_of_states(limit_with),
               "affine limit differs from the limit " + when);
       const std::vector<double> values = guards();
       if (values.size() != affine_guards.size())
         return faults_.add("there are more or fewer affine guards than guards");
       for (std::size_t i = 0; i < values.size(); ++i) {
-        compare(affine_guards[i], s, now_, values[i], "affine guards differ from the guards " + when);
+        const auto guard_with = [&](const Memory& memory) { return guards(memory)[i]; };
+        compare(affine_guards[i], s, now_, values[i], share_of_states(guard_with),
+                "affine guards differ from the guards " + when);
       }
     };
     agree(0.0, "at the start of a phase");

@@ -1,0 +1,119 @@
+#include "friction_models/contact_compliance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& ContactCompliance::parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "kinetic", .unit = "N", .range = {.low = 0.0}, .meaning = "friction force while the slider slides"},
+      {.name = "static",
+       .unit = "N",
+       .same_as = "kinetic",
+       .range = {.low = 0.0},
+       .at_least = "kinetic",
+       .meaning = "force at which the slider breaks away"},
+      {.name = "contact_stiffness",
+       .unit = "N/m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stiffness of the contact before it slides"},
+      {.name = "contact_damping",
+       .unit = "N.s/m",
+       .fallback = 0.0,
+       .range = {.low = 0.0},
+       .meaning = "damper beside the contact spring"},
+  };
+  return table;
+}
+
+Affine ContactCompliance::affine_force(const Memory& memory, const Instant& now, Direction) const {
+  if (std::abs(memory.mode) == slipping) return memory.mode * now.limit(kinetic_);
+  return {.constant = -stiffness_ * memory.state[0], .position = stiffness_, .velocity = damping_};
+}
+
+Affine ContactCompliance::break_away(const Memory& memory, const Instant& now, int side) const {
+  return now.limit(memory.mode == side * halted ? kinetic_ : static_);
+}
+
+ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory, const Instant& now) const {
+  const Affine level = memory.mode * now.limit(kinetic_);
+  const double rate = level.rate / stiffness_;
+  const double settled = (level.constant - damping_ * rate) / stiffness_;
+  return {settled, rate, memory.state[0] - settled, stiffness_ / damping_};
+}
+
+/// Of a slider that slips, taken positive towards its side.
+Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now) const {
+  const double side = memory.mode;
+  if (is_damped()) {
+    const Relaxation u = relaxation(memory, now);
+    return side * Affine{.constant = -u.rate, .velocity = 1.0, .transient = u.decay * u.relaxing, .decay = u.decay};
+  }
+  const Affine u = (side / stiffness_) * now.limit(kinetic_);
+  return side * Affine{.constant = -u.rate, .velocity = 1.0 - u.position};
+}
+
+void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, Direction direction,
+                                      std::vector<Affine>& guards) const {
+  if (std::abs(memory.mode) != slipping) {
+    const Affine force = affine_force(memory, now, direction);
+    guards.push_back(break_away(memory, now, 1) - force);
+    guards.push_back(break_away(memory, now, -1) + force);
+  } else if (is_damped() || now.limit(kinetic_).rate != 0.0) {
+    guards.push_back(slider_speed(memory, now));
+  }
+}
+
+void ContactCompliance::slide(Memory& memory, const Instant& now, int side) const {
+  memory.mode = side * slipping;
+  if (is_damped()) {
+    memory.state[0] = now.x - memory.state[0];
+  } else {
+    memory.state.clear();
+  }
+}
+
+void ContactCompliance::stop_slider(Memory& memory, const Instant& now, int next_mode) const {
+  const double u = is_damped() ? memory.state[0] : memory.mode * now.limit_now(kinetic_) / stiffness_;
+  memory.mode = next_mode;
+  memory.state = {now.x - u};
+}
+
+void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
+  const bool slips = std::abs(memory.mode) == slipping;
+  switch (trigger.cause) {
+    case Trigger::direction_change:
+      // A slider under a varying limit, and a damped one, stop at a guard of their own.
+      if (!slips) {
+        memory.mode = stuck;
+      } else if (!is_damped() && now.limit(kinetic_).rate == 0.0 && sign(direction) != memory.mode) {
+        stop_slider(memory, now, stuck);
+      }
+      return;
+    case Trigger::limit_change:
+      // A damped spring follows its new limit without a halt.
+      if (slips && !is_damped()) stop_slider(memory, now, memory.mode * halted);
+      return;
+    default:
+      if (slips) return stop_slider(memory, now, stuck);
+      slide(memory, now, trigger.cause == 0 ? 1 : -1);
+  }
+}
+
+void ContactCompliance::rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const {
+  std::ranges::fill(rates, 0.0);
+  if (std::abs(memory.mode) == slipping && is_damped()) {
+    rates[0] = (memory.mode * now.limit_now(kinetic_) - stiffness_ * memory.state[0]) / damping_;
+  }
+}
+
+void ContactCompliance::advance(Memory& memory, const Instant& begin, const Instant&, double duration,
+                                Direction) const {
+  if (std::abs(memory.mode) != slipping || !is_damped()) return;
+  const Relaxation u = relaxation(memory, begin);
+  memory.state[0] = u.settled + u.rate * duration + u.relaxing * std::exp(-u.decay * duration);
+}
+
+}  // namespace dualdamp::friction
