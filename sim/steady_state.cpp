@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/observers.hpp"
+#include "sim/orbit_account.hpp"
 #include "sim/period_map.hpp"
 
 namespace dualdamp::sim {
@@ -16,6 +16,9 @@ namespace {
 /// Multipliers this close to the unit circle do not attract within any laboratory's patience; and Newton's method
 /// meets them at the end of a continuum, whose double root it knows to half the digits only.
 constexpr double neutral = 1e-6;
+
+/// Rounding of a multiplier on the unit circle.
+constexpr double on_circle = 1e-9;
 
 /// Closure that counts as an orbit when Newton's corrections have sunk into rounding.
 constexpr double rounding_closure = 1e-12;
@@ -44,7 +47,7 @@ class OrbitFinder {
   }
 
   void find(SteadyState& result);
-  void describe(SteadyState& result);
+  void describe(SteadyState& result) { account_for_orbit(model_, map_, options_.full_account, result); }
 
  private:
   bool newton(Passage& passage, SteadyState& result);
@@ -145,66 +148,11 @@ void OrbitFinder::find(SteadyState& result) {
   if (found) result.multipliers = passage.multipliers();
 }
 
-/// Merges rest intervals into sticks; one that crosses the period boundary counts once and starts in the period
-/// before.
-void collect_stick(std::vector<Stick>& sticks, const Interval& interval, bool continues, double x) {
-  if (continues && !sticks.empty()) {
-    sticks.back().duration += interval.duration;
-  } else {
-    sticks.push_back({interval.begin, interval.duration, x});
-  }
-}
-
-void join_across_boundary(std::vector<Stick>& sticks) {
-  if (sticks.size() < 2) return;
-  sticks.back().duration += sticks.front().duration;
-  sticks.erase(sticks.begin());
-}
-
-void OrbitFinder::describe(SteadyState& result) {
-  ExactEngine& engine = map_.engine();
-  engine.track_sensitivity(false);
-  engine.restart(result.start);
-  Extremes extremes;
-  EnergyAudit energy(model_.oscillator);
-  Fundamental fundamental(omega_);
-  result.peak = result.trough = result.start.x;
-  bool resting = false;
-  const bool rests_at_start = result.start.direction == Direction::rest;
-  while (engine.cycle() == 0) {
-    const Interval* interval = engine.next_in_period();
-    if (interval == nullptr) break;
-    // The velocity keeps its sign within an interval.
-    result.peak = std::max(result.peak, engine.position());
-    result.trough = std::min(result.trough, engine.position());
-    if (options_.full_account) {
-      extremes.observe(*interval);
-      energy.observe(*interval);
-      fundamental.observe(*interval);
-    }
-    const bool rest = interval->direction == Direction::rest;
-    if (rest) collect_stick(result.sticks, *interval, resting, engine.position());
-    resting = rest;
-    if (interval->ending == EventKind::stop) ++result.stops_per_cycle;
-  }
-  if (resting && rests_at_start) join_across_boundary(result.sticks);
-  result.amplitude = 0.5 * (result.peak - result.trough);
-  if (result.sticks.size() == 1 && result.stops_per_cycle == 0) {
-    result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
-  }
-  if (!options_.full_account) return;
-  result.max_speed = extremes.max_speed();
-  result.energy = energy.account();
-  const double lag = model_.excitation.phase - std::arg(fundamental.coefficient());
-  constexpr double turn = 2.0 * std::numbers::pi;
-  result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;
-}
-
 }  // namespace
 
 bool SteadyState::stable() const {
   return std::all_of(multipliers.begin(), multipliers.end(),
-                     [](const std::complex<double>& value) { return std::abs(value) < 1.0 + neutral; });
+                     [](const std::complex<double>& value) { return std::abs(value) < 1.0 + on_circle; });
 }
 
 SteadyState steady_state(const Model& model, const SteadyStateOptions& options) {

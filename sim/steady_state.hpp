@@ -7,6 +7,7 @@
 
 #include "core/outcome.hpp"
 #include "sim/energy.hpp"
+#include "sim/interval.hpp"
 #include "sim/model.hpp"
 #include "sim/state.hpp"
 
@@ -30,6 +31,7 @@ struct SteadyState {
   double max_speed = 0.0;   ///< m/s
   int stops_per_cycle = 0;  ///< instants per period at which the mass comes to rest and stays
   std::vector<Stick> sticks;
+  std::vector<EventKind> sequence;                ///< events of one period in order
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
   Energy energy;                                  ///< J per period
 
