@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "friction_models/slider.hpp"
+
 namespace dualdamp::friction {
 
 const std::vector<Parameter>& ContactCompliance::parameters() {
@@ -46,13 +48,15 @@ ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory
 
 /// Of a slider that slips, taken positive towards its side.
 Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now) const {
-  const double side = memory.mode;
-  if (is_damped()) {
-    const Relaxation u = relaxation(memory, now);
-    return side * Affine{.constant = -u.rate, .velocity = 1.0, .transient = u.decay * u.relaxing, .decay = u.decay};
-  }
-  const Affine u = (side / stiffness_) * now.limit(kinetic_);
-  return side * Affine{.constant = -u.rate, .velocity = 1.0 - u.position};
+  if (!is_damped()) return dragged_speed(now.limit(kinetic_), memory.mode, stiffness_);
+  const Relaxation u = relaxation(memory, now);
+  // Stretch is a difference of positions: a fast spring turns its rounding into speed.
+  const double rounded = u.decay * (std::abs(now.x) + std::abs(memory.state[0]) + std::abs(u.settled));
+  return memory.mode * Affine{.constant = -u.rate,
+                              .velocity = 1.0,
+                              .transient = u.decay * u.relaxing,
+                              .decay = u.decay,
+                              .cancelled = rounded};
 }
 
 void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, Direction direction,

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "friction_models/registry.hpp"
-#include "sim/simulate.hpp"
+#include "sim/analytic/contact.hpp"
 #include "tests/support/law_conformance.hpp"
+#include "tests/support/law_host.hpp"
+#include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
 using friction::Affine;
@@ -27,37 +28,10 @@ test::LawCase contact(double kinetic, double static_level, double stiffness, dou
                                                           {"contact_damping", damping}});
   // Strokes of many times the travel to break-away visit all modes.
   c.stroke = 20.0 * std::max(static_level, 0.1) / stiffness;
+  c.scaled = [=](double factor) {
+    return friction::Law(ContactCompliance(factor * kinetic, factor * static_level, stiffness, damping));
+  };
   return c;
-}
-
-/// m = 1, k = 100, c = 4, base 0.1 m at 10 rad/s.
-sim::Model standard_system(const friction::Law& law) {
-  sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
-  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
-  model.friction = {law};
-  return model;
-}
-
-struct Settled {
-  double peak = 0.0;
-  double friction_work = 0.0;
-};
-
-/// One period after the transient has decayed to rounding: exp(-zeta wn t) = exp(-2 t).
-Settled settled(const friction::Law& law) {
-  const double period = std::numbers::pi / 5.0;
-  const sim::Model model = standard_system(law);
-  const sim::History before = sim::simulate(model, {.duration = 60.0 * period});
-  const sim::History after = sim::simulate(model, {.duration = 61.0 * period});
-  REQUIRE(after.outcome.ok());
-  Settled result;
-  result.friction_work = after.energy.friction - before.energy.friction;
-  for (const sim::Event& event : after.events) {
-    if (event.t > 60.0 * period && event.kind == sim::EventKind::reversal)
-      result.peak = std::max(result.peak, event.x);
-  }
-  return result;
 }
 
 }  // namespace
@@ -135,16 +109,61 @@ TEST_CASE("contact_compliance: under a growing limit the slider stops before the
 }
 
 TEST_CASE("contact_compliance: peaks of the standard system", "[friction][contact_compliance]") {
-  // Independent values of a calculation with 30 digits, rounded to 15; 60 periods leave exp(-75) of the transient.
+  // Independent values of a calculation with 30 digits, rounded to 15.
   const struct {
     double stiffness;
     double peak;
   } known[] = {{1e3, 0.18715434612621097}, {1e4, 0.186333154800891}, {1e5, 0.186150328050063}};
   for (const auto& [stiffness, peak] : known) {
     INFO(stiffness);
-    const Settled motion = settled(friction::Law(ContactCompliance(2.0, 2.0, stiffness, 0.0)));
+    const test::SettledMotion motion =
+        test::settled_motion(friction::Law(ContactCompliance(2.0, 2.0, stiffness, 0.0)));
     CHECK(std::abs(motion.peak - peak) < 1e-14);
     // The Jenkins loop of an amplitude A: 4 kinetic (A - kinetic/stiffness).
     CHECK(motion.friction_work == Approx(8.0 * (motion.peak - 2.0 / stiffness)).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("contact_compliance: the Jenkins loop of any amplitude", "[friction][contact_compliance]") {
+  // W = 4 kinetic (A - kinetic/stiffness) when A > kinetic/stiffness, else nothing. With static > kinetic the
+  // spring is drawn to static/stiffness before it lets go: the difference of both stored energies is lost, twice a
+  // loop.
+  const double stiffness = 1000.0;
+  for (const double static_level : {2.0, 3.0}) {
+    for (const double amplitude : {0.0009, 0.0035, 0.01, 1.0}) {
+      INFO(static_level << " N, " << amplitude << " m");
+      test::LawHost host(friction::Law(ContactCompliance(2.0, static_level, stiffness, 0.0)), {});
+      for (int i = 0; i < 4; ++i) host.move_to(i % 2 == 0 ? amplitude : -amplitude);
+      const double before = host.work();
+      host.move_to(amplitude);
+      host.move_to(-amplitude);
+      const double lost = (static_level * static_level - 4.0) / (2.0 * stiffness);
+      const double travel = 2.0 * amplitude - (2.0 + static_level) / stiffness;
+      const double loop = travel > 0.0 ? 2.0 * (2.0 * travel + lost) : 0.0;
+      CHECK(std::abs(host.work() - before - loop) < 1e-12 * (loop + 4.0 * amplitude));
+    }
+  }
+}
+
+TEST_CASE("contact_compliance: sliding sets in at the speed of Eq (18)", "[friction][contact_compliance]") {
+  // Exact for harmonic x: the mass turns at X and comes back along X cos wt.
+  const double omega = 38.5;
+  const double X = 4.25e-3;
+  const double kinetic = 3.5;
+  for (const double stiffness : {11.6e4, 1.2e4, 1.7e3}) {
+    INFO(stiffness);
+    test::LawHost host(friction::Law(ContactCompliance(kinetic, kinetic, stiffness, 0.0)), {.x = -X});
+    host.move_to(X);
+    const double turned = host.now().t;
+    const test::Path back = [&](double t) {
+      const double angle = omega * (t - turned);
+      return Instant{t, X * std::cos(angle), -X * omega * std::sin(angle)};
+    };
+    host.turn(Direction::backward);
+    host.follow(turned + 3.14 / omega, back);
+    const std::optional<double> speed = sim::analytic::transition_velocity(omega, X, kinetic, stiffness);
+    REQUIRE(speed.has_value());
+    // Bisection finds the break to rounding of the time, 1 s, of a motion that takes 1/omega.
+    CHECK(std::abs(-host.last_event().v - *speed) < 1e-12 * *speed);
   }
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "friction_models/coulomb.hpp"
 #include "tests/support/law_conformance.hpp"
 
 namespace {
@@ -17,7 +19,19 @@ using friction::Instant;
 using friction::Memory;
 using friction::Trigger;
 
-enum class Planted { nothing, wrong_guard, endless_jump, wrong_advance, active, lopsided, wrong_rate };
+enum class Planted {
+  nothing,
+  wrong_guard,
+  endless_jump,
+  wrong_advance,
+  wrong_speed,
+  active,
+  lopsided,
+  wrong_rate,
+  curved,
+  choosy,
+  moody
+};
 
 /// A spring of stiffness kt that slips at F, elastic-perfectly-plastic; state: where the slider stands.
 /// Stuck: mode 0, F = kt (x - a). Slipping: mode +-1, F = +-level, a = x - F/kt.
@@ -29,6 +43,8 @@ class Slider {
   [[nodiscard]] double force(const Memory& m, const Instant& now, Direction) const {
     if (m.mode != 0) return m.mode * level(m.mode);
     const double stretched = stiffness * (now.x - m.state[0]);
+    if (planted_ == Planted::moody) return (1.0 + 1e-6 * *calls_) * stretched;
+    if (planted_ == Planted::curved) return stretched + 1e-3 * m.state[0] * m.state[0];
     return planted_ == Planted::active ? -stretched : stretched;
   }
   void guards(const Memory& m, const Instant& now, Direction, std::vector<double>& values) const {
@@ -43,12 +59,17 @@ class Slider {
       m.mode = trigger.cause == 0 ? 1 : -1;
     } else if (m.mode != 0 && friction::sign(direction) != m.mode) {
       m.state[0] = now.x - m.mode * level(m.mode) / stiffness;
+      if (planted_ == Planted::choosy) m.state[0] = std::abs(m.state[0]);
+      if (planted_ == Planted::moody) ++*calls_;
       m.mode = 0;
     }
   }
+  void rates(const Memory& m, const Instant& now, Direction, std::span<double> rates) const {
+    rates[0] = m.mode == 0 ? 0.0 : planted_ == Planted::wrong_speed ? 2.0 * now.v : now.v;
+  }
   [[nodiscard]] Affine affine_force(const Memory& m, const Instant& now, Direction direction) const {
     if (m.mode != 0) return {.constant = force(m, now, direction)};
-    return {.constant = -stiffness * m.state[0],
+    return {.constant = force(m, {}, direction),
             .rate = planted_ == Planted::wrong_rate ? 1.0 : 0.0,
             .position = planted_ == Planted::active ? -stiffness : stiffness};
   }
@@ -68,6 +89,7 @@ class Slider {
   [[nodiscard]] double level(int side) const { return planted_ == Planted::lopsided && side < 0 ? 1.5 : 1.0; }
 
   Planted planted_;
+  std::shared_ptr<int> calls_ = std::make_shared<int>(0);
 };
 
 /// z' = v - |v| z/z0, F = s0 z: Dahl's law, a smooth one.
@@ -103,6 +125,13 @@ TEST_CASE("the conformance suite names planted faults", "[friction][conformance]
   CHECK(named(faults_with(Planted::wrong_rate), "affine force differs"));
   CHECK(named(faults_with(Planted::active), "more work"));
   CHECK(named(faults_with(Planted::lopsided), "mirrored"));
+  CHECK(named(faults_with(Planted::wrong_speed), "derivative of advance"));
+  CHECK(named(faults_with(Planted::curved), "not affine in the states"));
+  CHECK(named(faults_with(Planted::choosy), "a jump is not affine"));
+  CHECK(named(faults_with(Planted::moody), "second time"));
+  const friction::Law coulomb(friction::Coulomb(2.0, 2.0));
+  const auto unscaled = [&](double) { return coulomb; };
+  CHECK(named(test::nonconformities({.law = coulomb, .scaled = unscaled}), "a factor on its limits"));
 }
 
 TEST_CASE("the conformance suite names faults of parameter tables", "[friction][conformance]") {

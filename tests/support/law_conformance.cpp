@@ -1,6 +1,7 @@
 #include "tests/support/law_conformance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 
 #include "friction_models/registry.hpp"
+#include "tests/support/law_host.hpp"
 #include "tests/support/random.hpp"
 
 namespace dualdamp::test {
@@ -19,19 +21,19 @@ using friction::Direction;
 using friction::Instant;
 using friction::Law;
 using friction::Memory;
+using friction::Trigger;
 
-constexpr int max_jumps = 32;
 constexpr int strokes = 60;
 constexpr int steps_per_stroke = 40;
 
 /// Affine forms and laws evaluate the same few sums in another order.
 constexpr double same = 1e-10;
 
-/// Keeps each kind of fault once, with its first occasion.
+/// Keeps each kind of fault once.
 class Faults {
  public:
-  void add(const std::string& kind, const std::string& occasion = {}) {
-    if (kinds_.insert(kind).second) list_.push_back(occasion.empty() ? kind : kind + " (" + occasion + ")");
+  void add(const std::string& kind) {
+    if (kinds_.insert(kind).second) list_.push_back(kind);
   }
   [[nodiscard]] const std::vector<std::string>& list() const { return list_; }
 
@@ -51,203 +53,162 @@ double size_of(const Affine& a, double s, const Instant& now) {
 
 Direction opposite(Direction direction) { return static_cast<Direction>(-static_cast<int>(direction)); }
 
-/// The driver's part: a law, what it remembers, and where the mass is.
-class Host {
- public:
-  Host(const Law& law, const Instant& start, Faults& faults)
-      : law_(law), faults_(faults), memory_(law.start(start)), now_(start) {
-    settle();
+/// The affine forms of a law in one mode: force, limit, guards.
+std::vector<Affine> forms(const LawHost& host, const Memory& memory) {
+  const Law& law = host.law();
+  std::vector<Affine> list = {law.affine_force(memory, host.now(), host.direction()),
+                              law.affine_limit(memory, host.now())};
+  if (law.is_modal()) law.affine_guards(memory, host.now(), host.direction(), list);
+  return list;
+}
+
+std::vector<double> coefficients(const std::vector<Affine>& forms) {
+  std::vector<double> list;
+  for (const Affine& a : forms) {
+    for (const double c : {a.constant, a.rate, a.position, a.velocity, a.transient}) list.push_back(c);
   }
+  return list;
+}
 
-  [[nodiscard]] double force() const { return law_.force(memory_, now_, direction_); }
-  [[nodiscard]] const Instant& now() const { return now_; }
-  /// It makes no sense to go on.
-  [[nodiscard]] bool broken() const { return broken_; }
+/// For each form, the size of its parts that come from the states: their rounding is the form's.
+std::vector<double> shares_of_states(const LawHost& host, const std::vector<Affine>& at_present) {
+  std::vector<double> shares(at_present.size());
+  for (std::size_t i = 0; i < host.memory().state.size(); ++i) {
+    Memory doubled = host.memory();
+    doubled.state[i] *= 2.0;
+    const std::vector<Affine> others = forms(host, doubled);
+    for (std::size_t k = 0; k < std::min(shares.size(), others.size()); ++k)
+      shares[k] += size_of(others[k] - at_present[k], 0.0, host.now());
+  }
+  return shares;
+}
 
-  void turn(Direction direction) {
-    for (const Direction next : {Direction::rest, direction}) {
-      direction_ = next;
-      if (law_.is_modal()) law_.jump(memory_, {}, now_, direction_);
-      settle();
+/// What the affine forms of `begin` say after s is what the law says at `host`, s later.
+void compare_forms(const LawHost& begin, const LawHost& host, const std::string& when, Faults& faults) {
+  const double s = host.now().t - begin.now().t;
+  const std::vector<Affine> affine = forms(begin, begin.memory());
+  const std::vector<double> shares = shares_of_states(begin, affine);
+  std::vector<double> values = {host.force(), host.law().static_limit(host.memory(), host.now())};
+  for (const double guard : host.guards()) values.push_back(guard);
+  if (values.size() != affine.size()) return faults.add("there are more or fewer affine guards than guards");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double size = size_of(affine[i], s, host.now()) + std::abs(values[i]) + shares[i];
+    if (std::abs(value_of(affine[i], s, host.now()) - values[i]) <= same * size) continue;
+    faults.add((i == 0   ? "affine force differs from the force "
+                : i == 1 ? "affine limit differs from the limit "
+                         : "affine guards differ from the guards ") +
+               when);
+  }
+}
+
+/// f(z + d1 + d2) - f(z + d1) - f(z + d2) + f(z) = 0, for f a list of numbers.
+template <class Function>
+bool is_affine(const Function& f, const std::vector<double>& z, Random& random) {
+  std::array<std::vector<double>, 4> at = {z, z, z, z};
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double d1 = random.sign() * random.logarithmic(1e-3, 1e3) * (std::abs(z[i]) + 1e-3);
+    const double d2 = random.sign() * random.logarithmic(1e-3, 1e3) * (std::abs(z[i]) + 1e-3);
+    at[1][i] += d1;
+    at[2][i] += d2;
+    at[3][i] += d1 + d2;
+  }
+  const std::array<std::vector<double>, 4> values = {f(at[0]), f(at[1]), f(at[2]), f(at[3])};
+  for (const auto& list : values) {
+    if (list.size() != values[0].size()) return false;
+  }
+  for (std::size_t k = 0; k < values[0].size(); ++k) {
+    const double size =
+        std::abs(values[0][k]) + std::abs(values[1][k]) + std::abs(values[2][k]) + std::abs(values[3][k]);
+    if (!(std::abs(values[3][k] - values[1][k] - values[2][k] + values[0][k]) <= same * size)) return false;
+  }
+  return true;
+}
+
+/// The driver differentiates forms and jumps by evaluating them at displaced states and positions.
+void examine_displaced(const LawHost& host, bool with_jumps, Random& random, Faults& faults) {
+  const std::vector<double>& state = host.memory().state;
+  const auto forms_at = [&](const std::vector<double>& z) {
+    Memory memory = host.memory();
+    memory.state = z;
+    return coefficients(forms(host, memory));
+  };
+  if (!is_affine(forms_at, state, random)) faults.add("force, limit or guards are not affine in the states");
+  if (!with_jumps) return;
+  std::vector<double> place = state;
+  place.push_back(host.now().x);
+  place.push_back(host.now().v);
+  std::vector<int> causes = {Trigger::direction_change, Trigger::limit_change};
+  for (int i = 0; i < static_cast<int>(host.guards().size()); ++i) causes.push_back(i);
+  for (const int cause : causes) {
+    for (const Direction direction : {Direction::backward, Direction::rest, Direction::forward}) {
+      if (cause != Trigger::direction_change && direction != host.direction()) continue;
+      const auto jumped = [&](const std::vector<double>& z) {
+        Memory memory = host.memory();
+        std::copy_n(z.begin(), state.size(), memory.state.begin());
+        Instant now = host.now();
+        now.x = z[state.size()];
+        now.v = z[state.size() + 1];
+        host.law().jump(memory, {cause}, now, direction);
+        std::vector<double> result = memory.state;
+        result.push_back(memory.mode);
+        for (const int index : memory.indices) result.push_back(index);
+        return result;
+      };
+      if (!is_affine(jumped, place, random)) faults.add("a jump is not affine in states, position and speed");
     }
   }
+}
 
-  /// Moves the mass to `end`, through the events of the law in between.
-  template <class Path>
-  void follow(double end, const Path& path) {
-    examine(path((now_.t + end) / 2.0), path(end));
-    for (int events = 0; now_.t < end && !broken_; ++events) {
-      if (events > 100) return give_up("there is no end of events within one step");
-      const Memory before = memory_;
-      const Instant begin = now_;
-      go(path(end));
-      if (worst_guard() < 0) return;
-      // The first moment at which a guard is below zero.
-      double low = begin.t;
-      double high = end;
-      for (int i = 0; i < 80; ++i) {
-        const double t = (low + high) / 2.0;
-        memory_ = before;
-        now_ = begin;
-        go(path(t));
-        (worst_guard() < 0 ? low : high) = t;
-      }
-      memory_ = before;
-      now_ = begin;
-      go(path(high));
-      const int guard = worst_guard();
-      if (guard < 0) continue;
-      law_.jump(memory_, {guard}, now_, direction_);
-      settle();
-    }
+/// The rates are the derivative of `advance`, by a one-sided difference of second order.
+void examine_rates(const LawHost& host, const Path& path, double duration, Faults& faults) {
+  const std::size_t n = host.memory().state.size();
+  double decay = 1.0 / duration;
+  for (const Affine& form : forms(host, host.memory())) decay = std::max(decay, form.decay);
+  const double h = 1e-3 / decay;
+  LawHost once = host;
+  LawHost twice = host;
+  once.go(path(host.now().t + h));
+  twice.go(path(host.now().t + 2.0 * h));
+  std::vector<double> rates(n);
+  host.law().rates(host.memory(), host.now(), host.direction(), rates);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z0 = host.memory().state[i];
+    const double z1 = once.memory().state[i];
+    const double z2 = twice.memory().state[i];
+    const double difference = (-3.0 * z0 + 4.0 * z1 - z2) / (2.0 * h);
+    const double size = std::abs(rates[i]) + decay * std::abs(z0);
+    if (!(std::abs(difference - rates[i]) <= 1e-5 * size))
+      faults.add("rates differ from the derivative of advance");
   }
+}
 
- private:
-  /// States from now to `end`, no event in between.
-  void go(const Instant& end) {
-    if (law_.is_affine()) {
-      law_.advance(memory_, now_, end, end.t - now_.t, direction_);
-    } else if (law_.has_rates()) {
-      integrate(end);
-    }
-    now_ = end;
+/// All that can be asked of one step without making it. No event between now and `end`.
+void examine(const LawHost& host, const Path& path, double end, bool with_jumps, Random& random, Faults& faults) {
+  const Law& law = host.law();
+  const Memory before = host.memory();
+  const double force = host.force();
+  if (!std::isfinite(force)) faults.add("the force is not finite");
+  if (force != host.force() || host.memory() != before) faults.add("the force is not pure");
+  const double limit = law.static_limit(host.memory(), host.now());
+  if (!(limit >= 0.0) || !std::isfinite(limit)) faults.add("the static limit is negative or not finite");
+  if (limit > 0.0 && !law.holds_mass()) faults.add("a law that does not hold the mass has a static limit");
+  if (!law.is_affine()) return;
+
+  compare_forms(host, host, "at the start of a phase", faults);
+  LawHost whole = host;
+  whole.go(path(end));
+  compare_forms(host, whole, "after advance", faults);
+  LawHost halves = host;
+  halves.go(path((host.now().t + end) / 2.0));
+  halves.go(path(end));
+  for (std::size_t i = 0; i < before.state.size(); ++i) {
+    const double size = std::abs(whole.memory().state[i]) + std::abs(before.state[i]);
+    if (!(std::abs(halves.memory().state[i] - whole.memory().state[i]) <= 1e-9 * size))
+      faults.add("advance in halves differs");
   }
-
-  /// Runge and Kutta's fourth order, with the speed varying linearly.
-  void integrate(const Instant& end) {
-    const std::size_t n = memory_.state.size();
-    const double h = end.t - now_.t;
-    const auto rates = [&](const std::vector<double>& state, double part) {
-      Memory memory = memory_;
-      memory.state = state;
-      const Instant now{now_.t + part * h, now_.x + part * (end.x - now_.x), now_.v + part * (end.v - now_.v)};
-      std::vector<double> result(n);
-      law_.rates(memory, now, direction_, result);
-      return result;
-    };
-    const auto moved = [&](const std::vector<double>& slope, double step) {
-      std::vector<double> state = memory_.state;
-      for (std::size_t i = 0; i < n; ++i) state[i] += step * slope[i];
-      return state;
-    };
-    const std::vector<double> k1 = rates(memory_.state, 0.0);
-    const std::vector<double> k2 = rates(moved(k1, h / 2.0), 0.5);
-    const std::vector<double> k3 = rates(moved(k2, h / 2.0), 0.5);
-    const std::vector<double> k4 = rates(moved(k3, h), 1.0);
-    for (std::size_t i = 0; i < n; ++i) memory_.state[i] += h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
-  }
-
-  [[nodiscard]] std::vector<double> guards() const { return guards(memory_); }
-  [[nodiscard]] std::vector<double> guards(const Memory& memory) const {
-    std::vector<double> values;
-    if (law_.is_modal()) law_.guards(memory, now_, direction_, values);
-    return values;
-  }
-
-  /// The guard farthest below zero beyond rounding; -1: none.
-  int worst_guard() {
-    const std::vector<double> values = guards();
-    int worst = -1;
-    double least = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      guard_size_ = std::max(guard_size_, std::abs(values[i]));
-      if (!std::isfinite(values[i])) faults_.add("a guard is not finite");
-      if (values[i] < std::min(least, -1e-12 * guard_size_)) {
-        least = values[i];
-        worst = static_cast<int>(i);
-      }
-    }
-    return worst;
-  }
-
-  void settle() {
-    for (int i = 0; i <= max_jumps; ++i) {
-      const int guard = worst_guard();
-      if (guard < 0) return;
-      law_.jump(memory_, {guard}, now_, direction_);
-    }
-    give_up("jumps do not end within 32 repeats");
-  }
-
-  void give_up(const std::string& fault) {
-    faults_.add(fault);
-    broken_ = true;
-  }
-
-  /// Size of the parts of a value that come from the states: their rounding is the value's.
-  template <class Evaluate>
-  [[nodiscard]] double share_of_states(const Evaluate& evaluate) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < memory_.state.size(); ++i) {
-      Memory doubled = memory_;
-      doubled.state[i] *= 2.0;
-      sum += std::abs(evaluate(doubled) - evaluate(memory_));
-    }
-    return sum;
-  }
-
-  void compare(const Affine& affine, double s, const Instant& now, double value, double share,
-               const std::string& what) {
-    const double size = size_of(affine, s, now) + std::abs(value) + share;
-    if (!(std::abs(value_of(affine, s, now) - value) <= same * size)) faults_.add(what);
-  }
-
-  /// All that can be asked of one step without leaving it for good.
-  void examine(const Instant& middle, const Instant& end) {
-    const Memory before = memory_;
-    const Instant begin = now_;
-    const double force = law_.force(memory_, now_, direction_);
-    if (!std::isfinite(force)) faults_.add("the force is not finite");
-    if (force != law_.force(memory_, now_, direction_) || memory_ != before) faults_.add("the force is not pure");
-    const double limit = law_.static_limit(memory_, now_);
-    if (!(limit >= 0.0) || !std::isfinite(limit)) faults_.add("the static limit is negative or not finite");
-    if (limit > 0.0 && !law_.holds_mass()) faults_.add("a law that does not hold the mass has a static limit");
-    if (!law_.is_affine()) return;
-
-    const Affine affine = law_.affine_force(memory_, now_, direction_);
-    const Affine affine_limit = law_.affine_limit(memory_, now_);
-    std::vector<Affine> affine_guards;
-    if (law_.is_modal()) law_.affine_guards(memory_, now_, direction_, affine_guards);
-    const auto agree = [&](double s, const std::string& when) {
-      const auto force_with = [&](const Memory& memory) { return law_.force(memory, now_, direction_); };
-      compare(affine, s, now_, force_with(memory_), share_of_states(force_with),
-              "affine force differs from the force " + when);
-      const auto limit_with = [&](const Memory& memory) { return law_.static_limit(memory, now_); };
-      compare(affine_limit, s, now_, limit_with(memory_), share_of_states(limit_with),
-              "affine limit differs from the limit " + when);
-      const std::vector<double> values = guards();
-      if (values.size() != affine_guards.size())
-        return faults_.add("there are more or fewer affine guards than guards");
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto guard_with = [&](const Memory& memory) { return guards(memory)[i]; };
-        compare(affine_guards[i], s, now_, values[i], share_of_states(guard_with),
-                "affine guards differ from the guards " + when);
-      }
-    };
-    agree(0.0, "at the start of a phase");
-    go(end);
-    agree(end.t - begin.t, "after advance");
-    const Memory whole = memory_;
-    memory_ = before;
-    now_ = begin;
-    go(middle);
-    go(end);
-    for (std::size_t i = 0; i < whole.state.size(); ++i) {
-      const double size = std::abs(whole.state[i]) + std::abs(before.state[i]);
-      if (!(std::abs(memory_.state[i] - whole.state[i]) <= 1e-9 * size)) faults_.add("advance in halves differs");
-    }
-    memory_ = before;
-    now_ = begin;
-  }
-
-  const Law& law_;
-  Faults& faults_;
-  Memory memory_;
-  Instant now_;
-  Direction direction_ = Direction::rest;
-  double guard_size_ = 0.0;
-  bool broken_ = false;
-};
+  if (law.is_modal()) examine_displaced(host, with_jumps, random, faults);
+  if (law.advances()) examine_rates(host, path, end - host.now().t, faults);
+}
 
 /// A stroke of length `length` (signed) from `begin`: speed (1 - cos)/T, zero at both ends.
 struct Stroke {
@@ -262,19 +223,25 @@ struct Stroke {
   }
 };
 
-void walk(const LawCase& c, Random& random, Faults& faults) {
-  Host host(c.law, {}, faults);
-  Host mirror(c.law, {}, faults);
+/// Random strokes and rests; the second host sees the mirrored path. Returns the forces.
+std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
+  Random random(seed);
+  LawHost host(c.law, {});
+  LawHost mirror(c.law, {});
+  std::vector<double> forces;
   double work = 0.0;
   double exchanged = 0.0;
   double force_size = 0.0;
   for (int i = 0; i < strokes; ++i) {
     const bool rest = random.chance(0.15);
-    Stroke path{host.now(), 0.0, c.stroke_time * random.logarithmic(0.1, 3.0)};
-    if (!rest) path.length = random.sign() * c.stroke * random.logarithmic(1e-3, 1.0);
-    const Direction direction = rest ? Direction::rest : path.length > 0 ? Direction::forward : Direction::backward;
-    const auto mirrored = [&](double t) {
-      const Instant now = path(t);
+    Stroke stroke{host.now(), 0.0, c.stroke_time * random.logarithmic(0.1, 3.0)};
+    if (!rest) stroke.length = random.sign() * c.stroke * random.logarithmic(1e-3, 1.0);
+    const Direction direction = rest                  ? Direction::rest
+                                : stroke.length > 0.0 ? Direction::forward
+                                                      : Direction::backward;
+    const Path path = stroke;
+    const Path mirrored = [&](double t) {
+      const Instant now = stroke(t);
       return Instant{now.t, -now.x, -now.v};
     };
     host.turn(direction);
@@ -282,19 +249,55 @@ void walk(const LawCase& c, Random& random, Faults& faults) {
     for (int step = 1; step <= steps_per_stroke; ++step) {
       const double power = host.force() * host.now().v;
       const double from = host.now().t;
-      const double to = path.begin.t + path.duration * step / steps_per_stroke;
+      const double to = stroke.begin.t + stroke.duration * step / steps_per_stroke;
+      examine(host, path, std::min(to, c.law.next_change(host.memory())), !c.random, random, faults);
       host.follow(to, path);
       if (c.odd) mirror.follow(to, mirrored);
-      if (host.broken() || mirror.broken()) return;
+      for (const LawHost* each : {&host, &mirror}) {
+        if (!each->broken()) continue;
+        for (const std::string& fault : each->faults()) faults.add(fault);
+        return forces;
+      }
       const double power_after = host.force() * host.now().v;
       work += (power + power_after) / 2.0 * (to - from);
       exchanged += (std::abs(power) + std::abs(power_after)) / 2.0 * (to - from);
+      forces.push_back(host.force());
       force_size = std::max(force_size, std::abs(host.force()));
       // The trapezoidal rule over a jump of the force errs by a step's work: a percent of all that is exchanged.
       if (c.passive && work < -1e-2 * exchanged) faults.add("it gives out more work than it took in");
-      if (c.odd && std::abs(host.force() + mirror.force()) > 1e-9 * force_size) {
+      if (c.odd && std::abs(host.force() + mirror.force()) > 1e-9 * force_size)
         faults.add("the mirrored path does not give the mirrored force");
-      }
+    }
+  }
+  return forces;
+}
+
+/// A factor on the limits is the law with its limits multiplied.
+void examine_factor(const LawCase& c, Faults& faults) {
+  const double factor = 0.6;
+  Random random(7);
+  LawHost modified(c.law, {.modification = {.factor = factor}});
+  LawHost scaled(c.scaled(factor), {});
+  double force_size = 0.0;
+  for (int i = 0; i < strokes; ++i) {
+    Stroke stroke{scaled.now(), random.sign() * c.stroke * random.logarithmic(1e-3, 1.0), c.stroke_time};
+    const Direction direction = stroke.length > 0.0 ? Direction::forward : Direction::backward;
+    modified.turn(direction);
+    scaled.turn(direction);
+    for (int step = 1; step <= steps_per_stroke; ++step) {
+      const double to = stroke.begin.t + stroke.duration * step / steps_per_stroke;
+      scaled.follow(to, stroke);
+      modified.follow(to, [&](double t) {
+        Instant now = stroke(t);
+        now.modification.factor = factor;
+        return now;
+      });
+      force_size = std::max(force_size, std::abs(scaled.force()));
+      const double limit = scaled.law().static_limit(scaled.memory(), scaled.now());
+      const double modified_limit = modified.law().static_limit(modified.memory(), modified.now());
+      if (!(std::abs(modified.force() - scaled.force()) <= 1e-9 * force_size) ||
+          !(std::abs(modified_limit - limit) <= same * limit))
+        return faults.add("a factor on its limits is not the law with scaled limits");
     }
   }
 }
@@ -372,9 +375,11 @@ std::vector<std::string> nonconformities(const LawCase& c) {
   Faults faults;
   if (c.parameters != nullptr) examine_parameters(c, faults);
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
-    Random random(seed);
-    walk(c, random, faults);
+    const std::vector<double> forces = walk(c, seed, faults);
+    if (seed == 5U && walk(c, seed, faults) != forces)
+      faults.add("the same path gives other forces the second time");
   }
+  if (c.scaled) examine_factor(c, faults);
   return faults.list();
 }
 

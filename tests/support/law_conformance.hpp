@@ -8,12 +8,17 @@
 ///   * guards on the right side after a mode change, reached within 32 jumps;
 ///   * a finite force, the same when asked twice, and a static limit >= 0;
 ///   * affine form = force, guards and limit, at the start of a step and, by `advance`, at its end;
-///   * `advance` over two halves = `advance` over the whole;
+///   * `advance` over two halves = `advance` over the whole, with the rates as its derivative;
+///   * forms and jumps affine in the states, jumps in position and speed too, with the same branch: the driver
+///     differentiates them by displacement (jumps of a random law excepted, whose motions are not periodic);
 ///   * work done against it >= 0 from its unstretched start on, when declared passive;
 ///   * the mirrored path to give the mirrored force, when declared odd;
+///   * the same path to give the same forces the second time;
+///   * a factor on the limits to act as limits multiplied by it, when the case says how;
 /// and of its parameters, that each is refused with range and value when it is missing, unknown, not finite or out
 /// of range.
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +36,8 @@ struct LawCase {
   double stroke_time = 0.5;                                      ///< s
   bool odd = true;
   bool passive = true;
+  bool random = false;
+  std::function<friction::Law(double factor)> scaled{};  ///< the law with all its limits multiplied
 };
 
 /// A law of the registry with these values, defaults filled in.

@@ -1,0 +1,65 @@
+#pragma once
+/// Plays the driver of one law whose mass is led along a given path. A copy goes on by itself, so that a step can
+/// be tried.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "friction_models/law.hpp"
+
+namespace dualdamp::test {
+
+/// Where the mass is at a time.
+using Path = std::function<friction::Instant(double t)>;
+
+class LawHost {
+ public:
+  LawHost(const friction::Law& law, const friction::Instant& start);
+
+  [[nodiscard]] const friction::Law& law() const { return law_; }
+  [[nodiscard]] const friction::Memory& memory() const { return memory_; }
+  [[nodiscard]] const friction::Instant& now() const { return now_; }
+  [[nodiscard]] friction::Direction direction() const { return direction_; }
+  [[nodiscard]] double force() const { return law_.force(memory_, now_, direction_); }
+  [[nodiscard]] std::vector<double> guards() const;
+  /// Mode changes at the law's own guards and times.
+  [[nodiscard]] int events() const { return events_; }
+  /// Where the last of them was.
+  [[nodiscard]] const friction::Instant& last_event() const { return last_event_; }
+  /// Done against the law since the start [J]: exact for forces that are affine in the position between events.
+  [[nodiscard]] double work() const { return work_; }
+  /// What the law did wrong, in the order in which it did; it makes no sense to go on when broken.
+  [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
+  [[nodiscard]] bool broken() const { return broken_; }
+
+  /// The mass comes to rest, and goes on in this direction.
+  void turn(friction::Direction direction);
+  /// Moves the mass to time `end`, through the events of the law in between. One direction only: `turn` first.
+  void follow(double end, const Path& path);
+  /// Moves the mass in a straight line, from rest, in unit time.
+  void move_to(double x);
+  /// The states from now to `end`, no event in between.
+  void go(const friction::Instant& end);
+
+ private:
+  void integrate(const friction::Instant& end);
+  [[nodiscard]] int worst_guard();
+  [[nodiscard]] double time_of_violation(double end, const Path& path) const;
+  void pass(const friction::Instant& end);
+  void settle();
+  void give_up(const std::string& fault);
+
+  friction::Law law_;
+  friction::Memory memory_;
+  friction::Instant now_;
+  friction::Direction direction_ = friction::Direction::rest;
+  double guard_size_ = 0.0;
+  double work_ = 0.0;
+  int events_ = 0;
+  friction::Instant last_event_;
+  std::vector<std::string> faults_;
+  bool broken_ = false;
+};
+
+}  // namespace dualdamp::test

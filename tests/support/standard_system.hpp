@@ -1,0 +1,43 @@
+#pragma once
+/// The standard system with a law, and its settled motion.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "sim/simulate.hpp"
+
+namespace dualdamp::test {
+
+/// m = 1 kg, k = 100 N/m, c = 4 N.s/m on a base that moves by 0.1 m at 10 rad/s.
+inline sim::Model standard_system(const friction::Law& law) {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
+  model.friction = {law};
+  return model;
+}
+
+struct SettledMotion {
+  double peak = 0.0;           ///< m
+  double friction_work = 0.0;  ///< J per period
+};
+
+/// By walking on until the transient has decayed to rounding, exp(-2 t) after 60 periods = exp(-75). The mass of
+/// the orbit does not rest.
+inline SettledMotion settled_motion(const friction::Law& law) {
+  const double period = std::numbers::pi / 5.0;
+  const sim::Model model = standard_system(law);
+  const sim::History before = sim::simulate(model, {.duration = 60.0 * period});
+  const sim::History after = sim::simulate(model, {.duration = 61.0 * period});
+  REQUIRE(after.outcome.ok());
+  SettledMotion motion;
+  motion.friction_work = after.energy.friction - before.energy.friction;
+  for (const sim::Event& event : after.events) {
+    if (event.t > 60.0 * period && event.kind == sim::EventKind::reversal)
+      motion.peak = std::max(motion.peak, event.x);
+  }
+  return motion;
+}
+
+}  // namespace dualdamp::test
