@@ -1,7 +1,6 @@
 #include "cli/lists.hpp"
 
 #include "cli/print.hpp"
-#include "core/numbers.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
 
@@ -22,10 +21,28 @@ std::string engine_name(friction::EngineKind kind) {
   return kind == friction::EngineKind::exact ? "exact" : "smooth";
 }
 
-std::string default_of(const friction::Parameter& parameter) {
-  if (parameter.required()) return "required";
-  return parameter.fallback ? core::format_number(*parameter.fallback)
-                            : "that of " + std::string(parameter.same_as);
+/// The rows of a table of parameters; those of a record stand below it.
+void add_rows(Rows& rows, const std::vector<friction::Parameter>& table, const std::string& prefix) {
+  for (const friction::Parameter& parameter : table) {
+    const std::string name = prefix + std::string(parameter.name);
+    std::string allowed = parameter.describe();
+    if (!parameter.at_least.empty()) allowed += ", >= " + std::string(parameter.at_least);
+    rows.push_back({name, std::string(parameter.unit), friction::describe_default(table, parameter), allowed,
+                    std::string(parameter.meaning)});
+    const bool is_list = parameter.kind == friction::ParameterKind::list;
+    add_rows(rows, parameter.fields, name + (is_list ? "[]." : "."));
+  }
+}
+
+/// What the registry says about a law beside its equation and parameters.
+std::string facts_of(const friction::LawEntry& law) {
+  const Rows rows = {{"engine", engine_name(law.engine)},
+                     {"remembers", law.states.empty() ? "nothing" : std::string(law.states)},
+                     {"random", law.is_random ? "yes" : "no"},
+                     {"passive", law.is_passive ? "yes" : "no: it may give out more work than it took in"},
+                     {"sources", std::string(law.sources) + " in docs/refs.bib"},
+                     {"page", "docs/laws/" + std::string(law.name) + ".md"}};
+  return columns(rows);
 }
 
 std::string needs_of(const identify::MethodEntry& method) {
@@ -43,15 +60,10 @@ Listing list_laws(const std::string& name) {
   }
   const friction::LawEntry* law = friction::find_law(name);
   if (law == nullptr) return unknown("law", name, friction::laws());
-  Rows rows = {{"parameter", "unit", "default", "range", "meaning"}};
-  for (const friction::Parameter& parameter : law->parameters) {
-    std::string range = parameter.range.describe(parameter.unit);
-    if (!parameter.at_least.empty()) range += ", >= " + std::string(parameter.at_least);
-    rows.push_back({std::string(parameter.name), std::string(parameter.unit), default_of(parameter), range,
-                    std::string(parameter.meaning)});
-  }
+  Rows rows = {{"parameter", "unit", "default", "values", "meaning"}};
+  add_rows(rows, law->parameters, "");
   return {std::string(law->name) + ": " + std::string(law->summary) + "\n\n  " + std::string(law->equation) +
-          "\n  engine: " + engine_name(law->engine) + "\n\n" + columns(rows)};
+          "\n\n" + facts_of(*law) + "\n" + columns(rows)};
 }
 
 Listing list_methods(const std::string& name) {

@@ -1,15 +1,57 @@
 #pragma once
 /// Parameters of a law, stated once: the scenario reader, the schema, `dualdamp laws`, the range checks and the
 /// documentation all come from this table.
+///
+///     {.name = "elements", .kind = ParameterKind::list, .fields = {stiffness, limit}, .meaning = "..."},
+///     {.name = "count", .kind = ParameterKind::count, .instead_of = "elements", .range = {.low = 1.0}, ...},
 
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace dualdamp::friction {
+
+/// Values by name, SI. Access to a value that is not there, or is of another kind, is a bug and throws a
+/// `std::logic_error` or `std::bad_variant_access`.
+class ParameterValues {
+ public:
+  /// A whole number is a double without fraction, exact below 2^53; a record is a list of one.
+  using Value = std::variant<double, bool, std::string, std::vector<ParameterValues>>;
+  using Map = std::map<std::string, Value, std::less<>>;
+
+  ParameterValues() = default;
+  ParameterValues(std::initializer_list<Map::value_type> values);
+
+  [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
+  [[nodiscard]] double number(std::string_view name) const;
+  [[nodiscard]] std::size_t count(std::string_view name) const;
+  [[nodiscard]] std::uint64_t seed(std::string_view name) const;
+  [[nodiscard]] const std::string& choice(std::string_view name) const;
+  [[nodiscard]] bool flag(std::string_view name) const;
+  [[nodiscard]] const ParameterValues& record(std::string_view name) const;
+  [[nodiscard]] const std::vector<ParameterValues>& list(std::string_view name) const;
+
+  /// nullptr when there is no such value.
+  [[nodiscard]] const Value* find(std::string_view name) const;
+  [[nodiscard]] Value* find(std::string_view name);
+  [[nodiscard]] const Map& values() const { return values_; }
+
+  void set(std::string_view name, Value value);
+  void erase(std::string_view name);
+
+ private:
+  [[nodiscard]] const Value& at(std::string_view name) const;
+
+  Map values_;
+};
 
 /// The interval a parameter must lie in; ends are included unless marked open.
 struct Range {
@@ -23,31 +65,62 @@ struct Range {
   [[nodiscard]] std::string describe(std::string_view unit) const;
 };
 
+/// Seeds: whole numbers that a double and a JSON reader keep exactly.
+inline constexpr Range seed_range = {.low = 0.0, .high = 9007199254740991.0};
+
+enum class ParameterKind {
+  number,
+  count,   ///< a whole number
+  seed,    ///< a whole number in `seed_range`
+  choice,  ///< one of `words`
+  flag,    ///< true or false
+  record,  ///< a map of `fields`
+  list,    ///< a list of such maps
+};
+
 struct Parameter {
-  std::string_view name;             ///< YAML key
-  std::string_view unit;             ///< SI unit in udunits2 spelling: "N", "N/m", "N.s/m", "m/s", "m", "s", "1"
-  std::optional<double> fallback{};  ///< default; none and no `same_as`: the parameter is required
-  std::string_view same_as{};        ///< default is the value of this earlier parameter
+  std::string_view name;  ///< YAML key
+  ParameterKind kind = ParameterKind::number;
+  std::string_view unit{};                ///< of a number: SI, in udunits2 spelling: "N", "N/m", "N.s/m", "m", "1"
+  std::vector<std::string_view> words{};  ///< of a choice
+  std::vector<Parameter> fields{};        ///< of a record, and of each item of a list; none is `instead_of` another
+  std::size_t max_items = 10'000;         ///< of a list, which has one at least
+  std::optional<ParameterValues::Value> fallback{};  ///< default
+  std::string_view same_as{};                        ///< default is the value of this earlier parameter
+  bool is_optional = false;                          ///< may be absent and then has no value
+  /// Part of the other form of the law, which does without this earlier parameter: refused beside it, and without
+  /// it required unless it has a default. That earlier parameter is required where no part of the other form is.
+  std::string_view instead_of{};
   Range range{};
   std::string_view at_least{};  ///< must be >= the value of this earlier parameter
   std::string_view meaning{};   ///< one line for documentation
 
-  [[nodiscard]] bool required() const { return !fallback && same_as.empty(); }
+  /// Without a default and not optional; `instead_of` may still excuse it.
+  [[nodiscard]] bool required() const { return !fallback && same_as.empty() && !is_optional; }
+  /// That of its kind: whole numbers of a seed lie in `seed_range`.
+  [[nodiscard]] Range allowed_range() const { return kind == ParameterKind::seed ? seed_range : range; }
+  /// For messages: ">= 0 N", "gaussian, lorentz", "a list of 1 to 10000 records of stiffness, limit".
+  [[nodiscard]] std::string describe() const;
 };
 
-/// Values by name, SI, defaults filled in.
-using ParameterValues = std::map<std::string, double, std::less<>>;
+/// What a parameter without a given value has, in words: "2", "that of 'kinetic'", "required"; empty: nothing.
+[[nodiscard]] std::string describe_default(const std::vector<Parameter>& table, const Parameter& parameter);
+
+/// The parameters of the form that does without `name`; empty when there is no other form.
+[[nodiscard]] std::vector<std::string> names_instead_of(const std::vector<Parameter>& table, std::string_view name);
 
 /// One complaint about one parameter; the reader turns it into a located diagnostic.
 struct ParameterFault {
-  std::string name;
+  std::string name;  ///< with the way to it: "elements[2].limit"
   std::string message;
   std::string allowed;
   std::string found;
+  bool is_missing = false;  ///< it is about a value that is not there
 };
 
-/// Fills in the defaults of `values` and returns every fault: missing, unknown, not finite, out of range, below
-/// the parameter named by `at_least`. `values` is complete when the returned list is empty.
+/// Fills in the defaults of `values` and returns every fault: missing, unknown, of the wrong kind, not finite, out
+/// of range, below the parameter named by `at_least`, of both forms of a law. `values` is complete when the
+/// returned list is empty.
 [[nodiscard]] std::vector<ParameterFault> complete(const std::vector<Parameter>& table, ParameterValues& values);
 
 }  // namespace dualdamp::friction

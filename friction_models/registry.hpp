@@ -1,7 +1,6 @@
 #pragma once
 /// The list of built-in laws: explicit, sorted by name, one line a law.
 
-#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +15,16 @@ struct LawEntry {
   std::string_view name;      ///< YAML name
   std::string_view summary;   ///< one line
   std::string_view equation;  ///< plain text, for `dualdamp laws NAME`
-  EngineKind engine;
-  const std::vector<Parameter>& parameters;
-  Law (*make)(const ParameterValues& values);  ///< `values` complete and in range
+  EngineKind engine = EngineKind::exact;
+  std::string_view states{};  ///< what it remembers, in words; empty: nothing
+  bool is_random = false;
+  bool is_passive = true;                     ///< never gives out more work than it took in
+  std::string_view sources{};                 ///< keys in `docs/refs.bib`
+  std::vector<std::string_view> modifiers{};  ///< names of those it supports
+  /// Its own and, once in `laws()`, those of its modifiers.
+  std::vector<Parameter> parameters{};
+  /// Laws in parallel that make up this one. `values` complete.
+  std::vector<Law> (*make)(const ParameterValues& values) = nullptr;
 };
 
 [[nodiscard]] const std::vector<LawEntry>& laws();

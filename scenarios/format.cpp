@@ -45,10 +45,7 @@ Choice make_excitations() {
 Choice make_laws() {
   Choice result{"law", {}};
   for (const friction::LawEntry& law : friction::laws()) {
-    Variant variant{std::string(law.name), std::string(law.summary), {}};
-    for (const friction::Parameter& parameter : law.parameters)
-      variant.section.fields.push_back(field_of(parameter));
-    result.variants.push_back(std::move(variant));
+    result.variants.push_back({std::string(law.name), std::string(law.summary), {fields_of(law.parameters)}});
   }
   return result;
 }

@@ -47,6 +47,30 @@ std::string folded(std::string_view word) {
   return result;
 }
 
+/// Name, kind and meaning of a law's parameter.
+Field plain_field_of(const friction::Parameter& parameter) {
+  using friction::ParameterKind;
+  std::string name(parameter.name);
+  std::string meaning(parameter.meaning);
+  switch (parameter.kind) {
+    case ParameterKind::number:
+      break;
+    case ParameterKind::count:
+    case ParameterKind::seed:
+      return integer(std::move(name), std::move(meaning));
+    case ParameterKind::choice:
+      return words(std::move(name), {parameter.words.begin(), parameter.words.end()}, std::move(meaning));
+    case ParameterKind::flag:
+      return boolean(std::move(name), std::move(meaning));
+    case ParameterKind::record:
+      return section(std::move(name), {fields_of(parameter.fields)}, std::move(meaning));
+    case ParameterKind::list:
+      return section_list(std::move(name), {fields_of(parameter.fields)}, std::move(meaning))
+          .items(1, parameter.max_items);
+  }
+  return quantity(std::move(name), {std::string(parameter.unit)}, std::move(meaning));
+}
+
 }  // namespace
 
 Field&& Field::required() && {
@@ -89,6 +113,13 @@ Field&& Field::items(std::size_t least, std::size_t most) && {
 const Field* Section::find(std::string_view name) const {
   const auto found = std::ranges::find(fields, name, &Field::name);
   return found == fields.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Section::instead_of(std::string_view name) const {
+  std::vector<std::string> result;
+  for (const Field& field : fields)
+    if (!field.instead_of.empty() && field.instead_of == name) result.push_back(field.name);
+  return result;
 }
 
 const Variant* Choice::find(std::string_view name) const {
@@ -163,14 +194,17 @@ Field choice(std::string name, Choice choice, std::string meaning) {
   return field;
 }
 
-Field field_of(const friction::Parameter& parameter) {
-  Field field =
-      quantity(std::string(parameter.name), {std::string(parameter.unit)}, std::string(parameter.meaning));
-  field.range = parameter.range;
-  field.is_required = parameter.required();
-  if (parameter.fallback) field.fallback_words = core::format_number(*parameter.fallback);
-  if (!parameter.same_as.empty()) field.fallback_words = "that of '" + std::string(parameter.same_as) + "'";
-  return field;
+std::vector<Field> fields_of(const std::vector<friction::Parameter>& table) {
+  std::vector<Field> fields;
+  for (const friction::Parameter& parameter : table) {
+    Field field = plain_field_of(parameter);
+    field.range = parameter.allowed_range();
+    field.is_required = parameter.required();
+    field.instead_of = parameter.instead_of;
+    if (!field.is_required) field.fallback_words = friction::describe_default(table, parameter);
+    fields.push_back(std::move(field));
+  }
+  return fields;
 }
 
 Section grid_section(const Field& grid) {

@@ -44,6 +44,9 @@ struct Field {
   friction::Range range;
   std::vector<std::string> words;
   bool is_required = false;
+  /// Part of the other form of a section, which does without this key: refused beside it, required without it (when
+  /// `is_required`). That key itself is then required where no part of the other form is.
+  std::string instead_of = {};
   Json fallback;               ///< null: none. In the form the reader returns
   std::string fallback_words;  ///< the default in words, where it is not a value: "that of 'kinetic'"
   std::size_t min_items = 1;
@@ -72,6 +75,8 @@ struct Section {
   std::vector<Alternatives> alternatives = {};
 
   [[nodiscard]] const Field* find(std::string_view name) const;
+  /// Keys of the form that does without `name`.
+  [[nodiscard]] std::vector<std::string> instead_of(std::string_view name) const;
 };
 
 struct Variant {
@@ -105,8 +110,8 @@ struct Choice {
 [[nodiscard]] Field section_list(std::string name, Section section, std::string meaning);
 [[nodiscard]] Field choice(std::string name, Choice choice, std::string meaning);
 
-/// The field that reads a law's parameter. Range and bounds stay with `friction::complete`.
-[[nodiscard]] Field field_of(const friction::Parameter& parameter);
+/// The fields that read a law's parameters. Bounds between parameters and defaults stay with `friction::complete`.
+[[nodiscard]] std::vector<Field> fields_of(const std::vector<friction::Parameter>& table);
 
 /// The {from, to, count, spacing} form of a grid with these units and range.
 [[nodiscard]] Section grid_section(const Field& grid);

@@ -7,6 +7,7 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
+#include "scenarios/law_values.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -43,10 +44,11 @@ class Reader {
     for (const Field& field : section.fields) {
       const std::string field_path = path.empty() ? field.name : path + "." + field.name;
       if (const Entry* entry = node.find(field.name)) {
+        if (stands_beside_other_form(node, field, *entry, field_path)) continue;
         Json value = this->value(entry->value, field, field_path);
         if (!value.is_null()) values[field.name] = std::move(value);
       } else if (field.is_required) {
-        complain(node.head(), "'" + field_path + "' is missing", describe_values(field));
+        complain_about_missing(node, section, field, field_path);
       } else if (!field.fallback.is_null()) {
         values[field.name] = field.fallback;
       }
@@ -92,6 +94,32 @@ class Reader {
     for (std::size_t i = 1; i < given.size(); ++i)
       complain(given[i]->place, where + " takes only one of " + list, "one of " + list,
                "'" + given[0]->key + "' in line " + std::to_string(given[0]->place.line) + " as well");
+  }
+
+  bool stands_beside_other_form(const Node& node, const Field& field, const Entry& entry, const std::string& path) {
+    const Entry* other = field.instead_of.empty() ? nullptr : node.find(field.instead_of);
+    if (other == nullptr) return false;
+    complain(entry.place, "'" + path + "' stands beside '" + field.instead_of + "', which it replaces",
+             "one of the two", "'" + other->key + "' in line " + std::to_string(other->place.line) + " as well");
+    return true;
+  }
+
+  void complain_about_missing(const Node& node, const Section& section, const Field& field,
+                              const std::string& path) {
+    const auto any_given = [&](const std::vector<std::string>& names) {
+      return std::ranges::any_of(names, [&](const std::string& name) { return node.find(name) != nullptr; });
+    };
+    std::string allowed = describe_values(field);
+    if (!field.instead_of.empty()) {
+      // With nothing of either form there the first one is missing, and that is said once.
+      if (node.find(field.instead_of) != nullptr || !any_given(section.instead_of(field.instead_of))) return;
+      return complain(node.head(), "'" + path + "' is missing: it is needed without '" + field.instead_of + "'",
+                      std::move(allowed));
+    }
+    const std::vector<std::string> others = section.instead_of(field.name);
+    if (any_given(others)) return;
+    if (!others.empty()) allowed += "; or " + joined(others) + " instead";
+    complain(node.head(), "'" + path + "' is missing", std::move(allowed));
   }
 
   /// null when the value is faulty; the fault is then noted.
@@ -149,7 +177,7 @@ class Reader {
     const Json number = plain_number(node, path, describe_values(field));
     if (number.is_null()) return nullptr;
     const double value = number.get<double>();
-    constexpr double largest = 2e9;
+    const double largest = std::max(2e9, std::isfinite(field.range.high) ? field.range.high : 0.0);
     if (value != std::floor(value) || std::abs(value) > largest) return wrong_kind(node, field, path);
     return in_range(node, field, path, value, "") ? Json(static_cast<long>(value)) : Json(nullptr);
   }
@@ -268,12 +296,11 @@ class Reader {
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       const Node& item = node.items[i];
       const std::string item_path = path + "[" + std::to_string(i) + "]";
-      if (item.kind == Node::Kind::null) continue;
       reading_.places.emplace(item_path, item.place);
-      if (item.kind == Node::Kind::map)
-        values.push_back(one_map(item, field, item_path));
-      else
+      if (item.kind == Node::Kind::scalar || item.kind == Node::Kind::sequence)
         complain(item.place, "'" + item_path + "' is of the wrong kind", "a map", shown(item));
+      // A faulty item keeps its place: the others must not change their numbers.
+      values.push_back(item.kind == Node::Kind::map ? one_map(item, field, item_path) : Json(nullptr));
     }
     return values;
   }
@@ -314,17 +341,17 @@ class Reader {
   }
 
   /// What the registry alone knows: defaults that follow another parameter, bounds between parameters.
-  void check_law(const Node& node, const std::string& name, const std::string& path, Json& values) {
-    friction::ParameterValues numbers;
-    for (const auto& [key, value] : values.items()) numbers.emplace(key, value.get<double>());
-    const friction::ParameterValues given = numbers;
-    for (friction::ParameterFault& fault : friction::complete(friction::find_law(name)->parameters, numbers)) {
-      if (!given.contains(fault.name)) continue;  // missing: noted already
-      complain(reading_.places.at(path + "." + fault.name),
+  void check_law(const Node& node, const std::string& name, const std::string& path, Json& section) {
+    const std::vector<friction::Parameter>& table = friction::find_law(name)->parameters;
+    friction::ParameterValues values = law_values(table, section);
+    for (friction::ParameterFault& fault : friction::complete(table, values)) {
+      if (fault.is_missing) continue;  // noted already
+      const auto place = reading_.places.find(path + "." + fault.name);
+      complain(place == reading_.places.end() ? node.head() : place->second,
                "'" + path + "." + fault.name + "' is not possible: " + fault.message, std::move(fault.allowed),
-               shown(node.find(fault.name)->value));
+               std::move(fault.found));
     }
-    for (const auto& [key, value] : numbers) values[key] = value;
+    section = law_json(table, values);
   }
 
   const Document& document_;

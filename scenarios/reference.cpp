@@ -27,7 +27,7 @@ class Page {
     }
     text_ += "\n| key | values | default | meaning |\n|---|---|---|---|\n";
     for (const Field& field : section.fields)
-      row({"`" + field.name + "`", describe_values(field), default_of(field), field.meaning});
+      row({"`" + field.name + "`", describe_values(field), default_of(section, field), field.meaning});
     for (const Alternatives& alternatives : section.alternatives)
       paragraph(std::string(alternatives.is_required ? "Exactly one of " : "At most one of ") +
                 joined(alternatives.names) + ".");
@@ -72,8 +72,10 @@ class Page {
     return text;
   }
 
-  static std::string default_of(const Field& field) {
-    if (field.is_required) return "required";
+  static std::string default_of(const Section& section, const Field& field) {
+    const std::string others = joined(section.instead_of(field.name));
+    if (field.is_required && !field.instead_of.empty()) return "required without `" + field.instead_of + "`";
+    if (field.is_required) return others.empty() ? "required" : "required, or " + others;
     if (!field.fallback.is_null())
       return field.fallback.is_string() ? field.fallback.get<std::string>() : field.fallback.dump();
     return field.fallback_words;

@@ -12,6 +12,7 @@
 #include "scenarios/files.hpp"
 #include "scenarios/format.hpp"
 #include "scenarios/formulas.hpp"
+#include "scenarios/law_values.hpp"
 #include "scenarios/reader.hpp"
 #include "sim/steady_state.hpp"
 
@@ -87,11 +88,17 @@ sim::Excitation excitation(const Json& section) {
   return result;
 }
 
-friction::Law law(const Json& section) {
-  friction::ParameterValues values;
-  for (const auto& [key, value] : section.items())
-    if (key != "law") values.emplace(key, number(value));
-  return friction::find_law(section.at("law").get<std::string>())->make(values);
+std::vector<friction::Law> laws(const Json& section) {
+  const friction::LawEntry* entry = friction::find_law(section.at("law").get<std::string>());
+  return entry->make(law_values(entry->parameters, section));
+}
+
+/// One law, or a list of laws in parallel.
+std::vector<friction::Law> friction_of(const Json& section) {
+  if (!section.is_array()) return laws(section);
+  std::vector<friction::Law> result;
+  for (const Json& item : section) std::ranges::copy(laws(item), std::back_inserter(result));
+  return result;
 }
 
 sim::Model model(const Json& values) {
@@ -99,13 +106,7 @@ sim::Model model(const Json& values) {
   const Json& system = values.at("system");
   result.oscillator = oscillator(system);
   if (values.contains("excitation")) result.excitation = excitation(values.at("excitation"));
-  if (system.contains("friction")) {
-    const Json& friction = system.at("friction");
-    if (friction.is_array())
-      for (const Json& item : friction) result.friction.push_back(law(item));
-    else
-      result.friction.push_back(law(friction));
-  }
+  if (system.contains("friction")) result.friction = friction_of(system.at("friction"));
   if (values.contains("initial"))
     result.initial = {number(values.at("initial").at("position")), number(values.at("initial").at("velocity"))};
   return result;

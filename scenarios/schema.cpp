@@ -137,6 +137,19 @@ Json field_schema(const Field& field) {
   return schema;
 }
 
+/// With the key `name` nothing of the other form; without it, what that form requires.
+Json either_form(const Section& section, const std::string& name) {
+  Json any = Json::array();
+  Json required = Json::array();
+  for (const std::string& other : section.instead_of(name)) {
+    any.push_back({{"required", {other}}});
+    if (section.find(other)->is_required) required.push_back(other);
+  }
+  return {{"if", {{"required", {name}}}},
+          {"then", {{"not", {{"anyOf", std::move(any)}}}}},
+          {"else", {{"required", std::move(required)}}}};
+}
+
 Json object_schema(const Section& section, const Choice* choice, const std::string& variant) {
   Json properties = Json::object();
   Json required = Json::array();
@@ -146,7 +159,8 @@ Json object_schema(const Section& section, const Choice* choice, const std::stri
   }
   for (const Field& field : section.fields) {
     properties[field.name] = field_schema(field);
-    if (field.is_required) required.push_back(field.name);
+    const bool is_of_two_forms = !field.instead_of.empty() || !section.instead_of(field.name).empty();
+    if (field.is_required && !is_of_two_forms) required.push_back(field.name);
   }
   Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = std::move(required);
@@ -157,6 +171,8 @@ Json object_schema(const Section& section, const Choice* choice, const std::stri
     if (!alternatives.is_required) forms.push_back({{"not", {{"anyOf", forms}}}});
     conditions.push_back({{"oneOf", std::move(forms)}});
   }
+  for (const Field& field : section.fields)
+    if (!section.instead_of(field.name).empty()) conditions.push_back(either_form(section, field.name));
   if (!conditions.empty()) schema["allOf"] = std::move(conditions);
   return schema;
 }

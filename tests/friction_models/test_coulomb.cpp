@@ -38,7 +38,7 @@ TEST_CASE("coulomb has the abilities it claims and no others", "[friction][coulo
 TEST_CASE("coulomb's static level defaults to the kinetic one and may not lie below it", "[friction][coulomb]") {
   friction::ParameterValues values = {{"kinetic", 2.0}};
   REQUIRE(friction::complete(Coulomb::parameters(), values).empty());
-  CHECK(values.at("static") == 2.0);
+  CHECK(values.number("static") == 2.0);
   friction::ParameterValues below = {{"kinetic", 2.0}, {"static", 1.999}};
   const auto faults = friction::complete(Coulomb::parameters(), below);
   REQUIRE(faults.size() == 1);

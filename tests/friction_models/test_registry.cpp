@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/units.hpp"
+#include "friction_models/modifiers.hpp"
 
 using namespace dualdamp;
 
@@ -30,35 +31,91 @@ TEST_CASE("every law of the registry is found by its name and says what it is", 
   CHECK(friction::find_law("coulom") == nullptr);
 }
 
+namespace {
+
+/// What a table must keep so that `complete` can go through it from first to last.
+void check_table(const std::vector<friction::Parameter>& table) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const friction::Parameter& parameter = table[i];
+    INFO(parameter.name);
+    CHECK_FALSE(parameter.meaning.empty());
+    if (parameter.kind == friction::ParameterKind::number)
+      CHECK(core::unit_factor("", parameter.unit).value == 1.0);
+    const auto earlier = [&](std::string_view name) {
+      return std::any_of(table.begin(), table.begin() + static_cast<std::ptrdiff_t>(i),
+                         [&](const friction::Parameter& other) { return other.name == name; });
+    };
+    CHECK_FALSE(earlier(parameter.name));
+    for (const std::string_view other : {parameter.same_as, parameter.at_least, parameter.instead_of})
+      if (!other.empty()) CHECK(earlier(other));
+    if (parameter.kind == friction::ParameterKind::choice) CHECK_FALSE(parameter.words.empty());
+    const bool is_record =
+        parameter.kind == friction::ParameterKind::record || parameter.kind == friction::ParameterKind::list;
+    CHECK(is_record != parameter.fields.empty());
+    check_table(parameter.fields);
+  }
+}
+
+/// The smallest values that the table asks for: the lower ends of the ranges and a little more, first words, one
+/// item a list.
+friction::ParameterValues least_values(const std::vector<friction::Parameter>& table) {
+  friction::ParameterValues values;
+  for (const friction::Parameter& parameter : table) {
+    if (!parameter.required() || !parameter.instead_of.empty()) continue;
+    using Kind = friction::ParameterKind;
+    if (parameter.kind == Kind::choice)
+      values.set(parameter.name, std::string(parameter.words.front()));
+    else if (parameter.kind == Kind::flag)
+      values.set(parameter.name, false);
+    else if (!parameter.fields.empty())
+      values.set(parameter.name, std::vector<friction::ParameterValues>{least_values(parameter.fields)});
+    else
+      values.set(parameter.name,
+                 std::max(parameter.allowed_range().low, -1.0) + (parameter.kind == Kind::number ? 0.5 : 1.0));
+  }
+  return values;
+}
+
+}  // namespace
+
 TEST_CASE("every parameter has a unit that is read, a meaning and references to earlier ones",
           "[friction][registry]") {
   for (const friction::LawEntry& entry : friction::laws()) {
-    for (std::size_t i = 0; i < entry.parameters.size(); ++i) {
-      const friction::Parameter& parameter = entry.parameters[i];
-      INFO(entry.name << ": " << parameter.name);
-      CHECK_FALSE(parameter.meaning.empty());
-      CHECK(core::unit_factor("", parameter.unit).value == 1.0);
-      const auto earlier = [&](std::string_view name) {
-        return std::any_of(entry.parameters.begin(), entry.parameters.begin() + static_cast<std::ptrdiff_t>(i),
-                           [&](const friction::Parameter& other) { return other.name == name; });
-      };
-      if (!parameter.same_as.empty()) CHECK(earlier(parameter.same_as));
-      if (!parameter.at_least.empty()) CHECK(earlier(parameter.at_least));
-      if (parameter.fallback) CHECK(parameter.range.contains(*parameter.fallback));
-    }
+    INFO(entry.name);
+    check_table(entry.parameters);
   }
+  check_table(friction::modifier_parameters());
 }
 
 TEST_CASE("an exact law is affine", "[friction][registry]") {
   for (const friction::LawEntry& entry : friction::laws()) {
     if (entry.engine != friction::EngineKind::exact) continue;
     INFO(entry.name);
-    // One within every range: the fallback, or the lower end and a little more.
-    friction::ParameterValues values;
-    for (const friction::Parameter& parameter : entry.parameters) {
-      if (parameter.required()) values.emplace(parameter.name, std::max(parameter.range.low, -1.0) + 0.5);
-    }
+    friction::ParameterValues values = least_values(entry.parameters);
     if (!friction::complete(entry.parameters, values).empty()) continue;
-    CHECK(entry.make(values).is_affine());
+    const std::vector<friction::Law> laws = entry.make(values);
+    CHECK_FALSE(laws.empty());
+    for (const friction::Law& law : laws) CHECK(law.is_affine());
   }
+}
+
+TEST_CASE("a law has the modifiers it names, after its own parameters", "[friction][registry]") {
+  const std::vector<friction::Parameter> own = {{.name = "level", .unit = "N", .meaning = "level"}};
+  const auto table = friction::with_modifiers(own, {"fluctuation", "drift"});
+  REQUIRE(table.size() == 3);
+  CHECK(table[0].name == "level");
+  CHECK(table[1].name == "drift");
+  CHECK(table[2].name == "fluctuation");
+
+  friction::ParameterValues plain = {{"level", 1.0}};
+  CHECK(friction::complete(table, plain).empty());
+  CHECK_FALSE(plain.has("drift"));
+  using Records = std::vector<friction::ParameterValues>;
+  friction::ParameterValues modified = {
+      {"level", 1.0},
+      {"drift", -0.5},
+      {"fluctuation", Records{{{"ratio", 0.1}, {"correlation_time", 2.0}, {"seed", 7.0}}}}};
+  CHECK(friction::complete(table, modified).empty());
+  friction::ParameterValues other = {{"level", 1.0}, {"position_slope", 1.0}};
+  CHECK(friction::complete(table, other).size() == 1);
 }

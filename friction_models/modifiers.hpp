@@ -1,0 +1,24 @@
+#pragma once
+/// Modifiers: what may happen to the force limits of a law beside its own equation. A law entry names those that it
+/// supports; they stand among its parameters.
+///
+///   drift           limits multiplied by max(0, 1 + drift t)
+///   position_slope  limits plus position_slope |x|, at least 0
+///   fluctuation     limits multiplied by max(0, 1 + ratio n(t)), n a stationary Ornstein-Uhlenbeck process of
+///                   variance 1 and correlation exp(-|t|/correlation_time), held on a time grid
+
+#include <string_view>
+#include <vector>
+
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+/// All of them, each optional: absent, it does nothing.
+[[nodiscard]] const std::vector<Parameter>& modifier_parameters();
+
+/// A law's own parameters, then the modifiers named.
+[[nodiscard]] std::vector<Parameter> with_modifiers(std::vector<Parameter> own,
+                                                    const std::vector<std::string_view>& modifiers);
+
+}  // namespace dualdamp::friction
