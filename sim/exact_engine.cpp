@@ -404,6 +404,16 @@ void ExactEngine::lay_phase() {
   add_law_guards();
 }
 
+/// The germ of the velocity in a slip that begins at v = 0. Rest or slip was decided by the sum of forces, known to
+/// `rounding` of its parts; the acceleration is that sum again, and may not overrule the decision within rounding.
+core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) const {
+  const double push = friction::sign(direction_) * pull_now();
+  const double error = rounding * force_scale_;
+  if (push > 0.5 * error) return {1, 1};
+  if (push < -4.0 * error) return {-1, 1};
+  return core::germ(mode_->basis(), guard, tolerance, 2);
+}
+
 /// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
 bool ExactEngine::find_violated() {
   const core::ExponentialBasis& basis = mode_->basis();
@@ -411,12 +421,8 @@ bool ExactEngine::find_violated() {
     core::Guard& guard = guards_[i];
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owners_[i].tolerance) continue;
     const bool from_rest = owners_[i].kind == Owner::Kind::velocity && v_ == 0.0;
-    const double slope = core::at_start(basis, guard.slope);
-    if (from_rest && slope > clearly * guard.amplitude * basis.fastest() + owners_[i].tolerance * basis.fastest()) {
-      guard.known_zeros = 1;
-      continue;
-    }
-    const core::Germ germ = core::germ(basis, guard, owners_[i].tolerance, from_rest ? 1 : 0);
+    const core::Germ germ =
+        from_rest ? slip_germ(guard, owners_[i].tolerance) : core::germ(basis, guard, owners_[i].tolerance);
     if (germ.sign < 0) {
       crossing_.found = true;
       crossing_.guard = static_cast<int>(i);

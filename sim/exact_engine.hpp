@@ -117,6 +117,7 @@ class ExactEngine {
   void lay_slip();
   void add_law_guards();
   core::Guard& new_guard(const Owner& owner);
+  [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
   bool find_violated();
   void settle();
   friction::Direction settle_closely(double tolerance);
