@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "friction_models/bristle.hpp"
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
+#include "friction_models/iwan.hpp"
 #include "friction_models/modifiers.hpp"
+#include "friction_models/reset_integrator.hpp"
 
 namespace dualdamp::friction {
 
@@ -14,6 +17,17 @@ using Values = ParameterValues;
 
 std::vector<LawEntry> make_list() {
   return {
+      {.name = "bristle",
+       .summary = "bonds that stretch, snap and form anew at random (Haessig and Friedland)",
+       .equation = "F = sum of stiffness (x - b);  at |x - b| = snap_distance: b = x + snap_distance U(-1, 1)",
+       .states = "place of each bristle",
+       .is_random = true,
+       .sources = "haessig1991",
+       .parameters = Bristle::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         return {Law(Bristle(p.number("stiffness"), p.number("snap_distance"), static_cast<int>(p.count("count")),
+                             p.seed("seed")))};
+       }},
       {.name = "contact_compliance",
        .summary = "Coulomb slider behind a contact spring, which may be damped",
        .equation =
@@ -32,6 +46,24 @@ std::vector<LawEntry> make_list() {
        .parameters = Coulomb::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
          return {Law(Coulomb(p.number("kinetic"), p.number("static")))};
+       }},
+      {.name = "iwan",
+       .summary = "springs with Coulomb sliders in parallel, which slide one after the other",
+       .equation = "F = sum of stiffness (x - a) over stuck elements, of +-limit over sliding ones",
+       .states = "turning points that are remembered",
+       .sources = "iwan1966, masing1926",
+       .parameters = Iwan::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> { return {Law(Iwan(Iwan::elements(p)))}; }},
+      {.name = "reset_integrator",
+       .summary = "bond that stretches, breaks and is dragged along (Haessig and Friedland)",
+       .equation = "stick: z' = v, F = (1 + static_gain) stiffness z + damping v, |z| < z0 = kinetic/stiffness;  "
+                   "slip: F = +-kinetic",
+       .states = "other end of the bond",
+       .sources = "haessig1991",
+       .parameters = ResetIntegrator::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         return {Law(ResetIntegrator(p.number("kinetic"), p.number("stiffness"), p.number("static_gain"),
+                                     p.number("damping")))};
        }},
   };
 }

@@ -20,6 +20,7 @@ inline sim::Model standard_system(const friction::Law& law) {
 
 struct SettledMotion {
   double peak = 0.0;           ///< m
+  double trough = 0.0;         ///< m
   double friction_work = 0.0;  ///< J per period
 };
 
@@ -34,8 +35,9 @@ inline SettledMotion settled_motion(const friction::Law& law) {
   SettledMotion motion;
   motion.friction_work = after.energy.friction - before.energy.friction;
   for (const sim::Event& event : after.events) {
-    if (event.t > 60.0 * period && event.kind == sim::EventKind::reversal)
-      motion.peak = std::max(motion.peak, event.x);
+    if (event.t < 60.0 * period || event.kind != sim::EventKind::reversal) continue;
+    motion.peak = std::max(motion.peak, event.x);
+    motion.trough = std::min(motion.trough, event.x);
   }
   return motion;
 }

@@ -1,0 +1,72 @@
+#include "friction_models/bristle.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& Bristle::parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "stiffness",
+       .unit = "N/m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stiffness of one bristle"},
+      {.name = "snap_distance",
+       .unit = "m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stretch at which a bristle snaps"},
+      {.name = "count",
+       .kind = ParameterKind::count,
+       .range = {.low = 1.0, .high = 10'000.0},
+       .meaning = "number of bristles"},
+      {.name = "seed", .kind = ParameterKind::seed, .meaning = "which of the random paths"},
+  };
+  return table;
+}
+
+bool Bristle::has_length(const Instant& now) const {
+  const Affine limit = now.limit(snap_distance_);
+  return limit.constant != 0.0 || limit.rate != 0.0;
+}
+
+double Bristle::draw_place(Memory& memory, const Instant& now) const {
+  const auto number = static_cast<std::uint64_t>(memory.indices[0]++);
+  return now.x + now.limit_now(snap_distance_) * (2.0 * draws_.uniform(number) - 1.0);
+}
+
+Memory Bristle::start(const Instant& now) const {
+  Memory memory{.indices = {0}};
+  for (int i = 0; i < count_; ++i) memory.state.push_back(draw_place(memory, now));
+  std::ranges::sort(memory.state);
+  return memory;
+}
+
+Affine Bristle::affine_force(const Memory& memory, const Instant& now, Direction) const {
+  if (!has_length(now)) return {};
+  const double places = std::accumulate(memory.state.begin(), memory.state.end(), 0.0);
+  return {.constant = -stiffness_ * places, .position = stiffness_ * count_};
+}
+
+void Bristle::affine_guards(const Memory& memory, const Instant& now, Direction,
+                            std::vector<Affine>& guards) const {
+  if (!has_length(now)) return;
+  const Affine limit = now.limit(snap_distance_);
+  guards.push_back(limit - Affine{.constant = -memory.state.front(), .position = 1.0});
+  guards.push_back(limit + Affine{.constant = -memory.state.back(), .position = 1.0});
+}
+
+void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
+  std::vector<double>& places = memory.state;
+  if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(places, now.x);
+  if (trigger.cause < 0) return;
+  // After a fall of the limit many are beyond it: all of this side snap together.
+  const double limit = now.limit_now(snap_distance_);
+  const bool rear = trigger.cause == 0;
+  do {
+    const double place = draw_place(memory, now);
+    places.erase(rear ? places.begin() : places.end() - 1);
+    places.insert(std::ranges::lower_bound(places, place), place);
+  } while (rear ? now.x - places.front() >= limit : places.back() - now.x >= limit);
+}
+
+}  // namespace dualdamp::friction

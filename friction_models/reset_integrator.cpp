@@ -1,0 +1,67 @@
+#include "friction_models/reset_integrator.hpp"
+
+#include "friction_models/slider.hpp"
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& ResetIntegrator::parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "kinetic", .unit = "N", .range = {.low = 0.0}, .meaning = "friction force while slipping"},
+      {.name = "stiffness",
+       .unit = "N/m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stiffness of the bond without its static gain"},
+      {.name = "static_gain",
+       .unit = "1",
+       .fallback = 0.0,
+       .range = {.low = 0.0},
+       .meaning = "the bond breaks at (1 + static_gain) kinetic"},
+      {.name = "damping",
+       .unit = "N.s/m",
+       .fallback = 0.0,
+       .range = {.low = 0.0},
+       .meaning = "damper that acts in stick only"},
+  };
+  return table;
+}
+
+Affine ResetIntegrator::affine_force(const Memory& memory, const Instant& now, Direction) const {
+  if (memory.mode != 0) return memory.mode * now.limit(kinetic_);
+  const double bond = (1.0 + static_gain_) * stiffness_;
+  return {.constant = -bond * memory.state[0], .position = bond, .velocity = damping_};
+}
+
+void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Direction,
+                                    std::vector<Affine>& guards) const {
+  const Affine limit = now.limit(kinetic_);
+  if (memory.mode == 0) {
+    const Affine stretched{.constant = -stiffness_ * memory.state[0], .position = stiffness_};
+    guards.push_back(limit - stretched);
+    guards.push_back(limit + stretched);
+  } else if (limit.rate != 0.0) {
+    guards.push_back(dragged_speed(limit, memory.mode, stiffness_));
+  }
+}
+
+void ResetIntegrator::hold(Memory& memory, const Instant& now) const {
+  memory.state = {now.x - memory.mode * now.limit_now(kinetic_) / stiffness_};
+  memory.mode = 0;
+}
+
+void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
+  const bool slips = memory.mode != 0;
+  switch (trigger.cause) {
+    case Trigger::direction_change:
+      // Under a varying limit the bond's end stops at a guard of its own.
+      if (slips && now.limit(kinetic_).rate == 0.0 && sign(direction) != memory.mode) hold(memory, now);
+      return;
+    case Trigger::limit_change:
+      if (slips) hold(memory, now);
+      return;
+    default:
+      if (slips) return hold(memory, now);
+      memory = {.mode = trigger.cause == 0 ? 1 : -1};
+  }
+}
+
+}  // namespace dualdamp::friction
