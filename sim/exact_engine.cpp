@@ -60,8 +60,8 @@ class ExactEngine::PhaseInterval final : public Interval {
       sample.force = o.stiffness * (drive.y - sample.x) + damper + drive.external;
       return sample;
     }
-    sample.v = core::evaluate(basis, engine_.velocity_, values);
-    sample.a = core::evaluate(basis, engine_.acceleration_, values);
+    sample.v = core::evaluate(basis, engine_.speed(), values) * friction::sign(direction);
+    sample.a = core::evaluate(basis, engine_.speed_rate(), values) * friction::sign(direction);
     sample.force = force.constant + force.rate * s + force.position * sample.x + force.velocity * sample.v;
     for (std::size_t i = 0; i < decays.size(); ++i) sample.force += transients[i] * std::exp(-decays[i] * s);
     return sample;
@@ -159,12 +159,16 @@ double ExactEngine::time() const {
 /// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold
 /// the mass and the forces of the others; and the guards.
 void ExactEngine::collect(bool with_guards) {
+  total_ = &totals_[static_cast<std::size_t>(static_cast<int>(direction_) + 1)];
+  // Laws without modes do the same each time in one direction.
+  if (total_->lasting) return;
+  total_->lasting = !some_modal_;
   const friction::Instant at = now();
   const bool resting = direction_ == Direction::rest;
-  total_.force = total_.limit = {};
-  total_.ramped = drive_.ramped();
-  total_.transients.clear();
-  total_.decays.clear();
+  total_->force = total_->limit = {};
+  total_->ramped = drive_.ramped();
+  total_->transients.clear();
+  total_->decays.clear();
   law_guards_.clear();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     const friction::Law& law = model_.friction[i];
@@ -179,76 +183,76 @@ void ExactEngine::collect(bool with_guards) {
     law_guard_counts_[i] = law_guards_.size() - before;
   }
   for (const Affine& guard : law_guards_) {
-    total_.ramped = total_.ramped || guard.rate != 0.0;
+    total_->ramped = total_->ramped || guard.rate != 0.0;
     if (guard.transient != 0.0) add_transient(0.0, guard.decay);
   }
 }
 
 void ExactEngine::add_force(const Affine& part) {
-  total_.force.constant += part.constant;
-  total_.force.rate += part.rate;
-  total_.force.position += part.position;
-  total_.force.velocity += part.velocity;
-  total_.ramped = total_.ramped || part.rate != 0.0;
+  total_->force.constant += part.constant;
+  total_->force.rate += part.rate;
+  total_->force.position += part.position;
+  total_->force.velocity += part.velocity;
+  total_->ramped = total_->ramped || part.rate != 0.0;
   if (part.transient != 0.0) add_transient(part.transient, part.decay);
 }
 
 void ExactEngine::add_limit(const Affine& part) {
   assert(part.transient == 0.0);
-  total_.limit.constant += part.constant + part.position * x_;
-  total_.limit.rate += part.rate;
-  total_.ramped = total_.ramped || part.rate != 0.0;
+  total_->limit.constant += part.constant + part.position * x_;
+  total_->limit.rate += part.rate;
+  total_->ramped = total_->ramped || part.rate != 0.0;
 }
 
 void ExactEngine::add_transient(double size, double decay) {
-  const auto known = std::find(total_.decays.begin(), total_.decays.end(), decay);
-  if (known != total_.decays.end()) {
-    total_.transients[static_cast<std::size_t>(known - total_.decays.begin())] += size;
+  const auto known = std::find(total_->decays.begin(), total_->decays.end(), decay);
+  if (known != total_->decays.end()) {
+    total_->transients[static_cast<std::size_t>(known - total_->decays.begin())] += size;
     return;
   }
-  total_.transients.push_back(size);
-  total_.decays.push_back(decay);
+  total_->transients.push_back(size);
+  total_->decays.push_back(decay);
 }
 
 const LinearMode& ExactEngine::mode_for(double damping, double stiffness) {
   const auto fits = [&](const LinearMode& mode) {
-    return mode.damping() == damping && mode.stiffness() == stiffness && mode.ramped() == total_.ramped &&
-           mode.decays() == total_.decays;
+    return mode.damping() == damping && mode.stiffness() == stiffness && mode.ramped() == total_->ramped &&
+           mode.decays() == total_->decays;
   };
   if (mode_ != nullptr && fits(*mode_)) return *mode_;
   key_.damping = damping;
   key_.stiffness = stiffness;
-  key_.ramped = total_.ramped;
-  key_.decays = total_.decays;
+  key_.ramped = total_->ramped;
+  key_.decays = total_->decays;
   const auto known = modes_.find(key_);
   if (known != modes_.end()) return known->second;
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& entry) { return &entry.second != mode_; });
   return modes_
-      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_.ramped,
-                   total_.decays)
+      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_->ramped,
+                   total_->decays)
       .first->second;
 }
 
 /// forcing_ = drive + extra - the laws' parts that do not move with the mass.
 void ExactEngine::load_forcing(double extra_constant) {
-  forcing_.constant = drive_.force_constant() - total_.force.constant + extra_constant;
-  forcing_.ramp = drive_.force_ramp() - total_.force.rate;
+  forcing_.constant = drive_.force_constant() - total_->force.constant + extra_constant;
+  forcing_.ramp = drive_.force_ramp() - total_->force.rate;
   for (std::size_t j = 0; j < forcing_.phasors.size(); ++j) forcing_.phasors[j] = drive_.force_phasor(j);
-  forcing_.transients.resize(total_.transients.size());
-  for (std::size_t j = 0; j < total_.transients.size(); ++j) forcing_.transients[j] = -total_.transients[j];
+  forcing_.transients.resize(total_->transients.size());
+  for (std::size_t j = 0; j < total_->transients.size(); ++j) forcing_.transients[j] = -total_->transients[j];
 }
 
 double ExactEngine::force_scale() const {
-  return drive_.force_scale() + std::abs(total_.force.constant) +
-         (model_.oscillator.stiffness + std::abs(total_.force.position)) * std::abs(x_);
+  return drive_.force_scale() + std::abs(total_->force.constant) +
+         (model_.oscillator.stiffness + std::abs(total_->force.position)) * std::abs(x_);
 }
 
 /// All forces on the mass at rest here, except those of laws that hold it, as a function of time.
 const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
   const Oscillator& o = model_.oscillator;
-  const double stiffness = o.stiffness + total_.force.position;
-  const LinearMode& mode = mode_for(o.damping + total_.force.velocity, stiffness);
+  const double stiffness = o.stiffness + total_->force.position;
+  const LinearMode& mode = mode_for(o.damping + total_->force.velocity, stiffness);
   load_forcing(-stiffness * x_);
   mode.represent(forcing_, pull);
   return mode;
@@ -258,17 +262,17 @@ const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
 void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFunction& guard) const {
   const core::ExponentialBasis& basis = mode_->basis();
   ModeFunction level;
-  mode_->represent({.constant = total_.limit.constant, .ramp = total_.limit.rate}, level);
+  mode_->represent({.constant = total_->limit.constant, .ramp = total_->limit.rate}, level);
   core::assign(basis, -direction, pull, guard);
   core::accumulate(basis, 1.0, level, guard);
 }
 
 /// The pull at this instant; total_ holds the laws that do not hold the mass.
 double ExactEngine::pull_now() const {
-  double pull =
-      drive_.force_constant() - total_.force.constant - (model_.oscillator.stiffness + total_.force.position) * x_;
+  double pull = drive_.force_constant() - total_->force.constant -
+                (model_.oscillator.stiffness + total_->force.position) * x_;
   for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) pull += drive_.force_phasor(j).real();
-  for (const double transient : total_.transients) pull -= transient;
+  for (const double transient : total_->transients) pull -= transient;
   return pull;
 }
 
@@ -277,7 +281,7 @@ void ExactEngine::settle() {
   change_direction(Direction::rest);
   collect(false);
   const double pull = pull_now();
-  const double level = total_.limit.constant;
+  const double level = total_->limit.constant;
   const double scale = force_scale() + level;
   Direction direction = pull > 0.0 ? Direction::forward : Direction::backward;
   if (std::abs(pull) < level - clearly * scale) {
@@ -332,12 +336,10 @@ void ExactEngine::lay_rest() {
   mode_ = &pull_on_mode(pull);
   const core::ExponentialBasis& basis = mode_->basis();
   core::clear(basis, motion_);
-  core::clear(basis, velocity_);
-  core::clear(basis, acceleration_);
   mode_->represent({.constant = x_}, motion_);
   force_scale_ = force_scale();
   if (!can_rest_) return;
-  const double stiffness = model_.oscillator.stiffness + total_.force.position;
+  const double stiffness = model_.oscillator.stiffness + total_->force.position;
   for (const int direction : {1, -1}) {
     core::Guard& guard = new_guard({.kind = Owner::Kind::limit,
                                     .law = direction,
@@ -350,20 +352,19 @@ void ExactEngine::lay_rest() {
 
 void ExactEngine::lay_slip() {
   const Oscillator& o = model_.oscillator;
-  mode_ = &mode_for(o.damping + total_.force.velocity, o.stiffness + total_.force.position);
+  mode_ = &mode_for(o.damping + total_->force.velocity, o.stiffness + total_->force.position);
   load_forcing(0.0);
   const core::ExponentialBasis& basis = mode_->basis();
   mode_->solve(forcing_, x_, v_, motion_);
-  core::differentiate(basis, motion_, velocity_);
-  core::differentiate(basis, velocity_, acceleration_);
   force_scale_ = force_scale();
   const double sign = friction::sign(direction_);
   // Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
   core::Guard& guard = new_guard({.kind = Owner::Kind::velocity,
                                   .by_velocity = sign,
                                   .tolerance = rounding * force_scale_ / o.mass / basis.fastest()});
-  core::assign(basis, sign, velocity_, guard.value);
-  core::assign(basis, sign, acceleration_, guard.slope);
+  core::differentiate(basis, motion_, guard.value);
+  if (sign < 0.0) core::assign(basis, -1.0, guard.value, guard.value);
+  core::differentiate(basis, guard.value, guard.slope);
   core::prepare_with_slope(basis, guard);
 }
 
@@ -387,7 +388,8 @@ void ExactEngine::add_law_guards() {
       }
       mode_->represent(own, guard.value);
       core::accumulate(basis, g.position, motion_, guard.value);
-      core::accumulate(basis, g.velocity, velocity_, guard.value);
+      if (direction_ != Direction::rest)
+        core::accumulate(basis, g.velocity * friction::sign(direction_), speed(), guard.value);
       core::prepare(basis, guard);
     }
   }
@@ -443,7 +445,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
     const bool turns =
         crossing_.found && owners_[static_cast<std::size_t>(crossing_.guard)].kind == Owner::Kind::velocity;
-    v_ = turns ? 0.0 : core::evaluate(basis, velocity_, crossing_.values);
+    v_ = turns ? 0.0 : friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
   }
   local_time_ += s;
   if (to_period_end || local_time_ >= drive_.period()) {
@@ -494,13 +496,16 @@ void ExactEngine::act_on_schedule(double due) {
   if (direction_ == Direction::rest) settle();
 }
 
+double ExactEngine::start_acceleration() const {
+  if (direction_ == Direction::rest) return 0.0;
+  return friction::sign(direction_) * core::at_start(mode_->basis(), speed_rate());
+}
+
 /// Once the phase is laid: perturbations left at a crossing come back to the common time, unless the next event
 /// follows at once.
 void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
-  if (!at_once)
-    sensitivity_.leave(core::at_start(mode_->basis(), acceleration_), model_.friction, memories_, begin,
-                       direction_);
-  sensitivity_.lay(model_.friction, memories_, begin, direction_, holds_mass_, total_.decays);
+  if (!at_once) sensitivity_.leave(start_acceleration(), model_.friction, memories_, begin, direction_);
+  sensitivity_.lay(model_.friction, memories_, begin, direction_, holds_mass_, total_->decays);
   if (sensitivity_.has_states()) memories_before_ = memories_;
 }
 
@@ -510,13 +515,13 @@ void ExactEngine::track_motion(const friction::Instant& begin, double s) {
     sensitivity_.rest();
   } else {
     responses_.clear();
-    for (std::size_t j = 0; sensitivity_.has_states() && j <= total_.decays.size(); ++j)
+    for (std::size_t j = 0; sensitivity_.has_states() && j <= total_->decays.size(); ++j)
       responses_.push_back(mode_->response(j, crossing_.values));
     sensitivity_.slip(mode_->propagator(crossing_.values), responses_);
   }
   if (!crossing_.found || sensitivity_.at_crossing()) return;
   const Owner& owner = owners_[static_cast<std::size_t>(crossing_.guard)];
-  if (owner.kind == Owner::Kind::limit) sensitivity_.perturb_limit(-owner.law, total_.decays, s);
+  if (owner.kind == Owner::Kind::limit) sensitivity_.perturb_limit(-owner.law, total_->decays, s);
   if (owner.kind == Owner::Kind::law) {
     sensitivity_.perturb_guard(model_.friction, memories_, begin, direction_, static_cast<std::size_t>(owner.law),
                                static_cast<std::size_t>(owner.guard), s);
@@ -531,8 +536,12 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
       sensitivity_.advance(law, i, memories_before_[i], memories_[i], begin, now(), s, direction_);
   }
   if (!event || sensitivity_.at_crossing()) return;
-  Sensitivity::Event crossing{.velocity = v_,
-                              .acceleration = core::evaluate(mode_->basis(), acceleration_, crossing_.values)};
+  Sensitivity::Event crossing{
+      .velocity = v_,
+      .acceleration =
+          direction_ == Direction::rest
+              ? 0.0
+              : friction::sign(direction_) * core::evaluate(mode_->basis(), speed_rate(), crossing_.values)};
   if (crossing_.found) {
     const Owner& owner = owners_[static_cast<std::size_t>(crossing_.guard)];
     const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
@@ -593,9 +602,9 @@ void ExactEngine::describe_phase(double begin) {
   interval_->begin = begin;
   interval_->duration = crossing_.s;
   interval_->direction = direction_;
-  interval_->force = total_.force;
-  if (!total_.decays.empty()) interval_->transients = total_.transients;
-  if (!total_.decays.empty() || !interval_->decays.empty()) interval_->decays = total_.decays;
+  interval_->force = total_->force;
+  if (!total_->decays.empty()) interval_->transients = total_->transients;
+  if (!total_->decays.empty() || !interval_->decays.empty()) interval_->decays = total_->decays;
   interval_->ending.reset();
 }
 

@@ -14,6 +14,7 @@
 /// after the first period.
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -96,6 +97,7 @@ class ExactEngine {
   struct Total {
     friction::Affine force;  ///< without its transient
     friction::Affine limit;  ///< of static friction, at rest only
+    bool lasting = false;    ///< need not be asked for again
     bool ramped = false;     ///< something grows with time: modes without that element are cheaper
     std::vector<double> transients;
     std::vector<double> decays;
@@ -103,6 +105,10 @@ class ExactEngine {
   class PhaseInterval;
 
   [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
+  /// Speed and its rate in a slip, as the first guard has them: velocity and acceleration times the direction.
+  [[nodiscard]] const core::ModeFunction& speed() const { return guards_.front().value; }
+  [[nodiscard]] const core::ModeFunction& speed_rate() const { return guards_.front().slope; }
+  [[nodiscard]] double start_acceleration() const;
   void place(double x, double v);
   void collect(bool with_guards);
   void add_force(const friction::Affine& part);
@@ -155,11 +161,10 @@ class ExactEngine {
   ModeKey key_;
   const LinearMode* mode_ = nullptr;  ///< of the present phase
   ModeForcing forcing_;
-  Total total_;
+  std::array<Total, 3> totals_;    ///< by direction
+  Total* total_ = totals_.data();  ///< of the present phase
   double force_scale_ = 0.0;
   core::ModeFunction motion_;
-  core::ModeFunction velocity_;
-  core::ModeFunction acceleration_;
   std::vector<core::Guard> guards_;
   std::vector<Owner> owners_;
   std::size_t guard_count_ = 0;
