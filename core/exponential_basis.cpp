@@ -184,14 +184,14 @@ double bound(const ExponentialBasis& basis, const ModeFunction& f, const Exponen
   double sum = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    element[i] = std::abs(values.re[i]) + std::abs(values.im[i]);
+    element[i] = modulus_bound(values.re[i], values.im[i]);
     if (basis.parent(k) != ExponentialBasis::no_parent) {
       const double parent_bound = element[static_cast<std::size_t>(basis.parent(k))];
       element[i] = chain_bound(basis, k, element[i], parent_bound, begin, width);
     } else if (basis.growth(k) > 0.0) {
       element[i] *= std::exp(basis.growth(k) * width);
     }
-    const double size = std::abs(f.re[i]) + std::abs(f.im[i]);
+    const double size = modulus_bound(f.re[i], f.im[i]);
     if (size > 0.0) sum += size * element[i];
   }
   return sum;

@@ -14,8 +14,6 @@ constexpr int max_depth = 60;
 /// Near a known zero the guard is its Taylor series: 0.5^18/18! of its scale is left out.
 constexpr double taylor_angle = 0.5;
 constexpr int taylor_terms = 18;
-/// Contacts closer than this part of a panel are one.
-constexpr double contact_part = 1e-3;
 /// A guard that has decayed to this has no zero any more.
 constexpr double vanished = 1e-280;
 
@@ -27,6 +25,9 @@ struct Jet {
   double curvature = 0.0;
   int zeros = 0;  ///< known order of the zero here
 };
+
+/// A touched point, where the certificate hands over: the guard counts as positive on both sides of it.
+Jet handed_over(const Jet& touched) { return {touched.s, 0.0, 0.0, std::max(touched.curvature, 0.0), 2}; }
 
 /// Halley's step to a root of the guard [s].
 double halley(const Jet& j) { return 2.0 * j.value * j.slope / (2.0 * j.slope * j.slope - j.value * j.curvature); }
@@ -70,11 +71,9 @@ struct Bernstein {
     return least;
   }
 
-  /// Bound of |L| on the panel.
-  [[nodiscard]] double largest() const {
-    double bound = 0.0;
-    for (const double coefficient : b) bound = std::max(bound, std::abs(coefficient));
-    return bound;
+  [[nodiscard]] bool within(double low, double high) const {
+    return std::all_of(b.begin(), b.end(),
+                       [=](double coefficient) { return low <= coefficient && coefficient <= high; });
   }
 
   /// Descartes: the roots in (0, 1) are at most the sign changes, and as many modulo two. Zeros are skipped.
@@ -128,16 +127,29 @@ class PanelSearch {
 
   /// Rounding allowance of the value at s: 16 eps of the amplitudes and what the phases lose, less where a known
   /// zero is factored out.
-  [[nodiscard]] double slack(double s) const {
-    double allowance = (graze + epsilon * basis_.turning() * s) * amplitude_;
+  [[nodiscard]] double slack(double s) const { return slack(s, amplitude_); }
+  [[nodiscard]] double slack(double s, double amplitude) const {
+    double allowance = (graze + epsilon * basis_.turning() * s) * amplitude;
     const double angle = s * basis_.fastest();
     for (int i = 0; i < guard_.known_zeros && angle < 1.0; ++i) allowance *= angle;
     return allowance;
   }
 
+  /// The same from the amplitudes at s alone, which decides what is a contact; costs an evaluation.
+  [[nodiscard]] double rounding(double s) const {
+    ExponentialBasis::Values values;
+    const bool factored = guard_.known_zeros > 0 && s * basis_.fastest() < 1.0;
+    const double there = factored && basis_.fastest() > 0.0 ? 1.0 / basis_.fastest() : s;
+    basis_.evaluate(there, values);
+    return slack(s, bound(basis_, guard_.value, values, there, 0.0));
+  }
+  /// Whether a jet's value is rounding.
+  [[nodiscard]] bool touches(const Jet& j) const {
+    return std::abs(j.value) <= slack(j.s) && std::abs(j.value) <= rounding(j.s);
+  }
+
   /// Bounds for the panel [a, a + h] from the values of the basis at a.
   void bound_panel(double a, double h, const ExponentialBasis::Values& values) {
-    contact_ = contact_part * h;
     if (basis_.even()) {
       sixth_ = guard_.sixth_bound;
       curvature_ = guard_.curvature_bound;
@@ -160,9 +172,27 @@ class PanelSearch {
            std::isfinite(end.curvature);
   }
 
-  /// Where the guard's contact with zero begins that ends in a crossing at `root`.
-  [[nodiscard]] double contact_begin(double root) const { return root - contact_; }
-
+  /// Whether contacts with zero at s < t are one: between them the guard does not clearly stand out of rounding.
+  [[nodiscard]] bool same_contact(double s, double t) {
+    for (const double part : {0.5, 0.25, 0.75}) {
+      const double between = s + part * (t - s);
+      if (std::abs(jet(between).value) > 1.5 * rounding(between)) return false;
+    }
+    return true;
+  }
+  void record_grazing(double s) {
+    if (rounding(s) <= graze * vanished) return;
+    const bool known =
+        !grazings_.empty() && grazings_.back().guard == index_ && same_contact(grazings_.back().s, s);
+    if (!known) grazings_.push_back({index_, s});
+  }
+  /// The contact of which a crossing is the end is not a grazing of its own.
+  void drop_contact(double root, std::ptrdiff_t earlier) {
+    while (std::ssize(grazings_) > earlier && grazings_.back().guard == index_ &&
+           same_contact(grazings_.back().s, root)) {
+      grazings_.pop_back();
+    }
+  }
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
   /// The elements at the root last returned.
@@ -185,8 +215,8 @@ class PanelSearch {
       sixth_ = curvature_ = amplitude_ = 0.0;
       for (int k = 0; k < basis_.size(); ++k) {
         const auto i = static_cast<std::size_t>(k);
-        const double modulus = (std::abs(guard_.value.re[i]) + std::abs(guard_.value.im[i])) *
-                               (std::abs(values.re[i]) + std::abs(values.im[i]));
+        const double modulus =
+            modulus_bound(guard_.value.re[i], guard_.value.im[i]) * modulus_bound(values.re[i], values.im[i]);
         const double square = basis_.square(k);
         amplitude_ += modulus;
         curvature_ += modulus * square;
@@ -197,11 +227,6 @@ class PanelSearch {
     sixth_ = bound(basis_, guard_.sixth, values, a, h);
     curvature_ = bound(basis_, guard_.curvature, values, a, h);
     amplitude_ = bound(basis_, guard_.value, values, a, h);
-  }
-  void record_grazing(double s) {
-    const bool known =
-        !grazings_.empty() && grazings_.back().guard == index_ && std::abs(grazings_.back().s - s) < contact_;
-    if (!known) grazings_.push_back({index_, s});
   }
   [[nodiscard]] double sign_change(double low, double high);
   [[nodiscard]] Jet taylor_jet(double s);
@@ -219,7 +244,6 @@ class PanelSearch {
   double sixth_ = 0.0;
   double curvature_ = 0.0;
   double amplitude_ = 0.0;
-  double contact_ = 0.0;
   std::array<double, taylor_terms> taylor_;
   bool has_taylor_ = false;
   double polished_ = -1.0;
@@ -363,11 +387,13 @@ Jet PanelSearch::split_point(const Jet& a, const Jet& b) {
   Jet j;
   if (b.value > 0.0 && a.slope < 0.0 && b.slope > 0.0) {
     j = minimum(a, b);
-    if (j.s > a.s && j.s < b.s) return j;
+    // A minimum well above zero beside an end would leave the panel as it was.
+    const double margin = j.value > 0.0 && !touches(j) ? 0.05 * (b.s - a.s) : 0.0;
+    if (j.s > a.s + margin && j.s < b.s - margin) return j;
   }
   for (const double part : {0.5, 0.43, 0.61}) {
     j = jet(a.s + part * (b.s - a.s));
-    if (std::abs(j.value) > slack(j.s)) break;
+    if (!touches(j)) break;
   }
   return j;
 }
@@ -375,17 +401,9 @@ Jet PanelSearch::split_point(const Jet& a, const Jet& b) {
 double PanelSearch::split(const Jet& a, const Jet& b, int depth) {
   ++count_.splits;
   Jet middle = split_point(a, b);
-  if (std::abs(middle.value) <= slack(middle.s)) narrow(middle.s, middle.s);
-  if (amplitude_ < vanished) {
-    narrow(a.s, middle.s);
-    return first_root(a, middle, depth + 1);
-  }
-  if (std::abs(middle.value) <= slack(middle.s)) {
+  if (touches(middle)) {
     record_grazing(middle.s);
-    middle.value = middle.slope = 0.0;
-    middle.zeros = 2;
-    // A touched point is where the certificate hands over: positive on both sides of it.
-    middle.curvature = std::max(middle.curvature, 0.0);
+    middle = handed_over(middle);
   }
   if (!(middle.s > a.s && middle.s < b.s)) return b.value < 0.0 ? b.s : none;
   narrow(a.s, middle.s);
@@ -417,11 +435,12 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
   } else if (amplitude_ < vanished) {
     return none;
   }
-  const double range = low.largest() + 2.0 * remainder;
-  if (depth >= max_depth || h <= 4.0 * epsilon * b.s || range <= 4.0 * std::max(slack(a.s), right_slack)) {
+  const double widest = std::max(slack(a.s), right_slack);
+  if (depth >= max_depth || h <= 4.0 * epsilon * b.s || low.within(-2.0 * widest, 0.1 * widest - 2.0 * remainder)) {
     // Nowhere on the panel does the guard stand out of rounding: a flat crossing, or one flat contact.
     if (crosses) return sign_change(a.s, b.s);
-    if (a.zeros == 0) record_grazing(0.5 * (a.s + b.s));
+    const Jet middle = jet(0.5 * (a.s + b.s));
+    if (a.zeros == 0 && touches(middle)) record_grazing(middle.s);
     return none;
   }
   return split(a, b, depth);
@@ -520,12 +539,12 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     }
     if (b < horizon) b = clear_panel_end(basis, guards, a, b, right);
     double first = -1.0;
-    double contact = -1.0;
     for (std::size_t g = 0; g < guards.size(); ++g) {
       if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
       PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
       search.bound_panel(a, b - a, left);
-      const Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, left);
+      Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, left);
+      if (a > 0.0 && search.touches(begin)) begin = handed_over(begin);
       Jet end = search.jet(b, right);
       if (!search.finite(end)) {
         // The motion runs away: nothing can be certified, and the values must not look like those of a motion.
@@ -533,26 +552,26 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
         crossing.values.im.fill(0.0);
         return;
       }
-      if (b == horizon && std::abs(end.value) <= search.slack(b)) search.narrow(a, b);
-      if (b == horizon && std::abs(end.value) <= search.slack(b) && end.slope < 0.0) {
+      const bool touched = search.touches(end);
+      if (touched && b < horizon) end = handed_over(end);
+      if (touched && b == horizon) {
         end.value = 0.0;  // reached at the horizon: left to the next search
         end.zeros = 1;
       }
       const double root = search.first_root(begin, end);
-      if (root >= 0.0 && (first < 0.0 || root < first)) {
+      if (root < 0.0 && touched && b < horizon) search.record_grazing(b);
+      if (root < 0.0) continue;
+      search.drop_contact(root, earlier);
+      if (first < 0.0 || root < first) {
         first = root;
         crossing.guard = static_cast<int>(g);
-        contact = search.contact_begin(root);
         search.values_at(root, crossing.values);
       }
     }
     if (first >= 0.0) {
       crossing.found = true;
       crossing.s = first;
-      // Nor is the contact of which the crossing is the end a grazing of its own.
-      const auto late = [&](const Grazing& grazing) {
-        return grazing.s > first || (grazing.guard == crossing.guard && grazing.s > contact);
-      };
+      const auto late = [&](const Grazing& grazing) { return grazing.s > first; };
       grazings.erase(std::remove_if(grazings.begin() + earlier, grazings.end(), late), grazings.end());
       count.grazings += static_cast<long>(grazings.size()) - earlier;
       return;
