@@ -33,6 +33,19 @@ std::vector<std::complex<double>> Passage::multipliers() const {
 
 double Passage::radius() const { return derivative.eigenvalues().cwiseAbs().maxCoeff(); }
 
+bool Passage::holds(Eigen::Index row) const {
+  if (row < 2 || derivative.rows() != derivative.cols()) return false;
+  return derivative(row, row) == 1.0 && (derivative.row(row).array() != 0.0).count() == 1;
+}
+
+double Passage::free_radius() const {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index row = 0; row < derivative.rows(); ++row) {
+    if (!holds(row)) free.push_back(row);
+  }
+  return derivative(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
+}
+
 Passage PeriodMap::pass(Derivative derivative) {
   Passage passage;
   passage.begin = engine_.state();
@@ -86,7 +99,7 @@ Eigen::VectorXd newton_step(const Passage& passage) {
   const Eigen::Index n = gap.size();
   Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - passage.derivative;
   for (Eigen::Index row = 2; row < n; ++row) {
-    if (gap[row] == 0.0 && system.row(row).isZero(0.0)) system(row, row) = 1.0;
+    if (gap[row] == 0.0 && passage.holds(row)) system(row, row) = 1.0;
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(system);
   if (!lu.isInvertible()) return {};

@@ -30,6 +30,11 @@ struct Passage {
   [[nodiscard]] std::vector<std::complex<double>> multipliers() const;
   /// The largest modulus of them.
   [[nodiscard]] double radius() const;
+  /// The same without the coordinates that a period leaves as they are, whatever the others do: sliders that never
+  /// slip. Their multipliers are 1.
+  [[nodiscard]] double free_radius() const;
+  /// Whether the period leaves law state `row` (2, 3, ...) as it is.
+  [[nodiscard]] bool holds(Eigen::Index row) const;
 };
 
 enum class Derivative { without, with };

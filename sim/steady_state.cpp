@@ -30,6 +30,9 @@ constexpr double creeping = 1e-3;
 constexpr double near_orbit = 1e-2;
 constexpr int periods_to_near_orbit = 500;
 
+/// A motion that closes this well has settled every slider that comes to rest.
+constexpr double settled = 1e-8;
+
 constexpr int max_newton = 60;
 
 /// Growth over the first periods' motion that counts as growth without bound.
@@ -51,6 +54,7 @@ class OrbitFinder {
 
  private:
   bool newton(Passage& passage, SteadyState& result);
+  bool follow_to_orbit(Passage& passage, SteadyState& result);
   bool follow(Passage& passage, double closure, int periods, SteadyState& result);
   [[nodiscard]] core::Outcome failure(const Passage& passage, const SteadyState& result) const;
 
@@ -119,6 +123,23 @@ core::Outcome OrbitFinder::failure(const Passage& passage, const SteadyState& re
           "no steady state: the motion from the initial state has not become periodic" + after};
 }
 
+/// The orbit that the motion from the initial state itself leads to: among neighbours that are steady too.
+bool OrbitFinder::follow_to_orbit(Passage& passage, SteadyState& result) {
+  passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
+  if (!follow(passage, settled, options_.max_periods, result)) return false;
+  // Sliders at rest: where they stand is settled, and Newton's method finds the rest of the orbit.
+  Passage trial = map_.from(passage.begin, Derivative::with);
+  if (same_mode(trial.begin, trial.end) && trial.free_radius() < 1.0 - neutral && newton(trial, result) &&
+      trial.free_radius() < 1.0 - neutral) {
+    passage = std::move(trial);
+    return true;
+  }
+  passage = map_.from(passage.begin, Derivative::without);
+  const bool found = follow(passage, 10.0 * options_.tolerance, options_.max_periods, result);
+  if (found) passage = map_.from(passage.begin, Derivative::with);
+  return found;
+}
+
 void OrbitFinder::find(SteadyState& result) {
   Passage passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
   passage = map_.next(Derivative::without);
@@ -128,15 +149,11 @@ void OrbitFinder::find(SteadyState& result) {
   bool found = newton(passage, result);
   const bool attracting = found && passage.radius() < 1.0 - neutral;
   if (!attracting && map_.outcome().ok()) {
-    passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
-    found = follow(passage, 10.0 * options_.tolerance, options_.max_periods, result);
-    if (found) {
-      passage = map_.from(passage.begin, Derivative::with);
-      if (passage.moves && passage.radius() >= 1.0 - neutral) {
-        result.warnings.emplace_back(
-            "not unique: a multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
-            "the one approached from the initial state");
-      }
+    found = follow_to_orbit(passage, result);
+    if (found && passage.moves && passage.radius() >= 1.0 - neutral) {
+      result.warnings.emplace_back(
+          "not unique: a multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
+          "the one approached from the initial state");
     }
   }
   if (!map_.outcome().ok()) {

@@ -11,6 +11,7 @@
 
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
+#include "friction_models/iwan.hpp"
 #include "sim/steady_state.hpp"
 
 using namespace dualdamp;
@@ -71,6 +72,20 @@ TEST_CASE("contact compliance has the steady states of a 30-digit calculation", 
   }
   CHECK(compared == 30);
   WARN(compared << " orbits with contact stiffness 1e2 to 1e7 N/m, largest relative error " << worst);
+}
+
+TEST_CASE("iwan has the steady states of a 30-digit calculation", "[iwan]") {
+  int compared = 0;
+  for (Reference& r : references()) {
+    if (r.law != "iwan") continue;
+    CAPTURE(r.count);
+    r.model.friction.emplace_back(friction::Iwan(friction::Iwan::uniform(r.stiffness, r.kinetic, r.count)));
+    const sim::SteadyState state = sim::steady_state(r.model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.peak == Approx(r.peak).epsilon(1e-12));
+    ++compared;
+  }
+  CHECK(compared >= 2);
 }
 
 TEST_CASE("contact compliance approaches rigid Coulomb friction at order one half", "[contact_compliance]") {
