@@ -30,10 +30,10 @@ using scenarios::Scenario;
 /// What one scenario has to say, kept until it is its turn.
 struct Report {
   ExitStatus status = ExitStatus::done;
-  std::string text;      ///< for stdout
-  std::string json;      ///< instead, when JSON is wanted
-  std::string messages;  ///< for stderr
-  std::string errors;    ///< for stderr, also when quiet
+  std::string text;        ///< for stdout
+  scenarios::Writer json;  ///< instead, when JSON is wanted
+  std::string messages;    ///< for stderr
+  std::string errors;      ///< for stderr, also when quiet
 };
 
 struct Style {
@@ -81,18 +81,19 @@ void refuse_unusable(const std::string& directory) {
     throw scenarios::OutputError("cannot write results to " + directory + ": it is not a directory");
 }
 
-Report run_and_write(const Scenario& scenario, const std::string& directory) {
+Report run_and_write(Scenario loaded, const std::string& directory) {
   refuse_unusable(directory);
-  const scenarios::RunResult result = scenarios::run(scenario);
+  const auto scenario = std::make_shared<const Scenario>(std::move(loaded));
+  const auto result = std::make_shared<const scenarios::RunResult>(scenarios::run(*scenario));
   const std::vector<scenarios::OutputFile> files = scenarios::output_files(scenario, result);
 
   Report report;
-  report.status = result.status;
-  report.json = files.back().content;
-  report.text = readable(scenario, result);
-  if (!result.failure.empty()) report.errors = scenario.file + ": error: " + result.failure + "\n";
-  for (const std::string& warning : result.warnings)
-    report.messages += scenario.file + ": warning: " + warning + "\n";
+  report.status = result->status;
+  report.json = files.back().write;
+  report.text = readable(*scenario, *result);
+  if (!result->failure.empty()) report.errors = scenario->file + ": error: " + result->failure + "\n";
+  for (const std::string& warning : result->warnings)
+    report.messages += scenario->file + ": warning: " + warning + "\n";
   {
     const std::lock_guard lock(output_mutex());
     scenarios::write_files(directory, files);
@@ -121,9 +122,9 @@ Report run_file(const RunCommand& command, const std::string& file) {
   return guarded([&] {
     LoadOptions options;
     for (const std::string& assignment : command.set) options.set.push_back({assignment});
-    const Scenario scenario = scenarios::load_scenario(file, options);
+    Scenario scenario = scenarios::load_scenario(file, options);
     const std::string directory = output_directory(command, file);
-    return command.dry_run ? checked(scenario, directory) : run_and_write(scenario, directory);
+    return command.dry_run ? checked(scenario, directory) : run_and_write(std::move(scenario), directory);
   });
 }
 
@@ -142,7 +143,7 @@ void print(const Report& report, const Style& style) {
 }
 
 int say(const Report& report, const Style& style) {
-  if (style.json) std::cout << report.json;
+  if (style.json) report.json(std::cout);
   print(report, style);
   return finish(report.status);
 }
@@ -163,11 +164,14 @@ class InOrder {
   }
 
   /// One document; a list of them for several files.
-  [[nodiscard]] std::string json() const {
-    if (reports_.size() == 1) return reports_.front().json;
-    std::string text = "[\n";
-    for (std::size_t i = 0; i < reports_.size(); ++i) text += (i == 0 ? "" : ",\n") + reports_[i].json;
-    return text + "]\n";
+  void write_json(std::ostream& out) const {
+    if (reports_.size() == 1) return reports_.front().json(out);
+    out << "[\n";
+    for (std::size_t i = 0; i < reports_.size(); ++i) {
+      out << (i == 0 ? "" : ",\n");
+      reports_[i].json(out);
+    }
+    out << "]\n";
   }
 
   [[nodiscard]] ExitStatus worst() const { return std::ranges::max_element(reports_, {}, &Report::status)->status; }
@@ -210,7 +214,7 @@ int execute(const RunCommand& command) {
     for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
     work();
   }
-  if (command.json) std::cout << reports.json();
+  if (command.json) reports.write_json(std::cout);
   return finish(reports.worst());
 }
 

@@ -25,11 +25,11 @@ std::size_t width(const std::string& text) {
 
 Block block(const scenarios::Column& column, std::size_t rows) {
   Block result;
-  result.is_number = column.texts.empty();
+  result.is_number = column.kind != scenarios::CellKind::text;
   result.cells.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
   for (std::size_t i = 0; i < rows; ++i) {
     if (!result.is_number)
-      result.cells.push_back(column.texts[i]);
+      result.cells.push_back(column.text(i));
     else
       result.cells.push_back(std::isfinite(column.numbers[i]) ? core::format_number(column.numbers[i], digits)
                                                               : "-");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "core/numbers.hpp"
 
@@ -32,23 +31,25 @@ Json energy_json(const sim::Energy& energy) {
 
 template <typename Item, typename Get>
 Column column(std::string name, std::string unit, const std::vector<Item>& items, Get get) {
-  Column result{std::move(name), std::move(unit), {}, {}};
+  Column result{.name = std::move(name), .unit = std::move(unit)};
+  result.numbers.reserve(items.size());
   for (const Item& item : items) result.numbers.push_back(std::invoke(get, item));
   return result;
 }
 
 template <typename Item, typename Get>
 Column text_column(std::string name, const std::vector<Item>& items, Get get) {
-  Column result{std::move(name), {}, {}, {}};
+  Column result{.name = std::move(name), .kind = CellKind::text};
   for (const Item& item : items) result.texts.emplace_back(std::invoke(get, item));
   return result;
 }
 
 Table event_table(const std::vector<sim::Event>& events) {
-  return {"events",
-          {column("t", "s", events, &sim::Event::t),
-           text_column("kind", events, [](const sim::Event& event) { return sim::name(event.kind); }),
-           column("x", "m", events, &sim::Event::x), column("v", "m/s", events, &sim::Event::v)}};
+  return {.name = "events",
+          .columns = {column("t", "s", events, &sim::Event::t),
+                      text_column("kind", events, [](const sim::Event& event) { return sim::name(event.kind); }),
+                      column("x", "m", events, &sim::Event::x), column("v", "m/s", events, &sim::Event::v)},
+          .key = "events"};
 }
 
 Table history_table(const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
@@ -65,50 +66,37 @@ Table history_table(const std::vector<sim::Sample>& samples, const sim::Excitati
   return table;
 }
 
-/// A point of a curve: `key` is what it runs over.
-Json point_json(const sim::CurvePoint& point, CurveOver over) {
-  const sim::SteadyState& state = point.state;
-  const bool ok = state.outcome.ok();
-  const auto number = [&](double value) { return ok ? finite(value) : Json(nullptr); };
-  const auto count = [&](std::size_t value) { return ok ? Json(value) : Json(nullptr); };
-  Json json;
-  if (over == CurveOver::amplitude)
-    json["Y"] = point.Y;
-  else
-    json["omega"] = point.omega;
-  json["x"] = number(state.amplitude);
-  if (over == CurveOver::frequency) json["phase"] = number(state.phase);
-  json["stops"] = count(static_cast<std::size_t>(state.stops_per_cycle));
-  json["sticks"] = count(state.sticks.size());
-  json["stable"] = ok ? Json(state.stable()) : Json(nullptr);
-  if (!ok) json["reason"] = state.outcome.reason;
-  return json;
+/// A column of a curve; a point without a steady state has no number.
+template <typename Value>
+Column point_column(std::string name, std::string unit, const sim::Curve& curve, CellKind kind,
+                    Value sim::CurvePoint::* value) {
+  Column result{.name = std::move(name), .unit = std::move(unit), .kind = kind};
+  result.numbers.reserve(curve.points.size());
+  for (const sim::CurvePoint& point : curve.points)
+    result.numbers.push_back(point.ok() ? static_cast<double>(point.*value) : none);
+  return result;
 }
 
-Table curve_table(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit) {
-  const auto when_ok = [](auto get) {
-    return [get](const sim::CurvePoint& point) { return point.state.outcome.ok() ? get(point.state) : none; };
-  };
-  using State = sim::SteadyState;
-  Table table{"curve", {}};
-  if (over == CurveOver::amplitude)
-    table.columns.push_back(column("Y", unit, points, &sim::CurvePoint::Y));
-  else
-    table.columns.push_back(column("omega", "rad/s", points, &sim::CurvePoint::omega));
-  table.columns.push_back(column("x", "m", points, when_ok([](const State& state) { return state.amplitude; })));
+Column reason_column(const sim::Curve& curve) {
+  Column result{.name = "reason", .texts = curve.reasons, .kind = CellKind::text};
+  for (const sim::CurvePoint& point : curve.points) result.choices.push_back(point.reason);
+  return result;
+}
+
+Table curve_table(const sim::Curve& curve, CurveOver over, const std::string& unit) {
+  using sim::CurvePoint;
+  Table table{.name = over == CurveOver::both ? "map" : "curve", .key = "points"};
+  std::vector<Column>& columns = table.columns;
+  if (over != CurveOver::amplitude) columns.push_back(column("omega", "rad/s", curve.points, &CurvePoint::omega));
+  if (over != CurveOver::frequency) columns.push_back(column("Y", unit, curve.points, &CurvePoint::Y));
+  columns.push_back(point_column("x", "m", curve, CellKind::number, &CurvePoint::x));
   if (over == CurveOver::frequency)
-    table.columns.push_back(
-        column("phase", "rad", points, when_ok([](const State& state) { return state.phase; })));
-  table.columns.push_back(column(
-      "stops", "", points, when_ok([](const State& state) { return static_cast<double>(state.stops_per_cycle); })));
-  table.columns.push_back(column(
-      "sticks", "", points, when_ok([](const State& state) { return static_cast<double>(state.sticks.size()); })));
-  table.columns.push_back(
-      column("stable", "", points, when_ok([](const State& state) { return state.stable() ? 1.0 : 0.0; })));
-  const auto is_ok = [](const sim::CurvePoint& point) { return point.state.outcome.ok(); };
-  if (!std::ranges::all_of(points, is_ok))
-    table.columns.push_back(
-        text_column("reason", points, [](const sim::CurvePoint& point) { return point.state.outcome.reason; }));
+    columns.push_back(point_column("phase", "rad", curve, CellKind::number, &CurvePoint::phase));
+  columns.push_back(point_column("stops", "", curve, CellKind::count, &CurvePoint::stops));
+  columns.push_back(point_column("sticks", "", curve, CellKind::count, &CurvePoint::sticks));
+  if (over != CurveOver::both)
+    columns.push_back(point_column("stable", "", curve, CellKind::truth, &CurvePoint::stable));
+  if (curve.reasons.size() > 1) columns.push_back(reason_column(curve));
   return table;
 }
 
@@ -256,36 +244,6 @@ Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::
   return {{"method", chosen->method}, {"points", points}};
 }
 
-/// Warnings of the points of a curve; the same words about many points are said once.
-class PointWarnings {
- public:
-  void add(std::size_t index, const std::string& text) {
-    const auto [place, is_new] = numbers_.emplace(text, entries_.size());
-    if (is_new) entries_.push_back({text, index, 0});
-    ++entries_[place->second].count;
-  }
-
-  [[nodiscard]] std::vector<std::string> take() const {
-    std::vector<std::string> warnings;
-    for (const Entry& entry : entries_) {
-      std::string text = "points[" + std::to_string(entry.first) + "]";
-      if (entry.count > 1) text += " and " + std::to_string(entry.count - 1) + " more";
-      warnings.push_back(text + ": " + entry.text);
-    }
-    return warnings;
-  }
-
- private:
-  struct Entry {
-    std::string text;
-    std::size_t first = 0;
-    std::size_t count = 0;
-  };
-
-  std::vector<Entry> entries_;
-  std::map<std::string, std::size_t> numbers_;
-};
-
 Answer failed(const std::string& reason) {
   Answer answer;
   answer.failure = reason;
@@ -297,11 +255,7 @@ Answer failed(const std::string& reason) {
 Answer answer(const sim::History& history, const sim::Excitation& excitation) {
   if (!history.outcome.ok()) return failed(history.outcome.reason);
   Answer answer;
-  Json events = Json::array();
-  for (const sim::Event& event : history.events)
-    events.push_back(
-        {{"t", finite(event.t)}, {"kind", sim::name(event.kind)}, {"x", finite(event.x)}, {"v", finite(event.v)}});
-  answer.result["events"] = std::move(events);
+  answer.result["events"] = nullptr;
   answer.result["final"] = {
       {"t", finite(history.final.t)}, {"x", finite(history.final.x)}, {"v", finite(history.final.v)}};
   answer.result["energy"] = energy_json(history.energy);
@@ -345,35 +299,26 @@ Answer answer(const sim::SteadyState& state) {
 Answer answer(const sim::FreeDecay& decay) {
   if (!decay.outcome.ok()) return failed(decay.outcome.reason);
   Answer answer;
-  answer.result["peaks"] = Json::array();
-  for (const sim::Extreme& peak : decay.peaks)
-    answer.result["peaks"].push_back({{"t", finite(peak.t)}, {"x", finite(peak.x)}});
+  answer.result["peaks"] = nullptr;
   answer.result["came_to_rest"] = decay.came_to_rest;
-  answer.tables.push_back(
-      {"peaks",
-       {column("t", "s", decay.peaks, &sim::Extreme::t), column("x", "m", decay.peaks, &sim::Extreme::x)}});
+  answer.tables.push_back({.name = "peaks",
+                           .columns = {column("t", "s", decay.peaks, &sim::Extreme::t),
+                                       column("x", "m", decay.peaks, &sim::Extreme::x)},
+                           .key = "peaks"});
   return answer;
 }
 
-Answer answer(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit) {
+Answer answer(const sim::Curve& curve, CurveOver over, const std::string& unit) {
+  if (std::ranges::none_of(curve.points, &sim::CurvePoint::ok))
+    return failed("no point of the " + std::string(over == CurveOver::both ? "map" : "curve") +
+                  " has a number; the first: " + curve.reason(curve.points.front()));
   Answer answer;
-  std::size_t good = 0;
-  PointWarnings warnings;
-  Json list = Json::array();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const sim::SteadyState& state = points[i].state;
-    list.push_back(point_json(points[i], over));
-    if (state.outcome.ok())
-      ++good;
-    else
-      warnings.add(i, state.outcome.reason);
-    for (const std::string& warning : state.warnings) warnings.add(i, warning);
+  for (const sim::Remark& remark : curve.remarks) {
+    const std::string more = remark.count > 1 ? " and " + std::to_string(remark.count - 1) + " more" : "";
+    answer.warnings.push_back("points[" + std::to_string(remark.first) + "]" + more + ": " + remark.text);
   }
-  answer.warnings = warnings.take();
-  if (good == 0)
-    return failed("no point of the curve has a number; the first: " + points.front().state.outcome.reason);
-  answer.result["points"] = std::move(list);
-  answer.tables.push_back(curve_table(points, over, unit));
+  answer.result["points"] = nullptr;
+  answer.tables.push_back(curve_table(curve, over, unit));
   return answer;
 }
 

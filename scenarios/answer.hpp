@@ -14,7 +14,7 @@
 namespace dualdamp::scenarios {
 
 struct Answer {
-  Json result;          ///< null: there is none
+  Json result;          ///< null: there is none; null inside: the list is a table of that key
   std::string failure;  ///< why not
   std::vector<std::string> warnings;
   std::vector<Table> tables;
@@ -24,10 +24,10 @@ struct Answer {
 [[nodiscard]] Answer answer(const sim::SteadyState& state);
 [[nodiscard]] Answer answer(const sim::FreeDecay& decay);
 
-enum class CurveOver { amplitude, frequency };
+enum class CurveOver { amplitude, frequency, both };
 
 /// `unit` of the amplitudes: m or N.
-[[nodiscard]] Answer answer(const std::vector<sim::CurvePoint>& points, CurveOver over, const std::string& unit);
+[[nodiscard]] Answer answer(const sim::Curve& curve, CurveOver over, const std::string& unit);
 
 [[nodiscard]] Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record);
 

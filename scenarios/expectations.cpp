@@ -9,27 +9,45 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// The value at `points[0].x`; nullptr when the path leads nowhere.
-const Json* find(const Json& result, const std::string& path) {
+/// The cell at `points[0].x` of the table `points`; nothing when it has none there.
+std::optional<Json> find(const Table& table, const std::string& path) {
+  const auto place = parse_result_path(path);
+  if (!place || place->indices.size() != 1 || place->indices.front() >= table.size()) return std::nullopt;
+  for (const Column& column : table.columns) {
+    if (place->pattern != table.key + "[]." + column.name) continue;
+    const std::string cell = json_cell(column, place->indices.front());
+    if (!cell.empty()) return Json::parse(cell);
+  }
+  return std::nullopt;
+}
+
+/// The value at `sticks[0].start`; nothing when the path leads nowhere.
+std::optional<Json> find(const Json& result, const std::string& path) {
   const Json* value = &result;
   std::size_t at = 0;
   while (at < path.size()) {
     if (path[at] == '[') {
       const std::size_t end = path.find(']', at);
       const std::size_t index = std::stoul(path.substr(at + 1, end - at - 1));
-      if (!value->is_array() || index >= value->size()) return nullptr;
+      if (!value->is_array() || index >= value->size()) return std::nullopt;
       value = &value->at(index);
       at = end + 1;
     } else {
       if (path[at] == '.') ++at;
       const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
       const std::string key = path.substr(at, end - at);
-      if (!value->is_object() || !value->contains(key)) return nullptr;
+      if (!value->is_object() || !value->contains(key)) return std::nullopt;
       value = &value->at(key);
       at = end;
     }
   }
-  return value;
+  return *value;
+}
+
+std::optional<Json> find(const Json& result, const std::vector<Table>& tables, const std::string& path) {
+  for (const Table& table : tables)
+    if (!table.key.empty() && path.starts_with(table.key + "[")) return find(table, path);
+  return find(result, path);
 }
 
 std::string shown(const Json& value) {
@@ -65,11 +83,12 @@ Check compare(const Expectation& expectation, const Json& value) {
 
 }  // namespace
 
-std::vector<Check> compare(const std::vector<Expectation>& expectations, const Json& result) {
+std::vector<Check> compare(const std::vector<Expectation>& expectations, const Json& result,
+                           const std::vector<Table>& tables) {
   std::vector<Check> checks;
   std::vector<core::Diagnostic> problems;
   for (const Expectation& expectation : expectations) {
-    if (const Json* value = find(result, expectation.path))
+    if (const std::optional<Json> value = find(result, tables, expectation.path))
       checks.push_back(compare(expectation, *value));
     else
       problems.push_back({expectation.place, "the result has no number '" + expectation.path + "'", {}, {}, {}});

@@ -8,7 +8,9 @@
 
 namespace dualdamp::scenarios {
 
+/// `result` without the lists that are `tables`.
 /// Errors: `core::InputError` for a path that is not in the result.
-[[nodiscard]] std::vector<Check> compare(const std::vector<Expectation>& expectations, const Json& result);
+[[nodiscard]] std::vector<Check> compare(const std::vector<Expectation>& expectations, const Json& result,
+                                         const std::vector<Table>& tables);
 
 }  // namespace dualdamp::scenarios

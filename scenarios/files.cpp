@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <ostream>
+#include <streambuf>
 
 #include "core/diagnostics.hpp"
 
@@ -51,18 +53,60 @@ bool write_all(int descriptor, std::string_view content) {
   return true;
 }
 
-void write_file(const std::string& path, const std::string& content) {
+/// A stream onto a descriptor; stops at the first error.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { empty(); }
+  /// errno of the first failure.
+  [[nodiscard]] int error() const { return error_; }
+
+ protected:
+  int_type overflow(int_type character) override {
+    if (sync() != 0) return traits_type::eof();
+    if (!traits_type::eq_int_type(character, traits_type::eof())) sputc(traits_type::to_char_type(character));
+    return traits_type::not_eof(character);
+  }
+  int sync() override {
+    const bool arrived = write_all(descriptor_, {pbase(), static_cast<std::size_t>(pptr() - pbase())});
+    if (!arrived) error_ = errno;
+    empty();
+    return arrived ? 0 : -1;
+  }
+
+ private:
+  void empty() { setp(buffer_.data(), buffer_.data() + buffer_.size()); }
+
+  int descriptor_;
+  int error_ = 0;
+  std::array<char, 1 << 16> buffer_{};
+};
+
+bool write_all(int descriptor, const Writer& write) {
+  DescriptorBuffer buffer(descriptor);
+  std::ostream stream(&buffer);
+  write(stream);
+  stream.flush();
+  if (!stream) errno = buffer.error();
+  return stream.good();
+}
+
+void write_file(const std::string& path, const Writer& write) {
   static std::atomic<unsigned> serial{0};
   const std::string partial = path + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".partial";
   const auto refuse = [&] {
     const std::string reason = std::strerror(errno);
-    ::unlink(partial.c_str());
     throw OutputError("cannot write " + path + ": " + reason);
   };
   constexpr mode_t mode = 0666;  // the umask decides
   Descriptor file(::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
-  if (file.number() < 0 || !write_all(file.number(), content) || !file.close()) refuse();
-  if (::rename(partial.c_str(), path.c_str()) != 0) refuse();
+  if (file.number() < 0) refuse();
+  try {
+    if (!write_all(file.number(), write) || !file.close()) refuse();
+    if (::rename(partial.c_str(), path.c_str()) != 0) refuse();
+  } catch (...) {
+    ::unlink(partial.c_str());
+    throw;
+  }
 }
 
 }  // namespace
@@ -93,7 +137,7 @@ void write_files(const std::string& directory, const std::vector<OutputFile>& fi
     throw OutputError("cannot create the directory " + directory + ": " +
                       (error ? error.message() : "a file of that name is there"));
   for (const OutputFile& file : files)
-    write_file((std::filesystem::path(directory) / file.name).string(), file.content);
+    write_file((std::filesystem::path(directory) / file.name).string(), file.write);
 }
 
 }  // namespace dualdamp::scenarios

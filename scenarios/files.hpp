@@ -2,6 +2,8 @@
 /// Files in and out: bounded reading, and writing that leaves either the old file or the whole new one.
 
 #include <cstddef>
+#include <functional>
+#include <iosfwd>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,9 +13,12 @@ namespace dualdamp::scenarios {
 /// The bytes of a file. A missing file, a directory, no permission, more than `limit` bytes: `core::InputError`.
 [[nodiscard]] std::string read_file(const std::string& path, std::size_t limit);
 
+/// Writes a whole document. A result of gigabytes is never a text in memory.
+using Writer = std::function<void(std::ostream&)>;
+
 struct OutputFile {
   std::string name;
-  std::string content;
+  Writer write;
 };
 
 /// Creates `directory` if need be and puts the files there, each written beside its place and moved in when

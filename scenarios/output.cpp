@@ -1,6 +1,8 @@
 #include "scenarios/output.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "core/build_info.hpp"
 #include "core/numbers.hpp"
@@ -72,9 +74,76 @@ Json frame(core::ExitStatus status) {
   return json;
 }
 
-std::string written(const Json& json) {
+constexpr int indent = 2;
+
+/// A value whose lines after the first begin with `margin`. A line break inside a text is escaped in JSON.
+std::string indented(const Json& json, const std::string& margin) {
   // File names on the command line need not be UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = json.dump(indent, ' ', false, Json::error_handler_t::replace);
+  std::string result;
+  for (const char c : text) {
+    result += c;
+    if (c == '\n') result += margin;
+  }
+  return result;
+}
+
+Writer text_writer(std::string text) {
+  return [text = std::move(text)](std::ostream& out) { out << text; };
+}
+
+Writer document_writer(const Json& json) { return text_writer(indented(json, "") + "\n"); }
+
+/// The members of a map one by one, each written by `write_value(key, value, margin)`.
+template <typename WriteValue>
+void write_members(std::ostream& out, const Json& json, const std::string& margin, WriteValue write_value) {
+  const std::string inner = margin + std::string(indent, ' ');
+  const char* separator = "{\n";
+  for (const auto& [key, value] : json.items()) {
+    out << separator << inner << Json(key).dump() << ": ";
+    write_value(key, value, inner);
+    separator = ",\n";
+  }
+  out << "\n" << margin << "}";
+}
+
+/// The rows of a table as a list of maps, the columns as their keys.
+void write_rows(std::ostream& out, const Table& table, const std::string& margin) {
+  std::vector<std::string> keys;
+  for (const Column& column : table.columns)
+    keys.push_back(margin + std::string(2 * std::size_t{indent}, ' ') + Json(column.name).dump() + ": ");
+  const std::string inner = margin + std::string(indent, ' ');
+  if (table.size() == 0) {
+    out << "[]";
+    return;
+  }
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    out << (row == 0 ? "[\n" : ",\n") << inner;
+    const char* separator = "{\n";
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const std::string cell = json_cell(table.columns[i], row);
+      if (cell.empty()) continue;
+      out << separator << keys[i] << cell;
+      separator = ",\n";
+    }
+    out << "\n" << inner << "}";
+  }
+  out << "\n" << margin << "]";
+}
+
+void write_result(std::ostream& out, const RunResult& result, const std::string& margin) {
+  const Json json = Json::parse(result.result);
+  if (!json.is_object() || json.empty()) {
+    out << indented(json, margin);
+    return;
+  }
+  write_members(out, json, margin, [&](const std::string& key, const Json& value, const std::string& inner) {
+    const auto table = std::ranges::find(result.tables, key, &Table::key);
+    if (table == result.tables.end())
+      out << indented(value, inner);
+    else
+      write_rows(out, *table, inner);
+  });
 }
 
 std::string csv_field(const std::string& text) {
@@ -85,64 +154,71 @@ std::string csv_field(const std::string& text) {
 }
 
 std::string csv_value(const Column& column, std::size_t row) {
-  if (!column.texts.empty()) return csv_field(column.texts[row]);
+  if (column.kind == CellKind::text) return csv_field(column.text(row));
   const double value = column.numbers[row];
   return std::isfinite(value) ? core::format_number(value) : "";
 }
 
 }  // namespace
 
-std::string json_document(const Scenario& scenario, const RunResult& result) {
-  Json json = frame(result.status);
-  json["provenance"] = provenance_json(result.provenance);
-  json["scenario"] = Json::parse(scenario.resolved);
-  json["analysis"] = scenario.analysis_name;
-  json["result"] = Json::parse(result.result);
-  json["warnings"] = result.warnings;
-  json["checks"] = checks_json(result.checks);
-  if (!result.failure.empty()) json["errors"].push_back({{"message", result.failure}});
-  return written(json);
+Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<const RunResult> result) {
+  return [scenario = std::move(scenario), result = std::move(result)](std::ostream& out) {
+    Json json = frame(result->status);
+    json["provenance"] = provenance_json(result->provenance);
+    json["scenario"] = Json::parse(scenario->resolved);
+    json["analysis"] = scenario->analysis_name;
+    json["warnings"] = result->warnings;
+    json["checks"] = checks_json(result->checks);
+    if (!result->failure.empty()) json["errors"].push_back({{"message", result->failure}});
+    write_members(out, json, "", [&](const std::string& key, const Json& value, const std::string& margin) {
+      if (key == "result")
+        write_result(out, *result, margin);
+      else
+        out << indented(value, margin);
+    });
+    out << "\n";
+  };
 }
 
-std::string json_refusal(core::ExitStatus status, const std::vector<core::Diagnostic>& errors) {
+Writer json_refusal(core::ExitStatus status, const std::vector<core::Diagnostic>& errors) {
   Json json = frame(status);
   for (const core::Diagnostic& error : errors) json["errors"].push_back(diagnostic_json(error));
-  return written(json);
+  return document_writer(json);
 }
 
-std::string json_checked(const Scenario& scenario) {
+Writer json_checked(const Scenario& scenario) {
   Json json = frame(core::ExitStatus::done);
   json["scenario"] = Json::parse(scenario.resolved);
   json["analysis"] = scenario.analysis_name;
-  return written(json);
+  return document_writer(json);
 }
 
-std::string csv(const Table& table, const core::Provenance& provenance) {
-  std::string text;
+void write_csv(std::ostream& out, const Table& table, const core::Provenance& provenance) {
   for (const auto& [name, value] : core::lines(provenance)) {
     std::string line = value;
     for (char& c : line)
       if (c == '\n' || c == '\r') c = ' ';  // a file name may hold one
-    text += "# " + name + ": " + line + "\n";
+    out << "# " << name << ": " << line << "\n";
   }
   const auto add_row = [&](auto field) {
-    for (std::size_t i = 0; i < table.columns.size(); ++i) text += (i == 0 ? "" : ",") + field(table.columns[i]);
-    text += '\n';
+    for (std::size_t i = 0; i < table.columns.size(); ++i) out << (i == 0 ? "" : ",") << field(table.columns[i]);
+    out << '\n';
   };
   add_row([](const Column& column) {
     return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
   });
-  const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
-  for (std::size_t row = 0; row < rows; ++row)
+  for (std::size_t row = 0; row < table.size(); ++row)
     add_row([row](const Column& column) { return csv_value(column, row); });
-  return text;
 }
 
-std::vector<OutputFile> output_files(const Scenario& scenario, const RunResult& result) {
+std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
+                                     std::shared_ptr<const RunResult> result) {
   std::vector<OutputFile> files;
-  for (const Table& table : result.tables) files.push_back({table.name + ".csv", csv(table, result.provenance)});
+  for (const Table& table : result->tables)
+    files.push_back(
+        {table.name + ".csv", [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); }});
   // Last: where result.json is, the tables are complete.
-  files.push_back({"result.json", json_document(scenario, result)});
+  files.push_back({"result.json", json_document(std::move(scenario), std::move(result))});
   return files;
 }
 

@@ -35,14 +35,13 @@ class Runner {
   }
 
   Answer operator()(const XyCurve& question) const {
-    const bool is_force = scenario_.model.excitation.type == sim::ExcitationType::force_harmonic;
     return answer(sim::xy_curve(scenario_.model, question.amplitudes, options_), CurveOver::amplitude,
-                  is_force ? "N" : "m");
+                  amplitude_unit());
   }
 
   Answer operator()(const FrequencyResponse& question) const {
     return answer(sim::frequency_response(scenario_.model, question.frequencies, options_), CurveOver::frequency,
-                  "");
+                  amplitude_unit());
   }
 
   Answer operator()(const FreeDecayQuestion& question) const {
@@ -72,6 +71,10 @@ class Runner {
   }
 
  private:
+  [[nodiscard]] std::string amplitude_unit() const {
+    return scenario_.model.excitation.type == sim::ExcitationType::force_harmonic ? "N" : "m";
+  }
+
   static identify::Record measure(const identify::Record& record, std::vector<std::string>& /*warnings*/) {
     return record;
   }
@@ -79,13 +82,13 @@ class Runner {
   identify::Record measure(const XyCurve& question, std::vector<std::string>& warnings) const {
     identify::PairRecord record;
     int number = 0;
-    for (const sim::CurvePoint& point : sim::xy_curve(scenario_.model, question.amplitudes, options_)) {
+    const sim::Curve curve = sim::xy_curve(scenario_.model, question.amplitudes, options_);
+    for (const sim::CurvePoint& point : curve.points) {
       ++number;
-      if (point.state.outcome.ok())
-        record.pairs.push_back({point.Y, point.state.amplitude, {}, number});
+      if (point.ok())
+        record.pairs.push_back({point.Y, point.x, {}, number});
       else
-        warnings.push_back("pair " + std::to_string(number) +
-                           " could not be measured: " + point.state.outcome.reason);
+        warnings.push_back("pair " + std::to_string(number) + " could not be measured: " + curve.reason(point));
     }
     return {record, std::nullopt};
   }
@@ -163,7 +166,7 @@ RunResult run(const Scenario& scenario) {
   result.result = answer.result.dump();
   summarise(scenario, answer.result, result.summary);
   result.tables = std::move(answer.tables);
-  result.checks = compare(scenario.expect, answer.result);
+  result.checks = compare(scenario.expect, answer.result, result.tables);
   if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
   return result;
 }

@@ -12,24 +12,9 @@
 #include "core/diagnostics.hpp"
 #include "core/provenance.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/table.hpp"
 
 namespace dualdamp::scenarios {
-
-/// A column of a table holds numbers (NaN: no value) or texts.
-struct Column {
-  std::string name;
-  std::string unit;  ///< empty: no unit
-  std::vector<double> numbers;
-  std::vector<std::string> texts;
-
-  [[nodiscard]] std::size_t size() const { return texts.empty() ? numbers.size() : texts.size(); }
-};
-
-struct Table {
-  std::string name;  ///< of the file, without .csv
-  std::vector<Column> columns;
-  bool is_long = false;  ///< not for a terminal
-};
 
 /// One row of the comparison with expected values, as text for people and machines alike.
 struct Check {
@@ -43,11 +28,14 @@ struct Check {
 
 struct RunResult {
   core::ExitStatus status = core::ExitStatus::done;  ///< done, check_failed or numerical_failure
-  std::string result = "null";                       ///< JSON
+  std::string result = "null";                       ///< JSON; null stands for a list that is one of `tables`
   std::string failure;                               ///< why there is no result
   std::vector<std::string> warnings;
   /// The single numbers of the result as text, for people.
-  Table summary{"summary", {{"name"}, {"value"}, {"unit"}}};
+  Table summary{"summary",
+                {{.name = "name", .kind = CellKind::text},
+                 {.name = "value", .kind = CellKind::text},
+                 {.name = "unit", .kind = CellKind::text}}};
   std::vector<Table> tables;  ///< its lists; each becomes a file
   std::vector<Check> checks;
   core::Provenance provenance;

@@ -35,9 +35,9 @@ Record measure(const sim::Model& bearing, double frequency, const std::vector<do
   model.excitation.type = sim::ExcitationType::base_harmonic;
   model.excitation.frequency = frequency;
   std::vector<std::pair<double, double>> list;
-  for (const sim::CurvePoint& point : sim::xy_curve(model, levels)) {
-    REQUIRE(point.state.outcome.ok());
-    list.emplace_back(point.Y, point.state.amplitude);
+  for (const sim::CurvePoint& point : sim::xy_curve(model, levels).points) {
+    REQUIRE(point.ok());
+    list.emplace_back(point.Y, point.x);
   }
   return identify::testing::pairs(list);
 }

@@ -28,7 +28,19 @@ Scenario scenario_of(const std::string& analysis, const std::string& more = {}) 
       "test.yaml");
 }
 
-json result_of(const RunResult& result) { return json::parse(result.result); }
+nlohmann::ordered_json document_of(const Scenario& scenario, const RunResult& result) {
+  std::ostringstream text;
+  scenarios::json_document(std::make_shared<Scenario>(scenario), std::make_shared<RunResult>(result))(text);
+  return nlohmann::ordered_json::parse(text.str());
+}
+
+json result_of(const RunResult& result) { return document_of({.resolved = "null"}, result).at("result"); }
+
+std::string csv(const scenarios::Table& table, const core::Provenance& provenance) {
+  std::ostringstream text;
+  scenarios::write_csv(text, table, provenance);
+  return text.str();
+}
 
 /// No number of the document is infinite or NaN: JSON would not have it, and null must say so.
 void check_finite(const json& value) {
@@ -155,7 +167,7 @@ TEST_CASE("run: no steady state is a numerical failure without a result", "[scen
   CHECK(result.status == core::ExitStatus::numerical_failure);
   CHECK(result.result == "null");
   CHECK_FALSE(result.failure.empty());
-  const json document = json::parse(scenarios::json_document(scenario, result));
+  const json document = document_of(scenario, result);
   CHECK(document.at("status") == 4);
   CHECK(document.at("result").is_null());
   CHECK(document.at("errors").at(0).at("message") == result.failure);
@@ -164,7 +176,7 @@ TEST_CASE("run: no steady state is a numerical failure without a result", "[scen
 TEST_CASE("run: a document opens with program and provenance and repeats the scenario", "[scenarios][run]") {
   const Scenario scenario = scenario_of("{type: steady_state}");
   const RunResult result = scenarios::run(scenario);
-  const auto document = nlohmann::ordered_json::parse(scenarios::json_document(scenario, result));
+  const auto document = document_of(scenario, result);
   std::vector<std::string> keys;
   for (const auto& [key, value] : document.items()) keys.push_back(key);
   CHECK(keys == std::vector<std::string>{"program", "provenance", "scenario", "analysis", "status", "result",
@@ -179,10 +191,10 @@ TEST_CASE("run: a table opens with comments and reads back to the same bits", "[
   scenarios::Table table{"curve",
                          {{"Y", "m", {0.1, 1.0 / 3.0, 1e-5}, {}},
                           {"x", "m", {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0}, {}},
-                          {"reason", "", {}, {"", "a, \"b\"", "# c"}}}};
+                          {"reason", "", {}, {"", "a, \"b\"", "# c"}, scenarios::CellKind::text}}};
   core::Provenance provenance;
   provenance.source = "two\nlines.yaml";
-  std::istringstream lines(scenarios::csv(table, provenance));
+  std::istringstream lines(csv(table, provenance));
   std::string line;
   while (std::getline(lines, line) && line.starts_with("# ")) CHECK(line.find(": ") != std::string::npos);
   CHECK(line == "Y [m],x [m],reason");
@@ -198,7 +210,7 @@ TEST_CASE("run: a curve of the program is data for the program", "[scenarios][ru
   const Scenario scenario = scenario_of("{type: xy_curve, amplitudes: [0.1, 0.2, 0.5, 0.6]}");
   const RunResult result = scenarios::run(scenario);
   REQUIRE(result.tables.size() == 1);
-  const auto record = identify::parse_csv(scenarios::csv(result.tables[0], result.provenance), "curve.csv");
+  const auto record = identify::parse_csv(csv(result.tables[0], result.provenance), "curve.csv");
   REQUIRE(record.record.pairs);
   CHECK(record.record.pairs->pairs.size() == 4);
   CHECK(record.record.pairs->pairs[3].x == result.tables[0].columns[1].numbers[3]);

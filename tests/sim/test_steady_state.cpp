@@ -197,25 +197,26 @@ TEST_CASE("low frequencies stop more than twice a cycle") {
 
 TEST_CASE("an x-Y curve carries failed points as rows with a reason") {
   // Friction of 0.5 N limits an undamped resonance up to Y = 0.5/(pi/4).
-  const auto curve = sim::xy_curve(base_driven(1.0, 1.0, 0.0, 0.5, 0.5, 1.0, 1.0), {0.3, 0.6, 1.0});
-  REQUIRE(curve.size() == 3);
-  CHECK(curve[0].state.outcome.ok());
-  CHECK(curve[0].state.amplitude == 0.0);
-  CHECK(curve[1].state.outcome.ok());
-  CHECK(curve[1].state.amplitude > 0.0);
-  CHECK_FALSE(curve[2].state.outcome.ok());
-  CHECK_FALSE(curve[2].state.outcome.reason.empty());
+  const sim::Curve curve = sim::xy_curve(base_driven(1.0, 1.0, 0.0, 0.5, 0.5, 1.0, 1.0), {0.3, 0.6, 1.0});
+  REQUIRE(curve.points.size() == 3);
+  CHECK(curve.points[0].ok());
+  CHECK(curve.points[0].x == 0.0);
+  CHECK(curve.points[1].ok());
+  CHECK(curve.points[1].x > 0.0);
+  CHECK_FALSE(curve.points[2].ok());
+  CHECK_FALSE(curve.reason(curve.points[2]).empty());
 }
 
 TEST_CASE("a frequency response keeps its order and peaks near resonance") {
-  const auto curve = sim::frequency_response(base_driven(1.0, 100.0, 1.0, 0.5, 0.5, 0.05, 10.0), {5.0, 10.0, 20.0});
+  const auto curve =
+      sim::frequency_response(base_driven(1.0, 100.0, 1.0, 0.5, 0.5, 0.05, 10.0), {5.0, 10.0, 20.0}).points;
   REQUIRE(curve.size() == 3);
   CHECK(curve[0].omega == 5.0);
-  CHECK(curve[1].state.amplitude > curve[0].state.amplitude);
-  CHECK(curve[1].state.amplitude > curve[2].state.amplitude);
+  CHECK(curve[1].x > curve[0].x);
+  CHECK(curve[1].x > curve[2].x);
   // Phase runs from in phase through a quarter turn to opposite.
-  CHECK(curve[0].state.phase < 0.5 * std::numbers::pi);
-  CHECK(curve[2].state.phase > 0.5 * std::numbers::pi);
+  CHECK(curve[0].phase < 0.5 * std::numbers::pi);
+  CHECK(curve[2].phase > 0.5 * std::numbers::pi);
 }
 
 TEST_CASE("the energy account resolves a transient far faster than the motion") {

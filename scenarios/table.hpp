@@ -1,0 +1,48 @@
+#pragma once
+/// The lists of a result by columns: a list of a million records is never a million JSON objects. What a table
+/// holds becomes JSON, CSV and text for people row by row.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dualdamp::scenarios {
+
+enum class CellKind {
+  number,
+  count,  ///< a whole number
+  truth,  ///< 1 or 0
+  text,
+};
+
+/// Numbers (NaN: no value) or texts.
+struct Column {
+  std::string name;
+  std::string unit;  ///< empty: no unit
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+  CellKind kind = CellKind::number;
+  /// Of a text that few rows differ in: row i has `texts[choices[i]]`. Empty: row i has `texts[i]`.
+  std::vector<std::uint32_t> choices = {};
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] const std::string& text(std::size_t row) const {
+    return choices.empty() ? texts[row] : texts[choices[row]];
+  }
+};
+
+struct Table {
+  std::string name;  ///< of the file, without .csv
+  std::vector<Column> columns;
+  bool is_long = false;  ///< not for a terminal
+  std::string key = {};  ///< of the list in the result that the rows are; empty: they are only a file
+
+  [[nodiscard]] std::size_t size() const { return columns.empty() ? 0 : columns.front().size(); }
+};
+
+/// The value of a cell as JSON: null for a number that does not exist; nothing for an empty text, whose key is left
+/// out.
+[[nodiscard]] std::string json_cell(const Column& column, std::size_t row);
+
+}  // namespace dualdamp::scenarios
