@@ -21,12 +21,18 @@ struct Followed {
 struct Contender {
   std::string name;
   double tolerance = 0.0;  ///< relative and absolute, of a step; 0: exact
+  int oscillators = 1;     ///< followed at once; a time is for one of them
   /// From the start of the orbit over some forcing periods.
   std::function<Followed(int periods)> follow;
 };
 
 /// The exact engine.
 [[nodiscard]] Contender exact_contender(const StandardCase& work);
+
+/// The exact engine's batches on one thread, one contender for each width of vector register that the processor
+/// has. The first oscillator is the standard case; the others differ in friction by up to a tenth, so that no two
+/// move alike.
+[[nodiscard]] std::vector<Contender> batch_contenders(const StandardCase& work);
 
 /// Boost.Odeint's Dormand-Prince pair with dense output, at 1e-9 and 1e-12 (relative and absolute, of a step). The
 /// reversal is found on the dense output by bisection until the bracket is 1e-15 of the step; for the last one by

@@ -116,7 +116,7 @@ Followed follow(const StandardCase& work, Solver& solver, int periods) {
 }
 
 Contender contender(const char* name, const StandardCase& work, double tolerance, Method method) {
-  return {name, tolerance, [work, solver = std::make_shared<Solver>(work, tolerance, method)](int periods) {
+  return {name, tolerance, 1, [work, solver = std::make_shared<Solver>(work, tolerance, method)](int periods) {
             return follow(work, *solver, periods);
           }};
 }

@@ -24,7 +24,7 @@ Followed follow(const StandardCase& work, sim::ExactEngine& engine, int periods)
 }  // namespace
 
 Contender exact_contender(const StandardCase& work) {
-  return {"dualdamp, exact engine", 0.0,
+  return {"dualdamp, exact engine", 0.0, 1,
           [work, engine = std::make_shared<sim::ExactEngine>(model_of(work))](int periods) {
             return follow(work, *engine, periods);
           }};

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/speed/contender.hpp"
+#include "bench/speed/steady_states.hpp"
 #include "bench/speed/timing.hpp"
 #include "core/build_info.hpp"
 
@@ -19,19 +22,24 @@ using namespace dualdamp::bench::speed;
 
 constexpr int periods_per_start = 50;  // a start costs each contender about one reversal
 
-/// One line of the table; the time is that of one start.
+/// One line of the table; the time is that of one period of one oscillator [s].
 struct Row {
   std::string name;
   Time time;
   Followed followed;
 };
 
-std::vector<Row> in_process(const StandardCase& work, int batches) {
-  std::vector<Contender> contenders{exact_contender(work)};
-  for (Contender& contender : odeint_contenders(work)) contenders.push_back(std::move(contender));
-  for (Contender& contender : cvode_contenders(work)) contenders.push_back(std::move(contender));
+Time divided(const Time& time, double parts) { return {time.median / parts, time.low / parts, time.high / parts}; }
 
-  std::vector<Row> rows;
+std::vector<Contender> contenders_in_process(const StandardCase& work) {
+  std::vector<Contender> contenders{exact_contender(work)};
+  for (const auto& list : {batch_contenders(work), odeint_contenders(work), cvode_contenders(work)})
+    contenders.insert(contenders.end(), list.begin(), list.end());
+  return contenders;
+}
+
+std::vector<Row> in_process(const StandardCase& work, int batches) {
+  const std::vector<Contender> contenders = contenders_in_process(work);
   std::vector<std::function<void(int)>> works;
   double sink = 0.0;  // used below, so that no work can be dropped
   for (const Contender& contender : contenders) {
@@ -40,9 +48,12 @@ std::vector<Row> in_process(const StandardCase& work, int batches) {
     });
   }
   const std::vector<Time> times = time_in_turns(works, batches, 0.02);
-  for (std::size_t i = 0; i < contenders.size(); ++i)
-    rows.push_back({contenders[i].name, times[i], contenders[i].follow(periods_per_start)});
   if (!std::isfinite(sink)) throw std::runtime_error("a contender returned no number");
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    rows.push_back({contenders[i].name, divided(times[i], periods_per_start * contenders[i].oscillators),
+                    contenders[i].follow(periods_per_start)});
+  }
   return rows;
 }
 
@@ -51,15 +62,42 @@ std::vector<Row> by_scipy(const StandardCase& work, int batches) {
   const std::vector<std::string> names{"SciPy DOP853 1e-9", "SciPy DOP853 1e-12"};
   const auto results = follow_with_scipy(work, {1e-9, 1e-12}, batches, periods_per_start);
   for (std::size_t i = 0; i < results.size(); ++i)
-    rows.push_back({names[i], quartiles(results[i].seconds), results[i].followed});
+    rows.push_back({names[i], divided(quartiles(results[i].seconds), periods_per_start), results[i].followed});
   return rows;
 }
 
 void print(const Row& row, double unit) {
-  const double per_period = 1e6 / periods_per_start;
-  fmt::print("{:32}{:>14.3f}{:>22}{:>10.1f}{:>18.1e}\n", row.name, row.time.median * per_period,
-             fmt::format("{:.3f} - {:.3f}", row.time.low * per_period, row.time.high * per_period),
-             row.time.median / unit, std::abs(row.followed.amplitude / exact_amplitude - 1.0));
+  fmt::print("{:32}{:>14.3f}{:>22}{:>10.2f}{:>18.1e}\n", row.name, row.time.median * 1e6,
+             fmt::format("{:.3f} - {:.3f}", row.time.low * 1e6, row.time.high * 1e6), row.time.median / unit,
+             std::abs(row.followed.amplitude / exact_amplitude - 1.0));
+}
+
+/// Median time of the row of that name, or 0.
+double median_of(const std::vector<Row>& rows, std::string_view name) {
+  for (const Row& row : rows) {
+    if (row.name == name) return row.time.median;
+  }
+  return 0.0;
+}
+
+void print_figures(const StandardCase& work, const std::vector<Row>& rows) {
+  const auto print_ratio = [&](std::string_view ours, std::string_view theirs, double target) {
+    const double time = median_of(rows, theirs);
+    const double measured = time > 0.0 ? time / median_of(rows, ours) : 0.0;
+    if (measured > 0.0)
+      fmt::print("{:60}{:>14.0f}{:>14.0f}\n", fmt::format("{} over {}", theirs, ours), measured, target);
+  };
+  fmt::print("\n{:60}{:>14}{:>14}\n", "figure", "measured", "target");
+  const std::string& engine = rows.front().name;
+  const std::string widest = batch_contenders(work).back().name;
+  print_ratio(engine, "Odeint dopri5 1e-9, bisection", 40.0);
+  print_ratio(engine, "CVODE Adams 1e-9", 450.0);
+  print_ratio(widest, "Odeint dopri5 1e-9, bisection", 100.0);
+  print_ratio(widest, "CVODE Adams 1e-9", 1000.0);
+  fmt::print("{:60}{:>14.2f}{:>14.2f}\n", "millions of steady states a second in batches, all cores, at least",
+             1e-6 * steady_states_per_second(work, 200'000), 2.0);
+  fmt::print("{:60}{:>14.0f}{:>14.0f}\n", "one steady state from nothing, in periods of the engine, at most",
+             seconds_for_steady_state(work) / rows.front().time.median, 25.0);
 }
 
 int compare(int batches) {
@@ -82,6 +120,7 @@ int compare(int batches) {
     fmt::print("skipped: CVODE; libsundials-dev was not there when this was built\n");
   if (scipy.empty()) fmt::print("skipped: SciPy; python3-scipy is not there\n");
   fmt::print("\nratio: median time over that of the exact engine; error: relative, to the closed form\n");
+  print_figures(work, rows);
   if (!sound) fmt::print(stderr, "a contender lost a reversal: there are two in each period\n");
   return sound ? 0 : 1;
 }

@@ -80,7 +80,7 @@ Followed follow(const StandardCase& work, double tolerance, Locator locator, int
 }
 
 Contender contender(const char* name, const StandardCase& work, double tolerance, Locator locator) {
-  return {name, tolerance, [=](int periods) { return follow(work, tolerance, locator, periods); }};
+  return {name, tolerance, 1, [=](int periods) { return follow(work, tolerance, locator, periods); }};
 }
 
 }  // namespace

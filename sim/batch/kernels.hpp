@@ -1,8 +1,8 @@
 #pragma once
 /// The loops over packs, compiled once for each width of vector register.
 ///
-/// Arrays have one entry for each oscillator; `count` is a multiple of every width. What a kernel cannot certify by its
-/// simple path it leaves to the exact engine and says so: certified = 0, the numbers then mean nothing.
+/// Arrays have one entry for each oscillator; `count` is a multiple of every width. What a kernel cannot certify by
+/// its simple path it leaves to the exact engine and says so: certified = 0, the numbers then mean nothing.
 
 #include <cstddef>
 

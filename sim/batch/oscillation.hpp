@@ -21,6 +21,9 @@ struct Motion {
   typename P::Vector jerk;
 };
 
+/// Just over pi, so that a resonant half cycle is one panel.
+inline constexpr double panel_angle = 3.2;
+
 template <Pack P>
 struct Oscillation {
   using Vector = typename P::Vector;
@@ -29,14 +32,18 @@ struct Oscillation {
 
   Vector natural;  ///< wn [rad/s]
   Vector zeta;
-  Vector eta;      ///< sqrt(1 - zeta^2)
-  Vector r;        ///< w/wn
-  Vector slip;     ///< x_f = kinetic/k [m]
-  Vector hold;     ///< static/k [m]
-  Complex drive;   ///< Y [m]
-  Complex gain;    ///< G [m]
-  Vector fastest;  ///< max(1, r): the largest modulus of an exponent
-  /// Closed forms above lose no digits: underdamped, off resonance, nothing out of range. The others are not for packs.
+  Vector eta;          ///< sqrt(1 - zeta^2)
+  Vector r;            ///< w/wn
+  Vector slip;         ///< x_f = kinetic/k [m]
+  Vector hold;         ///< static/k [m]
+  Complex drive;       ///< Y [m]
+  Complex gain;        ///< G [m]
+  Vector fastest;      ///< max(1, r): the largest modulus of an exponent
+  Vector panel;        ///< width of a search panel in natural time: half a period of the fastest exponential
+  Complex own_panel;   ///< exp(z panel)
+  Complex turn_panel;  ///< exp(i r panel)
+  /// Closed forms above lose no digits: underdamped, off resonance, nothing out of range. The others are not for
+  /// packs.
   Mask simple;
 
   Oscillation(const Oscillators& all, std::size_t first);
@@ -72,6 +79,9 @@ Oscillation<P>::Oscillation(const Oscillators& all, std::size_t first) {
   }
   gain = drive / Complex{1.0 - r * r, 2.0 * zeta * r};
   fastest = larger<P>(splat<P>(1.0), r);
+  panel = panel_angle / fastest;
+  own_panel = own(panel);
+  turn_panel = turn(panel);
 
   // Comparisons are false for what is not a number.
   const Vector closeness = 0.02 * fastest;
@@ -89,26 +99,49 @@ struct Phase {
 
   Vector side;
   Vector middle;   ///< -side x_f [m]
+  Complex driven;  ///< G e^{i angle} is driven e^{i(angle + r s)} after s
+  Vector angle;
   Complex forced;  ///< G e^{i angle} at the start
   Complex own;     ///< c
 
-  /// From position x and velocity v; `turned` = e^{i angle} then.
+  /// From position x and velocity v; the drive stands at phasor e^{i start_angle}, `turned` is the same number.
+  Phase(const Oscillation<P>& o, Vector x, Vector v, Vector direction, Vector start_angle, const Complex& turned)
+      : side(direction), middle(-direction * o.slip), driven(o.gain), angle(start_angle), forced(o.gain * turned) {
+    start(o, x, v);
+  }
+  /// The same where the drive's angle is only known as its phasor.
   Phase(const Oscillation<P>& o, Vector x, Vector v, Vector direction, const Complex& turned)
-      : side(direction), middle(-direction * o.slip), forced(o.gain * turned) {
-    own.re = x - middle - forced.re;
-    own.im = -(v + o.r * forced.im + o.zeta * own.re) / o.eta;
+      : side(direction),
+        middle(-direction * o.slip),
+        driven(o.gain * turned),
+        angle(splat<P>(0.0)),
+        forced(driven) {
+    start(o, x, v);
   }
 
-  /// For `free` = c e^{z s} and `driven` = G e^{i angle}.
-  [[nodiscard]] Motion<P> at(const Oscillation<P>& o, const Complex& free, const Complex& driven) const {
+  /// e^{i(angle + r s)}
+  [[nodiscard]] Complex turn(const Oscillation<P>& o, Vector s) const { return rotation<P>(angle + o.r * s); }
+  /// For exp(z s) and e^{i(angle + r s)}.
+  [[nodiscard]] Motion<P> after(const Oscillation<P>& o, const Complex& decay, const Complex& turn) const {
+    return at(o, own * decay, driven * turn);
+  }
+
+  /// For free = c e^{z s} and pushed = G e^{i angle} then.
+  [[nodiscard]] Motion<P> at(const Oscillation<P>& o, const Complex& free, const Complex& pushed) const {
     const Vector r2 = o.r * o.r;
     const Complex z{-o.zeta, o.eta};
     const Complex z2 = z * z;
     const Complex z3 = z2 * z;
-    return {.x = middle + driven.re + free.re,
-            .v = z.re * free.re - z.im * free.im - o.r * driven.im,
-            .a = z2.re * free.re - z2.im * free.im - r2 * driven.re,
-            .jerk = z3.re * free.re - z3.im * free.im + o.r * r2 * driven.im};
+    return {.x = middle + pushed.re + free.re,
+            .v = z.re * free.re - z.im * free.im - o.r * pushed.im,
+            .a = z2.re * free.re - z2.im * free.im - r2 * pushed.re,
+            .jerk = z3.re * free.re - z3.im * free.im + o.r * r2 * pushed.im};
+  }
+
+ private:
+  void start(const Oscillation<P>& o, Vector x, Vector v) {
+    own.re = x - middle - forced.re;
+    own.im = -(v + o.r * forced.im + o.zeta * own.re) / o.eta;
   }
 };
 

@@ -1,10 +1,10 @@
 #pragma once
 /// Packs: one number of each of `width` oscillators, side by side in a vector register.
 ///
-/// Every function of this folder's templates is made of +, -, *, /, sqrt, comparisons and the pack's own exp, sincos and
-/// atan2, which give the same bits for every width. So a lane's result depends on that lane alone: not on the width, nor on
-/// its neighbours. Nothing here may call a library function that is inline: the linker could then hand its
-/// copy for one processor to another.
+/// Every function of this folder's templates is made of +, -, *, /, sqrt, comparisons and the pack's own exp,
+/// sincos and atan2, which give the same bits for every width. So a lane's result depends on that lane alone: not
+/// on the width, nor on its neighbours. Nothing here may call a library function that is inline: the linker could
+/// then hand its copy for one processor to another.
 
 #include <concepts>
 
@@ -15,6 +15,7 @@ template <class P>
 concept Pack = requires(typename P::Vector v, typename P::Mask mask, const double* from, double* to) {
   { P::width } -> std::convertible_to<int>;
   { P::any(mask) } -> std::same_as<bool>;
+  P::choose(mask, v, v);
   P::load(from);
   P::store(v, to);
   P::sqrt(v);
@@ -30,12 +31,18 @@ typename P::Vector splat(double value) {
 
 template <Pack P>
 typename P::Vector abs(typename P::Vector v) {
-  return v < 0.0 ? -v : v;
+  return P::choose(v < 0.0, -v, v);
 }
 
 template <Pack P>
 typename P::Vector larger(typename P::Vector a, typename P::Vector b) {
-  return a > b ? a : b;
+  return P::choose(a > b, a, b);
+}
+
+/// 1 where true, else 0.
+template <Pack P>
+typename P::Vector flag(typename P::Mask mask) {
+  return P::choose(mask, splat<P>(1.0), splat<P>(0.0));
 }
 
 /// A complex number in each lane.
@@ -56,9 +63,15 @@ struct ComplexPack {
   }
 };
 
+/// Replaces `target` where `mask` says so.
 template <Pack P>
-ComplexPack<P> choose(typename P::Mask mask, const ComplexPack<P>& yes, const ComplexPack<P>& no) {
-  return {mask ? yes.re : no.re, mask ? yes.im : no.im};
+void update(typename P::Vector& target, typename P::Mask mask, typename P::Vector value) {
+  target = P::choose(mask, value, target);
+}
+template <Pack P>
+void update(ComplexPack<P>& target, typename P::Mask mask, const ComplexPack<P>& value) {
+  update<P>(target.re, mask, value.re);
+  update<P>(target.im, mask, value.im);
 }
 
 /// exp(-decay + i angle)

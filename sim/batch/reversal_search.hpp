@@ -1,11 +1,12 @@
 #pragma once
 /// The first reversal of each oscillator of a pack, with the certificate of core/first_crossing.hpp.
 ///
-/// The guard is g = side v, positive while the phase lasts. A panel's quintic Hermite interpolant less the remainder of the
-/// sixth derivative, in Bernstein form of degree six, is a lower bound L of g: all coefficients positive, no zero; one
-/// sign change, one root, accepted when g is monotone from where L still is positive up to it. Everything else halves the
-/// panel. A lane that after `most_halvings` is still undecided (a grazing, a flat reversal) is given up, not guessed.
-/// Every lower bound is lowered further by the rounding of g: (16 eps + eps max|z| s) times the sum of its amplitudes.
+/// The guard is g = side v, positive while the phase lasts. A panel's quintic Hermite interpolant less the
+/// remainder of the sixth derivative, in Bernstein form of degree six, is a lower bound L of g: all coefficients
+/// positive, no zero; one sign change, one root, accepted when g is monotone from where L still is positive up to
+/// it. Everything else halves the panel. A lane that after `most_halvings` is still undecided (a grazing, a flat
+/// reversal) is given up, not guessed. Every lower bound is lowered further by the rounding of g: (16 eps + eps
+/// max|z| s) times the sum of its amplitudes.
 
 #include "sim/batch/oscillation.hpp"
 
@@ -20,6 +21,11 @@ struct Jet {
   typename P::Vector slope;
   typename P::Vector curvature;
 
+  void update(typename P::Mask mask, const Jet& other) {
+    batch::update<P>(value, mask, other.value);
+    batch::update<P>(slope, mask, other.slope);
+    batch::update<P>(curvature, mask, other.curvature);
+  }
   /// Halley's step to a root.
   [[nodiscard]] typename P::Vector halley() const {
     return 2.0 * value * slope / (2.0 * slope * slope - value * curvature);
@@ -48,16 +54,18 @@ struct Quintic {
     return c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * (5.0 * c5))));
   }
 
-  /// A root between a positive and a negative end: Newton with bisection as a safeguard, good to about 1e-3.
+  /// A root between a positive and a negative end: Newton with bisection as a safeguard, good to a few per cent at
+  /// worst.
   [[nodiscard]] Vector root(Vector t) const {
     Vector low = splat<P>(0.0);
     Vector high = splat<P>(1.0);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
       const Vector value = at(t);
-      low = value > 0.0 ? t : low;
-      high = value > 0.0 ? high : t;
+      const typename P::Mask above = value > 0.0;
+      low = P::choose(above, t, low);
+      high = P::choose(above, high, t);
       const Vector next = t - value / slope(t);
-      t = (next >= low) & (next <= high) ? next : 0.5 * (low + high);
+      t = P::choose((next >= low) & (next <= high), next, 0.5 * (low + high));
     }
     return t;
   }
@@ -70,8 +78,8 @@ class ReversalSearch {
   using Mask = typename P::Mask;
   using Complex = ComplexPack<P>;
 
-  /// For the lanes of `wanted`; `from_reversal`: g has a simple zero at the start. Behind `horizon` (natural time) a lane
-  /// need not look.
+  /// For the lanes of `wanted`; `from_reversal`: g has a simple zero at the start. Behind `horizon` (natural time)
+  /// a lane need not look.
   ReversalSearch(const Oscillation<P>& oscillation, const Phase<P>& phase, Vector horizon, Mask wanted,
                  Mask from_reversal);
 
@@ -79,13 +87,12 @@ class ReversalSearch {
   [[nodiscard]] Mask found() const { return found_; }
   /// These lanes have none before the horizon, certified.
   [[nodiscard]] Mask beyond() const { return beyond_; }
-  /// Natural time of the reversal, and exp(z s), exp(i r s) there.
+  /// Natural time of the reversal, and exp(z s), e^{i angle} there.
   [[nodiscard]] Vector time() const { return time_; }
   [[nodiscard]] const Complex& own() const { return own_; }
   [[nodiscard]] const Complex& turn() const { return turn_; }
 
  private:
-  static constexpr double panel_angle = 3.2;
   static constexpr int most_halvings = 5;
 
   [[nodiscard]] Jet<P> jet(const Complex& free, const Complex& driven) const {
@@ -99,7 +106,6 @@ class ReversalSearch {
   }
 
   void bound();
-  void set_panel();
   void halve(Mask which);
   void step();
   void locate();
@@ -140,20 +146,21 @@ ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Phase
       phase_(phase),
       horizon_(horizon),
       begin_(splat<P>(0.0)),
-      width_(panel_angle / oscillation.fastest),
+      width_(oscillation.panel),
       free_(phase.own),
       driven_(phase.forced),
       left_(jet(free_, driven_)),
+      free_gain_(oscillation.own_panel),
+      driven_gain_(oscillation.turn_panel),
       halvings_(splat<P>(0.0)),
       at_zero_(from_reversal),
       searching_(wanted),
       time_(splat<P>(0.0)),
-      own_{splat<P>(1.0), splat<P>(0.0)},
-      turn_{splat<P>(1.0), splat<P>(0.0)} {
+      own_(phase.own),
+      turn_(phase.forced) {
   pending_ = found_ = beyond_ = wanted & !wanted;
-  left_.value = at_zero_ ? splat<P>(0.0) : left_.value;
+  update<P>(left_.value, at_zero_, splat<P>(0.0));
   bound();
-  set_panel();
   while (P::any(searching_)) {
     while (P::any(searching_)) step();
     if (P::any(pending_)) locate();
@@ -172,17 +179,12 @@ void ReversalSearch<P>::bound() {
 }
 
 template <Pack P>
-void ReversalSearch<P>::set_panel() {
-  free_gain_ = o_.own(width_);
-  driven_gain_ = o_.turn(width_);
-}
-
-template <Pack P>
 void ReversalSearch<P>::halve(Mask which) {
   if (!P::any(which)) return;
-  width_ = which ? 0.5 * width_ : width_;
-  halvings_ = which ? halvings_ + 1.0 : halvings_;
-  set_panel();
+  update<P>(width_, which, 0.5 * width_);
+  update<P>(halvings_, which, halvings_ + 1.0);
+  update<P>(free_gain_, which, o_.own(width_));
+  update<P>(driven_gain_, which, o_.turn(width_));
 }
 
 /// Clears the present panel, finds that it holds one root, or halves it.
@@ -215,11 +217,10 @@ void ReversalSearch<P>::step() {
   const Mask crossed = searching_ & once;
   const Mask undecided = searching_ & !(clear | crossed);
 
-  free_ = choose<P>(clear, free, free_);
-  driven_ = choose<P>(clear, driven, driven_);
-  left_ = {clear ? right.value : left_.value, clear ? right.slope : left_.slope,
-           clear ? right.curvature : left_.curvature};
-  begin_ = clear ? end : begin_;
+  update<P>(free_, clear, free);
+  update<P>(driven_, clear, driven);
+  left_.update(clear, right);
+  update<P>(begin_, clear, end);
   at_zero_ = at_zero_ & !clear;
   const Mask past = clear & (begin_ >= horizon_);
   beyond_ = beyond_ | past;
@@ -234,19 +235,21 @@ template <Pack P>
 void ReversalSearch<P>::locate() {
   const Jet<P> right = jet(free_ * free_gain_, driven_ * driven_gain_);
   const Quintic<P> quintic(left_, right, width_);
-  // Seen from the far end, where the guard is negative.
-  const Vector seen = 1.0 - right.halley() / width_;
-  const Vector guess = (seen > 0.0) & (seen <= 1.0) ? seen : splat<P>(1.0);
+  // Seen from the end where the guard is smaller, but not from a known zero.
+  const Vector share = P::choose(at_zero_, splat<P>(0.9), left_.value / (left_.value - right.value));
+  const Mask late = share > 0.5;
+  const Vector seen = P::choose(late, 1.0 - right.halley() / width_, -left_.halley() / width_);
+  const Vector guess = P::choose((seen > 0.0) & (seen < 1.0), seen, share);
   Vector s = begin_ + width_ * quintic.root(guess);
   Complex own = o_.own(s);
-  Complex turn = o_.turn(s);
-  Jet<P> at = jet(phase_.own * own, phase_.forced * turn);
+  Complex turn = phase_.turn(o_, s);
+  Jet<P> at = jet(phase_.own * own, phase_.driven * turn);
   const Mask settled = pending_ & polish(s, own, turn, at);
   const Mask accepted = settled & certify(quintic, s, at.slope);
   found_ = found_ | accepted;
-  time_ = accepted ? s : time_;
-  own_ = choose<P>(accepted, own, own_);
-  turn_ = choose<P>(accepted, turn, turn_);
+  update<P>(time_, accepted, s);
+  update<P>(own_, accepted, own);
+  update<P>(turn_, accepted, turn);
 
   const Mask again = pending_ & !accepted & (halvings_ < most_halvings);
   pending_ = pending_ & !pending_;
@@ -254,21 +257,28 @@ void ReversalSearch<P>::locate() {
   halve(again);
 }
 
-/// exp(w) - 1 for |w| < 0.03, to rounding of exp.
+/// Beyond this exponent the series below are not exact to rounding.
+inline constexpr double small_exponent = 0.03;
+
+/// value e^{i angle} for a small angle.
 template <Pack P>
-ComplexPack<P> small_exponential(const ComplexPack<P>& w) {
-  ComplexPack<P> sum{splat<P>(1.0), splat<P>(0.0)};
-  for (const double part : {1.0 / 7.0, 1.0 / 6.0, 1.0 / 5.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0}) {
-    sum = sum * ComplexPack<P>{part * w.re, part * w.im};
-    sum.re = sum.re + 1.0;
-  }
-  return sum * w;
+ComplexPack<P> turned_by(const ComplexPack<P>& value, typename P::Vector angle) {
+  const typename P::Vector y = angle * angle;
+  const typename P::Vector sine =
+      angle * (1.0 - y * (1.0 / 6.0) * (1.0 - y * (1.0 / 20.0) * (1.0 - y * (1.0 / 42.0))));
+  const typename P::Vector less = 0.5 * y * (1.0 - y * (1.0 / 12.0) * (1.0 - y * (1.0 / 30.0)));
+  return {value.re - (value.re * less + value.im * sine), value.im + (value.re * sine - value.im * less)};
 }
 
+/// value e^x for a small x.
 template <Pack P>
-ComplexPack<P> shifted(const ComplexPack<P>& value, const ComplexPack<P>& by) {
-  const ComplexPack<P> gain = value * small_exponential<P>(by);
-  return {value.re + gain.re, value.im + gain.im};
+ComplexPack<P> scaled_by(const ComplexPack<P>& value, typename P::Vector x) {
+  const typename P::Vector x2 = x * x;
+  const typename P::Vector odd =
+      x * (1.0 + x2 * (1.0 / 6.0) * (1.0 + x2 * (1.0 / 20.0) * (1.0 + x2 * (1.0 / 42.0))));
+  const typename P::Vector even = 0.5 * x2 * (1.0 + x2 * (1.0 / 12.0) * (1.0 + x2 * (1.0 / 30.0)));
+  const typename P::Vector gain = odd + even;
+  return {value.re + value.re * gain, value.im + value.im * gain};
 }
 
 /// Halley's iteration. The exponentials are evaluated once and then shifted, but for large steps.
@@ -276,25 +286,28 @@ template <Pack P>
 typename P::Mask ReversalSearch<P>::polish(Vector& s, Complex& own, Complex& turn, Jet<P>& at) const {
   Mask moving = pending_;
   Mask settled = pending_ & !pending_;
-  for (int i = 0; i < 6 && P::any(moving); ++i) {
+  for (int i = 0; i < 6; ++i) {
     const Vector step = at.halley();
     const Vector size = abs<P>(step);
-    const Mask large = moving & !(size * o_.fastest < 0.03);
+    const Mask large = moving & !(size * o_.fastest < small_exponent);
     const Vector next = s - step;
-    Complex next_own = shifted<P>(own, {o_.zeta * step, -o_.eta * step});
-    Complex next_turn = shifted<P>(turn, {splat<P>(0.0), -o_.r * step});
+    Complex next_own = scaled_by<P>(turned_by<P>(own, -o_.eta * step), o_.zeta * step);
+    Complex next_turn = turned_by<P>(turn, -o_.r * step);
     if (P::any(large)) {
-      next_own = choose<P>(large, o_.own(next), next_own);
-      next_turn = choose<P>(large, o_.turn(next), next_turn);
+      update<P>(next_own, large, o_.own(next));
+      update<P>(next_turn, large, phase_.turn(o_, next));
     }
-    s = moving ? next : s;
-    own = choose<P>(moving, next_own, own);
-    turn = choose<P>(moving, next_turn, turn);
+    update<P>(s, moving, next);
+    update<P>(own, moving, next_own);
+    update<P>(turn, moving, next_turn);
     // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
-    const Mask last = (size * o_.fastest < 5e-6) & (size * abs<P>(at.curvature) < 5e-6 * abs<P>(at.slope));
-    at = jet(phase_.own * own, phase_.forced * turn);
-    settled = settled | (moving & last);
+    const Mask last = moving & (size * o_.fastest < 5e-6) & (size * abs<P>(at.curvature) < 5e-6 * abs<P>(at.slope));
+    update<P>(at.slope, last, at.slope - at.curvature * step);
+    settled = settled | last;
     moving = moving & !last;
+    if (!P::any(moving)) break;
+    const Jet<P> there = jet(phase_.own * own, phase_.driven * turn);
+    at.update(moving, there);
   }
   return settled;
 }
@@ -306,7 +319,7 @@ typename P::Mask ReversalSearch<P>::certify(const Quintic<P>& quintic, Vector ro
   // |g - H| <= 14400/46080 of the remainder anywhere on the panel.
   const Vector reach = 2.0 * (0.3125 * remainder() + rounding) / -slope;
   const Vector room = root - begin_;
-  const Vector gap = reach < room ? reach : room;
+  const Vector gap = P::choose(reach < room, reach, room);
   const Vector before = (room - gap) / width_;
   const Vector edge = before * (1.0 - before);
   const Vector low = quintic.at(before) - 20.0 * remainder() * edge * edge * edge - rounding;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bench/speed/contender.hpp"
+#include "bench/speed/steady_states.hpp"
 #include "bench/speed/timing.hpp"
 
 using namespace dualdamp::bench::speed;
@@ -21,6 +22,16 @@ TEST_CASE("The exact engine follows the standard case to the last bits") {
   CHECK(ours.reversals == 100);
   // Four turns of rounding at most: the orbit contracts, so errors of single periods do not add up.
   CHECK(error_of(ours) < 1e-15);
+}
+
+TEST_CASE("Batches follow the standard case to the last bits") {
+  const auto contenders = batch_contenders(standard_case());
+  REQUIRE(!contenders.empty());
+  for (const Contender& batch : contenders) {
+    const Followed ours = batch.follow(periods);
+    CHECK(ours.reversals == 100);
+    CHECK(error_of(ours) < 1e-15);
+  }
 }
 
 TEST_CASE("The general solvers follow the same motion") {
@@ -50,6 +61,14 @@ TEST_CASE("SciPy follows the same motion and times each batch") {
     REQUIRE(results[i].seconds.size() == 2);
     CHECK(results[i].seconds.front() > 0.0);
   }
+}
+
+TEST_CASE("Steady states are counted by the second") {
+  const StandardCase work = standard_case();
+  CHECK(steady_states_per_second(work, 2'000) > 1e3);
+  const double seconds = seconds_for_steady_state(work);
+  CHECK(seconds > 0.0);
+  CHECK(seconds < 0.1);
 }
 
 TEST_CASE("A contender starts from the same state each time") {

@@ -1,0 +1,66 @@
+#include "bench/speed/steady_states.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <span>
+#include <stdexcept>
+
+#include "bench/speed/timing.hpp"
+#include "sim/batch/batch.hpp"
+#include "sim/steady_state.hpp"
+
+namespace dualdamp::bench::speed {
+namespace {
+
+sim::OscillatorBatch around(const StandardCase& work, int count) {
+  std::mt19937_64 bits(1);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * std::generate_canonical<double, 53>(bits);
+  };
+  const double natural = std::sqrt(work.stiffness / work.mass);
+  sim::OscillatorBatch batch;
+  for (int i = 0; i < count; ++i) {
+    const double friction = between(0.01, 0.3) * work.stiffness * work.base_amplitude;
+    batch.mass.push_back(work.mass);
+    batch.damping.push_back(between(0.05, 0.35) * 2.0 * work.mass * natural);
+    batch.stiffness.push_back(work.stiffness);
+    batch.kinetic.push_back(friction);
+    batch.static_level.push_back(friction);
+    batch.amplitude.push_back(work.base_amplitude);
+    batch.frequency.push_back(between(0.7, 1.3) * natural);
+  }
+  return batch;
+}
+
+}  // namespace
+
+double seconds_for_steady_state(const StandardCase& work) {
+  sim::Model model = model_of(work);
+  model.initial = {};
+  double sink = 0.0;
+  const std::function<void(int)> find = [&](int times) {
+    for (int i = 0; i < times; ++i) sink += sim::steady_state(model).amplitude;
+  };
+  const double median = time_in_turns(std::span(&find, 1), 9, 0.02).front().median;
+  if (!std::isfinite(sink)) throw std::runtime_error("the standard case has no steady state");
+  return median;
+}
+
+double steady_states_per_second(const StandardCase& work, int count) {
+  using Clock = std::chrono::steady_clock;
+  const sim::OscillatorBatch batch = around(work, count);
+  std::vector<double> times;
+  for (int run = 0; run < 7; ++run) {
+    const Clock::time_point begin = Clock::now();
+    const sim::BatchSteadyStates states = sim::steady_states(batch);
+    times.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    if (std::count(states.stops.begin(), states.stops.end(), 0) != count)
+      throw std::runtime_error("an oscillator of the batch sticks");
+  }
+  return count / quartiles(std::move(times)).median;
+}
+
+}  // namespace dualdamp::bench::speed

@@ -1,0 +1,17 @@
+#pragma once
+/// How fast steady states are found.
+
+#include "bench/speed/standard_case.hpp"
+
+namespace dualdamp::bench::speed {
+
+/// Processor seconds for the steady state of the standard case from nothing: transient, Newton's method, energy
+/// account.
+[[nodiscard]] double seconds_for_steady_state(const StandardCase& work);
+
+/// Steady states a second, by the clock, of `count` oscillators that do not stick, in batches on all cores. They
+/// surround the standard case: zeta in 0.05..0.35, r in 0.7..1.3, friction at most 0.3 of the drive's force, drawn
+/// at random.
+[[nodiscard]] double steady_states_per_second(const StandardCase& work, int count);
+
+}  // namespace dualdamp::bench::speed

@@ -1,0 +1,79 @@
+#pragma once
+/// Many independent oscillators at once, for curves, maps and campaigns.
+///
+/// Oscillator: mass, stiffness, damping 0 <= zeta < 1, one Coulomb law (static >= kinetic), one harmonic drive:
+///
+///     m x'' + c x' + k x + kinetic sgn x' = drive amplitude cos(w t)
+///
+/// Packs of 8, 4, 2 or 1 oscillators, as wide as the processor allows, follow the closed form from reversal to
+/// reversal with the certificate of `core/first_crossing.hpp`. What this simple path cannot certify (sticking,
+/// grazing, a static limit met within 1e-9, critical damping, undamped resonance) the exact engine does, one
+/// oscillator at a time, in the same call.
+///
+/// Results are the same to the last bit for every width and number of threads: each lane only depends on its own
+/// numbers, and exp, sin, cos and atan2 are SLEEF's reproducible variants (shibata2020). They agree with the exact
+/// engine to rounding, not to the bit.
+///
+/// Cost on one core with AVX-512: about 0.08 us for a forcing period, 0.1 us for a steady state; tens of us where
+/// the exact engine takes over.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "sim/excitation.hpp"
+#include "sim/oscillator.hpp"
+
+namespace dualdamp::sim {
+
+/// One entry for each oscillator; all of the same length. Units as in Oscillator, friction::Coulomb and Excitation.
+struct OscillatorBatch {
+  ExcitationType type = ExcitationType::base_harmonic;  ///< or force_harmonic
+  DamperTo damper_to = DamperTo::ground;
+  std::vector<double> mass;
+  std::vector<double> damping;
+  std::vector<double> stiffness;
+  std::vector<double> kinetic;
+  std::vector<double> static_level;
+  std::vector<double> amplitude;
+  std::vector<double> frequency;
+
+  [[nodiscard]] std::size_t size() const { return mass.size(); }
+};
+
+struct BatchOptions {
+  int width = 0;    ///< one of batch_widths(); 0: the largest
+  int threads = 0;  ///< at most; 0: all cores
+};
+
+/// The widths that this processor has, ascending.
+[[nodiscard]] std::vector<int> batch_widths();
+
+/// Steady states, one entry for each oscillator; where the outcome is not `done` its numbers mean nothing.
+struct BatchSteadyStates {
+  std::vector<core::OutcomeKind> outcome;
+  std::vector<double> peak;           ///< max x [m]
+  std::vector<double> trough;         ///< min x [m]
+  std::vector<double> lag;            ///< of x's fundamental behind the drive [rad], in [0, 2 pi)
+  std::vector<double> radius;         ///< largest modulus of a Floquet multiplier of the full period
+  std::vector<int> stops;             ///< stops in a period
+  std::vector<unsigned char> engine;  ///< 1: found by the exact engine, 0: in a pack
+};
+
+/// The steady state approached from rest at x = 0 (`sim/steady_state.hpp`). In packs: the symmetric orbit without
+/// sticking, from Newton's method on the half-period map, certified by that map (`sim/batch/find_orbits.hpp`).
+[[nodiscard]] BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options = {});
+
+/// Where motions are after some periods; in and out.
+struct BatchMotions {
+  std::vector<double> position;     ///< m; given: at t = 0
+  std::vector<double> velocity;     ///< m/s; given: at t = 0
+  std::vector<double> amplitude{};  ///< half the distance between the last two reversals [m]
+  std::vector<long> reversals{};
+  std::vector<unsigned char> engine{};  ///< 1: followed by the exact engine, 0: in a pack
+};
+
+/// Follows each motion from t = 0 over whole forcing periods.
+void follow(const OscillatorBatch& batch, int periods, BatchMotions& motions, const BatchOptions& options = {});
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,91 @@
+#pragma once
+/// Motions from a state on, reversal by reversal, over whole forcing periods.
+
+#include "sim/batch/find_orbits.hpp"
+
+namespace dualdamp::sim::batch {
+
+/// A motion in each lane, at the start of a phase.
+template <Pack P>
+struct Traveller {
+  using Vector = typename P::Vector;
+  using Mask = typename P::Mask;
+
+  Vector x;
+  Vector v;  ///< by natural time
+  Vector side;
+  Vector angle;           ///< of the drive, in [0, 2 pi)
+  ComplexPack<P> turned;  ///< e^{i angle}
+  Vector left;            ///< whole periods still to come, the present one included
+  Vector turning;
+  Vector amplitude;
+  Vector reversals;
+  Mask running;
+  Mask arrived;
+
+  Traveller(const Oscillation<P>& o, Vector position, Vector velocity, int periods)
+      : x(position),
+        v(velocity / o.natural),
+        side(P::choose(velocity < 0.0, splat<P>(-1.0), splat<P>(1.0))),
+        angle(splat<P>(0.0)),
+        turned{splat<P>(1.0), splat<P>(0.0)},
+        left(splat<P>(periods)),
+        turning(splat<P>(0.0)),
+        amplitude(splat<P>(0.0)),
+        reversals(splat<P>(0.0)) {
+    running = o.simple & ((v < 0.0) | (v > 0.0));
+    arrived = running & !running;
+  }
+
+  void pass_phase(const Oscillation<P>& o);
+};
+
+/// To the next reversal, or to the end where that comes first.
+template <Pack P>
+void Traveller<P>::pass_phase(const Oscillation<P>& o) {
+  const Phase<P> phase(o, x, v, side, angle, turned);
+  const Vector rest = (left * (2.0 * pi) - angle) / o.r;
+  const ReversalSearch<P> search(o, phase, rest, running, running & (v == 0.0));
+
+  const Mask reverses = search.found() & (search.time() < rest);
+  const Motion<P> turn = phase.after(o, search.own(), search.turn());
+  // The new direction is that of the pull, which has to overcome the static limit.
+  const Mask moves = reverses & (abs<P>(turn.a) > o.slip + o.hold + clearly * (abs<P>(turn.x) + o.hold));
+  const Mask ends = search.beyond() | (search.found() & !reverses);
+  if (P::any(ends)) {
+    const Motion<P> end = phase.after(o, o.own(rest), phase.turn(o, rest));
+    update<P>(x, ends, end.x);
+    update<P>(v, ends, end.v);
+  }
+  arrived = arrived | ends;
+  running = moves;
+
+  update<P>(amplitude, moves, 0.5 * abs<P>(turn.x - turning));
+  update<P>(turning, moves, turn.x);
+  update<P>(reversals, moves, reversals + 1.0);
+  update<P>(x, moves, turn.x);
+  update<P>(v, moves, splat<P>(0.0));
+  side = -side;
+  turned = search.turn();
+  update<P>(angle, moves, angle + o.r * search.time());
+  const Mask wraps = angle >= 2.0 * pi;
+  update<P>(angle, wraps, angle - 2.0 * pi);
+  update<P>(left, wraps, left - 1.0);
+}
+
+template <Pack P>
+void follow(const Oscillators& all, const Passages& passages) {
+  for (std::size_t first = 0; first < all.count; first += P::width) {
+    const Oscillation<P> oscillation(all, first);
+    Traveller<P> traveller(oscillation, P::load(passages.position + first), P::load(passages.velocity + first),
+                           passages.periods);
+    while (P::any(traveller.running)) traveller.pass_phase(oscillation);
+    P::store(traveller.x, passages.position + first);
+    P::store(traveller.v * oscillation.natural, passages.velocity + first);
+    P::store(traveller.amplitude, passages.amplitude + first);
+    P::store(traveller.reversals, passages.reversals + first);
+    P::store(flag<P>(traveller.arrived), passages.certified + first);
+  }
+}
+
+}  // namespace dualdamp::sim::batch
