@@ -69,10 +69,18 @@ struct Grazing {
 
 /// What has been searched so far: the certificate a run can print.
 struct SearchCount {
-  long searches = 0;
-  long panels = 0;
-  long splits = 0;
-  long grazings = 0;
+  long searches = 0;  ///< searches for the next event
+  long panels = 0;    ///< certified, of all guards at once
+  long splits = 0;    ///< panels of one guard that had to be divided
+  long grazings = 0;  ///< tangencies
+
+  SearchCount& operator+=(const SearchCount& other) {
+    searches += other.searches;
+    panels += other.panels;
+    splits += other.splits;
+    grazings += other.grazings;
+    return *this;
+  }
 };
 
 /// First crossing of any of `guards` (each prepared) in (0, horizon); tangencies before it are appended to

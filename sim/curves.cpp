@@ -33,6 +33,7 @@ class Chunk {
     model.excitation.frequency = point.omega;
     model.excitation.amplitude = point.Y;
     const SteadyState state = steady_state(model, options);
+    certificate_ += state.certificate;
     if (state.outcome.ok()) {
       point.x = state.amplitude;
       point.phase = state.phase;
@@ -52,6 +53,7 @@ class Chunk {
     for (const std::string& reason : reasons_) numbers.push_back(number_in(curve.reasons, reason));
     for (CurvePoint& point : points) point.reason = numbers[point.reason];
     for (const Remark& remark : remarks_.take()) remarks.add(remark.text, remark.first, remark.count);
+    curve.certificate += certificate_;
   }
 
  private:
@@ -65,6 +67,7 @@ class Chunk {
 
   std::vector<std::string> reasons_;
   Remarks remarks_;
+  core::SearchCount certificate_;
 };
 
 /// Fills in points that have their `omega` and `Y`.

@@ -38,6 +38,7 @@ struct Curve {
   std::vector<CurvePoint> points;
   std::vector<std::string> reasons = {""};  ///< distinct reasons for points without numbers; the first is none
   std::vector<Remark> remarks;              ///< reasons and warnings by first appearance
+  core::SearchCount certificate;            ///< of all points together
 
   [[nodiscard]] const std::string& reason(const CurvePoint& point) const { return reasons[point.reason]; }
 };

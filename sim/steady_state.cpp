@@ -50,6 +50,7 @@ class OrbitFinder {
   }
 
   void find(SteadyState& result);
+  [[nodiscard]] const core::SearchCount& count() { return map_.engine().count(); }
   void describe(SteadyState& result) { account_for_orbit(model_, map_, options_.full_account, result); }
 
  private:
@@ -183,6 +184,7 @@ SteadyState steady_state(const Model& model, const SteadyStateOptions& options) 
   OrbitFinder finder(model, options);
   finder.find(result);
   if (result.outcome.ok()) finder.describe(result);
+  result.certificate = finder.count();
   return result;
 }
 

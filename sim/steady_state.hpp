@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/first_crossing.hpp"
 #include "core/outcome.hpp"
 #include "sim/energy.hpp"
 #include "sim/interval.hpp"
@@ -38,6 +39,7 @@ struct SteadyState {
   State start;  ///< of the orbit, at t = 0
   int newton_steps = 0;
   int transient_periods = 0;
+  core::SearchCount certificate;  ///< of all searches for events on the way to the orbit and on it
 
   /// No multiplier outside the unit circle; one on it is a mass that never moves, or a continuum (see `warnings`).
   [[nodiscard]] bool stable() const;

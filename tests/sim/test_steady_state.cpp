@@ -207,6 +207,25 @@ TEST_CASE("an x-Y curve carries failed points as rows with a reason") {
   CHECK_FALSE(curve.reason(curve.points[2]).empty());
 }
 
+TEST_CASE("the certificate of a curve is the sum of its points'") {
+  const sim::Model model = base_driven(1.0, 100.0, 1.0, 0.5, 0.5, 0.05, 10.0);
+  core::SearchCount sum;
+  for (const double omega : {5.0, 10.0, 20.0}) {
+    sim::Model point = model;
+    point.excitation.frequency = omega;
+    const sim::SteadyState state = sim::steady_state(point);
+    // Two reversals and the end of the period: three searches in each period followed.
+    CHECK(state.certificate.searches >= 3 * (1 + state.newton_steps));
+    CHECK(state.certificate.panels >= state.certificate.searches);
+    sum += state.certificate;
+  }
+  const core::SearchCount found = sim::frequency_response(model, {5.0, 10.0, 20.0}).certificate;
+  CHECK(found.searches == sum.searches);
+  CHECK(found.panels == sum.panels);
+  CHECK(found.splits == sum.splits);
+  CHECK(found.grazings == sum.grazings);
+}
+
 TEST_CASE("a frequency response keeps its order and peaks near resonance") {
   const auto curve =
       sim::frequency_response(base_driven(1.0, 100.0, 1.0, 0.5, 0.5, 0.05, 10.0), {5.0, 10.0, 20.0}).points;
