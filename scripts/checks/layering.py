@@ -35,6 +35,7 @@ LIBRARIES = {
     "udunits2": (r"udunits2?\.h", ["core"], SOURCES),
     "Random123": (r"Random123/", ["core"], SOURCES),
     "OpenSSL": (r"openssl/", ["core"], SOURCES),
+    "the processor's own functions": (r"immintrin\.h", ["sim"], SOURCES),
     "SLEEF": (r"sleef\.h", ["sim"], SOURCES),
     "oneTBB": (r"(tbb|oneapi)/", ["sim", *ABOVE_SIM], SOURCES),
     "Boost.Odeint": (r"boost/numeric/odeint", ["sim", "bench"], SOURCES),

@@ -2,30 +2,20 @@
 #include <sleef.h>
 
 #include "sim/batch/follow.hpp"
+#include "sim/batch/vector_register.hpp"
 
 namespace dualdamp::sim::batch {
 namespace {
 
 /// AVX2 without FMA, whose rounding differs.
-struct Avx2 {
-  using Vector = double __attribute__((vector_size(32)));
-  using Mask = decltype(Vector{} < Vector{});
-  static constexpr int width = 4;
-
+struct Avx2 : VectorRegister<4> {
   static bool any(Mask mask) {
     return _mm256_movemask_pd(_mm256_castsi256_pd(reinterpret_cast<__m256i>(mask))) != 0;
   }
-  static Vector choose(Mask mask, Vector yes, Vector no) { return mask ? yes : no; }
-  static Vector load(const double* from) { return _mm256_loadu_pd(from); }
-  static void store(Vector v, double* to) { _mm256_storeu_pd(to, v); }
   static Vector sqrt(Vector v) { return _mm256_sqrt_pd(v); }
   static Vector exp(Vector v) { return Sleef_cinz_expd4_u10avx(v); }
   static Vector atan2(Vector y, Vector x) { return Sleef_cinz_atan2d4_u10avx(y, x); }
-  static void sincos(Vector v, Vector& sine, Vector& cosine) {
-    const auto both = Sleef_cinz_sincosd4_u10avx(v);
-    sine = both.x;
-    cosine = both.y;
-  }
+  static void sincos(Vector v, Vector& sine, Vector& cosine) { split(Sleef_cinz_sincosd4_u10avx(v), sine, cosine); }
 };
 
 }  // namespace

@@ -1,0 +1,31 @@
+#pragma once
+/// What all packs in a vector register have in common; a kernel's file adds square root, SLEEF's functions and
+/// `any`.
+
+namespace dualdamp::sim::batch {
+
+template <int Width>
+struct VectorRegister {
+  // GCC 12 drops the attribute from an alias declaration that depends on a parameter.
+  typedef double Vector __attribute__((vector_size(Width * sizeof(double))));
+  typedef long Mask __attribute__((vector_size(Width * sizeof(double))));  // as comparisons have it
+  static constexpr int width = Width;
+
+  static Vector choose(Mask mask, Vector yes, Vector no) { return mask ? yes : no; }
+  static Vector load(const double* from) {
+    Vector v;
+    __builtin_memcpy(&v, from, sizeof v);
+    return v;
+  }
+  static void store(Vector v, double* to) { __builtin_memcpy(to, &v, sizeof v); }
+
+ protected:
+  /// SLEEF's pair of sine and cosine.
+  template <class Pair>
+  static void split(const Pair& both, Vector& sine, Vector& cosine) {
+    sine = both.x;
+    cosine = both.y;
+  }
+};
+
+}  // namespace dualdamp::sim::batch
