@@ -70,23 +70,6 @@ struct Bernstein {
     }
     return least;
   }
-
-  [[nodiscard]] bool within(double low, double high) const {
-    return std::all_of(b.begin(), b.end(),
-                       [=](double coefficient) { return low <= coefficient && coefficient <= high; });
-  }
-
-  /// Descartes: the roots in (0, 1) are at most the sign changes, and as many modulo two. Zeros are skipped.
-  [[nodiscard]] int sign_changes() const {
-    int changes = 0;
-    double last = 0.0;
-    for (const double coefficient : b) {
-      if (coefficient == 0.0) continue;
-      if (last * coefficient < 0.0) ++changes;
-      last = coefficient;
-    }
-    return changes;
-  }
 };
 
 /// The search for one guard within one outer panel.
@@ -230,7 +213,18 @@ class PanelSearch {
   }
   [[nodiscard]] double sign_change(double low, double high);
   [[nodiscard]] Jet taylor_jet(double s);
-  [[nodiscard]] double accept_root(const Jet& a, const Jet& b, double remainder);
+  /// What the remainder takes from the middle coefficient of L on a panel of width h.
+  [[nodiscard]] double remainder(double h) const {
+    const double cube = h * h * h;
+    return sixth_ * cube * cube / 14400.0;
+  }
+  /// Rounding of the coefficients of L.
+  [[nodiscard]] double allowance(const Jet& a, const Jet& b) const {
+    return a.zeros > 0 ? 0.0625 * slack(b.s) : std::max(slack(a.s), slack(b.s));
+  }
+  [[nodiscard]] bool positive_between(const Jet& a, const Jet& b) const;
+  [[nodiscard]] bool flat(const Jet& a, const Jet& b) const;
+  [[nodiscard]] double accept_root(const Jet& a, const Jet& b);
   Jet polish(double s);
   [[nodiscard]] Jet minimum(const Jet& a, const Jet& b);
   [[nodiscard]] Jet split_point(const Jet& a, const Jet& b);
@@ -273,25 +267,26 @@ Jet PanelSearch::taylor_jet(double s) {
 }
 
 /// Halley's iteration from a good guess; the basis is evaluated once and then shifted. Leaves the elements' values
-/// at the result in root_values_.
+/// at the result in root_values_. `polished_` tells where it has converged.
 Jet PanelSearch::polish(double s) {
   basis_.evaluate(s, root_values_);
   Jet j = jet(s, root_values_);
   for (int i = 0; i < 8; ++i) {
     const double step = halley(j);
-    if (!(std::abs(step) > 2.0 * epsilon * s) || !(s - step >= 0.0)) break;
+    const double size = std::abs(step);
+    polished_ = s;
+    if (!(size > 2.0 * epsilon * s)) return j;
+    if (!(s - step >= 0.0)) break;
+    // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
+    const bool last = size * basis_.fastest() < 5e-6 && size * std::abs(j.curvature) < 5e-6 * std::abs(j.slope) &&
+                      basis_.fastest() > 0.0;
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
-    // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
-    const double size = std::abs(step);
-    if (size * basis_.fastest() < 5e-6 && size * std::abs(j.curvature) < 5e-6 * std::abs(j.slope) &&
-        basis_.fastest() > 0.0) {
-      j.slope -= j.curvature * step;
-      break;
-    }
     j = jet(s, root_values_);
+    polished_ = s;
+    if (last) return j;
   }
-  j.s = polished_ = s;
+  polished_ = none;
   return j;
 }
 
@@ -334,25 +329,25 @@ struct Interpolant {
   }
 };
 
-/// The root behind the only sign change of L, when g is certified positive before it and monotone across it.
-double PanelSearch::accept_root(const Jet& a, const Jet& b, double remainder) {
+/// The root of g near that of the interpolant, when g is certified positive before it.
+double PanelSearch::accept_root(const Jet& a, const Jet& b) {
   const double width = b.s - a.s;
-  const Interpolant interpolant(a, b);
   // Seen from the far end, where the guard is negative.
   const double guess = 1.0 - halley(b) / width;
-  const Jet at = polish(a.s + width * interpolant.root(guess > 0.0 && guess <= 1.0 ? guess : 1.0));
-  const double root = at.s;
-  if (!(root > a.s && root <= b.s) || !(at.slope < 0.0)) return none;
-  // |g - H| <= 14400/46080 of `remainder` anywhere on the panel.
-  const double gap = std::min(2.0 * (remainder * 0.3125 + slack(root)) / -at.slope, root - a.s);
-  if (curvature_ * gap >= -at.slope) return none;
-  const double before = (root - gap - a.s) / width;
-  // L has one root; positive at `before` means positive up to there, and g >= L.
-  const double edge = before * (1.0 - before);
-  const double low = interpolant.at(before) - 20.0 * remainder * edge * edge * edge - slack(b.s);
-  if (before > 0.0 && !(low > 0.0)) return none;
-  if (before <= 0.0 && a.zeros > 0) return none;
-  return root;
+  Jet root = polish(a.s + width * Interpolant(a, b).root(guess > 0.0 && guess <= 1.0 ? guess : 1.0));
+  if (polished_ != root.s || !(root.s > a.s && root.s <= b.s) || !(root.slope < 0.0)) return none;
+  // Monotone as far as rounding of the value reaches: g does change its sign there.
+  const double reach = slack(root.s);
+  if (!(std::abs(root.value) <= reach) || !(root.slope * root.slope > 4.0 * reach * curvature_)) return none;
+  root.zeros = 1;
+  return positive_between(a, root) ? root.s : none;
+}
+
+/// Whether L shows that g has no zero between the ends but the known ones.
+bool PanelSearch::positive_between(const Jet& a, const Jet& b) const {
+  Bernstein low(a, b);
+  low.b[3] -= remainder(b.s - a.s);
+  return low.lower_by(allowance(a, b), a.zeros, b.zeros) > 0.0;
 }
 
 /// The minimum between slopes of opposite sign, by Newton on g' with bisection as a safeguard.
@@ -413,19 +408,22 @@ double PanelSearch::split(const Jet& a, const Jet& b, int depth) {
   return first_root(middle, b, depth + 1);
 }
 
+/// Whether g stays within rounding of zero.
+bool PanelSearch::flat(const Jet& a, const Jet& b) const {
+  const double widest = std::max(slack(a.s), slack(b.s));
+  const double rest = remainder(b.s - a.s);
+  const Bernstein hermite(a, b);
+  return std::all_of(hermite.b.begin(), hermite.b.end(),
+                     [=](double coefficient) { return std::abs(coefficient) + rest <= 1.1 * widest; });
+}
+
 double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
-  const double h = b.s - a.s;
-  const double h2 = h * h;
-  const double remainder = sixth_ * h2 * h2 * h2 / 14400.0;
-  Bernstein low(a, b);
-  low.b[3] -= remainder;
-  const double right_slack = slack(b.s);
-  const double allowance = a.zeros > 0 ? 0.0625 * right_slack : std::max(slack(a.s), right_slack);
-  if (low.lower_by(allowance, a.zeros, b.zeros) > 0.0) return none;
   const bool crosses = b.zeros == 0 && b.value < 0.0;
-  if (crosses && low.sign_changes() == 1) {
-    const double root = accept_root(a, b, remainder);
+  if (crosses) {
+    const double root = accept_root(a, b);
     if (root >= 0.0) return root;
+  } else if (positive_between(a, b)) {
+    return none;
   }
   if (depth == 0) {
     const double coarse = amplitude_;
@@ -435,8 +433,7 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
   } else if (amplitude_ < vanished) {
     return none;
   }
-  const double widest = std::max(slack(a.s), right_slack);
-  if (depth >= max_depth || h <= 4.0 * epsilon * b.s || low.within(-2.0 * widest, 0.1 * widest - 2.0 * remainder)) {
+  if (depth >= max_depth || b.s - a.s <= 4.0 * epsilon * b.s || flat(a, b)) {
     // Nowhere on the panel does the guard stand out of rounding: a flat crossing, or one flat contact.
     if (crosses) return sign_change(a.s, b.s);
     const Jet middle = jet(0.5 * (a.s + b.s));

@@ -21,10 +21,11 @@
 ///   interpolant H of (g, g', g'') at both ends obeys
 ///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,
 ///   M6 from the amplitudes, since every element's modulus is known. In Bernstein form of degree six that remainder
-///   touches one coefficient only: L = H - remainder. All coefficients of L positive: no zero on the panel. One
-///   sign change of them: L has exactly one root and g > 0 before it; the root of g just behind it is accepted when
-///   |g'| there exceeds M2 times the gap, so that g is monotone across it. Anything else is split, at the minimum
-///   where there is one, until one of the three cases holds.
+///   touches one coefficient only: L = H - remainder. All coefficients of L positive: no zero on the panel. Where a
+///   panel ends negative, a root of g is found by Halley's method and the panel from its begin to that root is
+///   examined in the same way, with the zero at its end factored out: positive coefficients show that it is the
+///   first one. It is a change of sign when g'^2 there exceeds 4 M2 times the rounding of g, M2 >= |g''|. Anything
+///   else is split, at the minimum where there is one, until one of these cases holds.
 ///
 /// Cost: on a basis without chains a panel costs a few dozen multiplications and no transcendental function; a
 /// crossing costs one evaluation of the basis. No allocation unless contacts graze.
