@@ -5,6 +5,13 @@
 
 namespace dualdamp::friction {
 
+namespace {
+
+/// Bristles this close to their limit, relative, are at it: rounding must not tell equal ones apart.
+constexpr double same_place = 1.0 - 1e-12;
+
+}  // namespace
+
 const std::vector<Parameter>& Bristle::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "stiffness",
@@ -59,8 +66,9 @@ void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Directio
   std::vector<double>& places = memory.state;
   if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(places, now.x);
   if (trigger.cause < 0) return;
-  // After a fall of the limit many are beyond it: all of this side snap together.
-  const double limit = now.limit_now(snap_distance_);
+  // All of this side that are beyond the limit snap together: many after it fell, and those that stand in one
+  // place.
+  const double limit = same_place * now.limit_now(snap_distance_);
   const bool rear = trigger.cause == 0;
   do {
     const double place = draw_place(memory, now);

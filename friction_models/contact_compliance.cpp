@@ -46,6 +46,11 @@ ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory
   return {settled, rate, memory.state[0] - settled, stiffness_ / damping_};
 }
 
+/// A damped slider, and one under a varying limit, stop at a guard of their own.
+bool ContactCompliance::slider_stops_by_itself(const Instant& now) const {
+  return is_damped() || stops_by_itself(now.limit(kinetic_), stiffness_);
+}
+
 /// Of a slider that slips, taken positive towards its side.
 Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now) const {
   if (!is_damped()) return dragged_speed(now.limit(kinetic_), memory.mode, stiffness_);
@@ -65,7 +70,7 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
     const Affine force = affine_force(memory, now, direction);
     guards.push_back(break_away(memory, now, 1) - force);
     guards.push_back(break_away(memory, now, -1) + force);
-  } else if (is_damped() || now.limit(kinetic_).rate != 0.0) {
+  } else if (slider_stops_by_itself(now)) {
     guards.push_back(slider_speed(memory, now));
   }
 }
@@ -89,10 +94,9 @@ void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now
   const bool slips = std::abs(memory.mode) == slipping;
   switch (trigger.cause) {
     case Trigger::direction_change:
-      // A slider under a varying limit, and a damped one, stop at a guard of their own.
       if (!slips) {
         memory.mode = stuck;
-      } else if (!is_damped() && now.limit(kinetic_).rate == 0.0 && sign(direction) != memory.mode) {
+      } else if (!slider_stops_by_itself(now) && sign(direction) != memory.mode) {
         stop_slider(memory, now, stuck);
       }
       return;

@@ -10,7 +10,7 @@
 ///
 /// With static > kinetic the slider jumps at break-away: the force falls to kinetic, x and v stay. The spring
 /// starts unstretched. Limits that grow or fall end a slip where the slider stops, which is then not where the mass
-/// does; a step of the limits halts a sliding spring, which breaks away again at the kinetic limit, for no time
+/// does; a step of the limits upward halts a sliding spring, which breaks away again at the kinetic limit, for no time
 /// passed in which static friction could build up. Holds for contacts whose asperities deform elastically before
 /// sliding.
 ///
@@ -52,6 +52,7 @@ class ContactCompliance {
   };
 
   [[nodiscard]] bool is_damped() const { return damping_ > 0.0; }
+  [[nodiscard]] bool slider_stops_by_itself(const Instant& now) const;
   [[nodiscard]] Affine break_away(const Memory& memory, const Instant& now, int side) const;
   [[nodiscard]] Relaxation relaxation(const Memory& memory, const Instant& now) const;
   [[nodiscard]] Affine slider_speed(const Memory& memory, const Instant& now) const;

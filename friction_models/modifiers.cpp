@@ -13,6 +13,8 @@ const std::vector<Parameter>& modifier_parameters() {
       {.name = "position_slope",
        .unit = "N/m",
        .is_optional = true,
+       // The spring relaxes towards a limit that follows x: no affine function of x and v any more.
+       .not_beside = "contact_damping",
        .meaning = "growth of the force limits with the distance from x = 0; they end at 0"},
       {.name = "fluctuation",
        .kind = ParameterKind::record,

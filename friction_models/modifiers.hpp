@@ -1,6 +1,6 @@
 #pragma once
-/// Modifiers: what may happen to the force limits of a law beside its own equation. A law entry names those that it
-/// supports; they stand among its parameters.
+/// Modifiers: what may happen to the force limits of a law beside its own equation (`modified.hpp`). A law entry
+/// names those that it supports; they stand among its parameters. The factors act first, the slope after.
 ///
 ///   drift           limits multiplied by max(0, 1 + drift t)
 ///   position_slope  limits plus position_slope |x|, at least 0

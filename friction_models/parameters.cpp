@@ -142,6 +142,15 @@ class Completion {
     } else if (parameter.kind != ParameterKind::flag) {
       check_records(parameter, std::get<List>(value));
     }
+    refuse_beside(parameter, value);
+  }
+
+  void refuse_beside(const Parameter& parameter, const Value& value) {
+    const Value* other = values_.find(parameter.not_beside);
+    const auto* number = other == nullptr ? nullptr : std::get_if<double>(other);
+    if (number != nullptr && *number != 0.0)
+      complain(parameter, "is not possible beside '" + std::string(parameter.not_beside) + "'", "one of the two",
+               shown(value, parameter.unit));
   }
 
   void check_number(const Parameter& parameter, double value) {

@@ -91,6 +91,7 @@ struct Parameter {
   /// Part of the other form of the law, which does without this earlier parameter: refused beside it, and without
   /// it required unless it has a default. That earlier parameter is required where no part of the other form is.
   std::string_view instead_of{};
+  std::string_view not_beside{};  ///< refused beside this earlier parameter, unless that is 0
   Range range{};
   std::string_view at_least{};  ///< must be >= the value of this earlier parameter
   std::string_view meaning{};   ///< one line for documentation

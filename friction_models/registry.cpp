@@ -6,6 +6,7 @@
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
 #include "friction_models/iwan.hpp"
+#include "friction_models/modified.hpp"
 #include "friction_models/modifiers.hpp"
 #include "friction_models/reset_integrator.hpp"
 
@@ -15,7 +16,17 @@ namespace {
 
 using Values = ParameterValues;
 
+/// Limits that vary break the order in which its elements slide, so they then go each by itself.
+std::vector<Law> make_iwan(const Values& p) {
+  if (!p.has("drift") && !p.has("fluctuation")) return {Law(Iwan(Iwan::elements(p)))};
+  std::vector<Law> laws;
+  for (const auto& [stiffness, limit] : Iwan::elements(p))
+    laws.push_back(modified(Law(ContactCompliance(limit, limit, stiffness, 0.0)), p));
+  return laws;
+}
+
 std::vector<LawEntry> make_list() {
+  const std::vector<std::string_view> all_modifiers = {"drift", "position_slope", "fluctuation"};
   return {
       {.name = "bristle",
        .summary = "bonds that stretch, snap and form anew at random (Haessig and Friedland)",
@@ -23,10 +34,12 @@ std::vector<LawEntry> make_list() {
        .states = "place of each bristle",
        .is_random = true,
        .sources = "haessig1991",
+       .modifiers = {"fluctuation"},
        .parameters = Bristle::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
-         return {Law(Bristle(p.number("stiffness"), p.number("snap_distance"), static_cast<int>(p.count("count")),
-                             p.seed("seed")))};
+         const Law law(Bristle(p.number("stiffness"), p.number("snap_distance"), static_cast<int>(p.count("count")),
+                               p.seed("seed")));
+         return {modified(law, p)};
        }},
       {.name = "contact_compliance",
        .summary = "Coulomb slider behind a contact spring, which may be damped",
@@ -34,36 +47,43 @@ std::vector<LawEntry> make_list() {
            "stuck: F = contact_stiffness (x - a) + contact_damping v, |F| < static;  slipping: F = +-kinetic",
        .states = "position of the slider",
        .sources = "liang2004identifying, jenkins1962, iwan1966",
+       .modifiers = all_modifiers,
        .parameters = ContactCompliance::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
-         return {Law(ContactCompliance(p.number("kinetic"), p.number("static"), p.number("contact_stiffness"),
-                                       p.number("contact_damping")))};
+         const Law law(ContactCompliance(p.number("kinetic"), p.number("static"), p.number("contact_stiffness"),
+                                         p.number("contact_damping")));
+         return {modified(law, p, {p.number("kinetic"), p.number("static")})};
        }},
       {.name = "coulomb",
        .summary = "constant force against the motion, static limit at rest",
        .equation = "slip: F = kinetic sgn v;  rest: F = pull while |pull| <= static",
        .sources = "coulomb1785, denhartog1931",
+       .modifiers = all_modifiers,
        .parameters = Coulomb::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
-         return {Law(Coulomb(p.number("kinetic"), p.number("static")))};
+         const Law law(Coulomb(p.number("kinetic"), p.number("static")));
+         return {modified(law, p, {p.number("kinetic"), p.number("static")})};
        }},
       {.name = "iwan",
        .summary = "springs with Coulomb sliders in parallel, which slide one after the other",
        .equation = "F = sum of stiffness (x - a) over stuck elements, of +-limit over sliding ones",
        .states = "turning points that are remembered",
        .sources = "iwan1966, masing1926",
+       .modifiers = {"drift", "fluctuation"},
        .parameters = Iwan::parameters(),
-       .make = [](const Values& p) -> std::vector<Law> { return {Law(Iwan(Iwan::elements(p)))}; }},
+       .make = make_iwan},
       {.name = "reset_integrator",
        .summary = "bond that stretches, breaks and is dragged along (Haessig and Friedland)",
        .equation = "stick: z' = v, F = (1 + static_gain) stiffness z + damping v, |z| < z0 = kinetic/stiffness;  "
                    "slip: F = +-kinetic",
        .states = "other end of the bond",
        .sources = "haessig1991",
+       .modifiers = all_modifiers,
        .parameters = ResetIntegrator::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
-         return {Law(ResetIntegrator(p.number("kinetic"), p.number("stiffness"), p.number("static_gain"),
-                                     p.number("damping")))};
+         const Law law(ResetIntegrator(p.number("kinetic"), p.number("stiffness"), p.number("static_gain"),
+                                       p.number("damping")));
+         return {modified(law, p, {p.number("kinetic")})};
        }},
   };
 }

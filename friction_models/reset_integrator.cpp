@@ -38,7 +38,7 @@ void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Di
     const Affine stretched{.constant = -stiffness_ * memory.state[0], .position = stiffness_};
     guards.push_back(limit - stretched);
     guards.push_back(limit + stretched);
-  } else if (limit.rate != 0.0) {
+  } else if (stops_by_itself(limit, stiffness_)) {
     guards.push_back(dragged_speed(limit, memory.mode, stiffness_));
   }
 }
@@ -53,7 +53,8 @@ void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, 
   switch (trigger.cause) {
     case Trigger::direction_change:
       // Under a varying limit the bond's end stops at a guard of its own.
-      if (slips && now.limit(kinetic_).rate == 0.0 && sign(direction) != memory.mode) hold(memory, now);
+      if (slips && sign(direction) != memory.mode && !stops_by_itself(now.limit(kinetic_), stiffness_))
+        hold(memory, now);
       return;
     case Trigger::limit_change:
       if (slips) hold(memory, now);
