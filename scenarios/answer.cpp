@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/numbers.hpp"
 
@@ -77,27 +78,85 @@ Column point_column(std::string name, std::string unit, const sim::Curve& curve,
   return result;
 }
 
-Column reason_column(const sim::Curve& curve) {
-  Column result{.name = "reason", .texts = curve.reasons, .kind = CellKind::text};
-  for (const sim::CurvePoint& point : curve.points) result.choices.push_back(point.reason);
-  return result;
+void add_reasons(Table& table, const sim::Curve& curve) {
+  if (curve.reasons.size() == 1) return;
+  Column column{.name = "reason", .texts = curve.reasons, .kind = CellKind::text};
+  for (const sim::CurvePoint& point : curve.points) column.choices.push_back(point.reason);
+  table.columns.push_back(std::move(column));
 }
 
 Table curve_table(const sim::Curve& curve, CurveOver over, const std::string& unit) {
   using sim::CurvePoint;
-  Table table{.name = over == CurveOver::both ? "map" : "curve", .key = "points"};
+  Table table{.name = "curve", .key = "points"};
   std::vector<Column>& columns = table.columns;
-  if (over != CurveOver::amplitude) columns.push_back(column("omega", "rad/s", curve.points, &CurvePoint::omega));
-  if (over != CurveOver::frequency) columns.push_back(column("Y", unit, curve.points, &CurvePoint::Y));
+  if (over == CurveOver::amplitude)
+    columns.push_back(column("Y", unit, curve.points, &CurvePoint::Y));
+  else
+    columns.push_back(column("omega", "rad/s", curve.points, &CurvePoint::omega));
   columns.push_back(point_column("x", "m", curve, CellKind::number, &CurvePoint::x));
   if (over == CurveOver::frequency)
     columns.push_back(point_column("phase", "rad", curve, CellKind::number, &CurvePoint::phase));
   columns.push_back(point_column("stops", "", curve, CellKind::count, &CurvePoint::stops));
   columns.push_back(point_column("sticks", "", curve, CellKind::count, &CurvePoint::sticks));
-  if (over != CurveOver::both)
-    columns.push_back(point_column("stable", "", curve, CellKind::truth, &CurvePoint::stable));
-  if (curve.reasons.size() > 1) columns.push_back(reason_column(curve));
+  columns.push_back(point_column("stable", "", curve, CellKind::truth, &CurvePoint::stable));
+  add_reasons(table, curve);
   return table;
+}
+
+Table map_table(const sim::Curve& map, const std::string& unit) {
+  using sim::CurvePoint;
+  Table table{.name = "map",
+              .columns = {column("omega", "rad/s", map.points, &CurvePoint::omega),
+                          column("Y", unit, map.points, &CurvePoint::Y),
+                          point_column("x", "m", map, CellKind::number, &CurvePoint::x),
+                          point_column("stops", "", map, CellKind::count, &CurvePoint::stops),
+                          point_column("sticks", "", map, CellKind::count, &CurvePoint::sticks)},
+              .is_long = true,
+              .key = "points"};
+  add_reasons(table, map);
+  return table;
+}
+
+/// The points of a map with as many stops and rests a period.
+struct Regime {
+  std::size_t points = 0;
+  double omega_from = std::numeric_limits<double>::infinity();
+  double omega_to = 0.0;
+  double Y_from = std::numeric_limits<double>::infinity();
+  double Y_to = 0.0;
+
+  void add(const sim::CurvePoint& point) {
+    ++points;
+    omega_from = std::min(omega_from, point.omega);
+    omega_to = std::max(omega_to, point.omega);
+    Y_from = std::min(Y_from, point.Y);
+    Y_to = std::max(Y_to, point.Y);
+  }
+};
+
+/// What a map shows, in a few rows.
+Table regime_table(const sim::Curve& map, const std::string& unit) {
+  std::map<std::pair<int, int>, Regime> found;  // by stops and sticks
+  for (const sim::CurvePoint& point : map.points)
+    if (point.ok()) found[{point.stops, point.sticks}].add(point);
+  const std::vector<std::pair<std::pair<int, int>, Regime>> rows(found.begin(), found.end());
+  const auto regime = [&](std::string name, std::string column_unit, double Regime::* value) {
+    return column(std::move(name), std::move(column_unit), rows,
+                  [value](const auto& row) { return row.second.*value; });
+  };
+  const auto count = [&](std::string name, auto get) {
+    Column result = column(std::move(name), "", rows, get);
+    result.kind = CellKind::count;
+    return result;
+  };
+  return {.name = "regimes",
+          .columns = {count("stops", [](const auto& row) { return row.first.first; }),
+                      count("sticks", [](const auto& row) { return row.first.second; }),
+                      count("points", [](const auto& row) { return static_cast<double>(row.second.points); }),
+                      regime("omega_from", "rad/s", &Regime::omega_from),
+                      regime("omega_to", "rad/s", &Regime::omega_to), regime("Y_from", unit, &Regime::Y_from),
+                      regime("Y_to", unit, &Regime::Y_to)},
+          .key = "regimes"};
 }
 
 Json parameters_json(const identify::ParameterSet& set) {
@@ -250,6 +309,19 @@ Answer failed(const std::string& reason) {
   return answer;
 }
 
+/// Remarks and the place of the list `points`; no result when no point has a number.
+Answer answer_of_points(const sim::Curve& curve, const std::string& what) {
+  if (std::ranges::none_of(curve.points, &sim::CurvePoint::ok))
+    return failed("no point of the " + what + " has a number; the first: " + curve.reason(curve.points.front()));
+  Answer answer;
+  for (const sim::Remark& remark : curve.remarks) {
+    const std::string more = remark.count > 1 ? " and " + std::to_string(remark.count - 1) + " more" : "";
+    answer.warnings.push_back("points[" + std::to_string(remark.first) + "]" + more + ": " + remark.text);
+  }
+  answer.result["points"] = nullptr;
+  return answer;
+}
+
 }  // namespace
 
 Answer answer(const sim::History& history, const sim::Excitation& excitation) {
@@ -309,17 +381,36 @@ Answer answer(const sim::FreeDecay& decay) {
 }
 
 Answer answer(const sim::Curve& curve, CurveOver over, const std::string& unit) {
-  if (std::ranges::none_of(curve.points, &sim::CurvePoint::ok))
-    return failed("no point of the " + std::string(over == CurveOver::both ? "map" : "curve") +
-                  " has a number; the first: " + curve.reason(curve.points.front()));
-  Answer answer;
-  for (const sim::Remark& remark : curve.remarks) {
-    const std::string more = remark.count > 1 ? " and " + std::to_string(remark.count - 1) + " more" : "";
-    answer.warnings.push_back("points[" + std::to_string(remark.first) + "]" + more + ": " + remark.text);
-  }
-  answer.result["points"] = nullptr;
-  answer.tables.push_back(curve_table(curve, over, unit));
+  Answer answer = answer_of_points(curve, "curve");
+  if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, over, unit));
   return answer;
+}
+
+Answer answer_map(const sim::Curve& map, const std::string& unit) {
+  Answer answer = answer_of_points(map, "map");
+  if (answer.result.is_null()) return answer;
+  answer.result["regimes"] = nullptr;
+  answer.tables.push_back(map_table(map, unit));
+  answer.tables.push_back(regime_table(map, unit));
+  return answer;
+}
+
+void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundary, const std::string& unit) {
+  const auto when_ok = [](double sim::BoundaryPoint::* value) {
+    return [value](const sim::BoundaryPoint& point) { return point.outcome.ok() ? point.*value : none; };
+  };
+  Table table{.name = "boundary",
+              .columns = {column("omega", "rad/s", boundary, &sim::BoundaryPoint::omega),
+                          column("Y", unit, boundary, when_ok(&sim::BoundaryPoint::amplitude)),
+                          column("x", "m", boundary, when_ok(&sim::BoundaryPoint::x)),
+                          column("Y_closed_form", unit, boundary,
+                                 [](const sim::BoundaryPoint& point) { return point.closed_form.value_or(none); })},
+              .key = "boundary"};
+  if (!std::ranges::all_of(boundary, [](const sim::BoundaryPoint& point) { return point.outcome.ok(); }))
+    table.columns.push_back(
+        text_column("reason", boundary, [](const sim::BoundaryPoint& point) { return point.outcome.reason; }));
+  answer.result["boundary"] = nullptr;
+  answer.tables.push_back(std::move(table));
 }
 
 Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {

@@ -10,6 +10,7 @@
 #include "scenarios/run.hpp"
 #include "sim/curves.hpp"
 #include "sim/simulate.hpp"
+#include "sim/sticking_boundary.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -24,10 +25,14 @@ struct Answer {
 [[nodiscard]] Answer answer(const sim::SteadyState& state);
 [[nodiscard]] Answer answer(const sim::FreeDecay& decay);
 
-enum class CurveOver { amplitude, frequency, both };
+enum class CurveOver { amplitude, frequency };
 
 /// `unit` of the amplitudes: m or N.
 [[nodiscard]] Answer answer(const sim::Curve& curve, CurveOver over, const std::string& unit);
+
+[[nodiscard]] Answer answer_map(const sim::Curve& map, const std::string& unit);
+/// The sticking boundary beside a map.
+void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundary, const std::string& unit);
 
 [[nodiscard]] Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record);
 

@@ -52,6 +52,7 @@ class Checker {
     resolve_damping();
     resolve_frequency();
     if (analysis_ == "simulate") check_work();
+    if (analysis_ == "regime_map") check_map();
     std::optional<MeasuredData> data = read_data();
     if (analysis_ == "identify") resolve_methods(data);
     check_expectations();
@@ -221,6 +222,26 @@ class Checker {
                "at most " + core::format_number(max_samples, 6), core::format_number(rows, 6));
   }
 
+  /// Number of points of a curve or map; nothing when the file is too faulty to know.
+  [[nodiscard]] std::optional<std::size_t> points() const {
+    std::optional<std::size_t> count;
+    for (const char* key : {"amplitudes", "frequencies"}) {
+      if (has("analysis", key))
+        count = count.value_or(1) * grid_size(values_.at("analysis").at(key));
+      else if (stands_in_file("analysis", key))
+        return std::nullopt;
+    }
+    return count;
+  }
+
+  void check_map() {
+    const auto count = points();
+    if (count && static_cast<double>(*count) > max_points)
+      complain(place_of("analysis.type"), "the map has too many points",
+               "at most " + core::format_number(max_points, 6) + " frequencies times amplitudes",
+               std::to_string(*count));
+  }
+
   /// The path of a data file, unless it leads out of the scenario's directory.
   std::optional<fs::path> safe_path(const std::string& name) {
     fs::path path(name);
@@ -334,9 +355,9 @@ class Checker {
   /// Indices whose bound is known before the run.
   void check_index(Place place, const ResultPath& path) {
     std::optional<std::size_t> count;
-    if (path.pattern.starts_with("points[]"))
-      for (const char* key : {"amplitudes", "frequencies"})
-        if (has("analysis", key)) count = grid_size(values_.at("analysis").at(key));
+    if (path.pattern.starts_with("points[]")) count = points();
+    if (path.pattern.starts_with("boundary[]") && has("analysis", "frequencies"))
+      count = grid_size(values_.at("analysis").at("frequencies"));
     if (path.pattern.starts_with("estimates[]") && has("analysis", "methods"))
       count = values_.at("analysis").at("methods").size();
     if (count && path.indices.front() >= *count)

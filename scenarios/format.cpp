@@ -71,6 +71,13 @@ Field amplitudes() {
       .items(1, max_items);
 }
 
+Field frequencies() {
+  return grid("frequencies", {"rad/s"}, "forcing frequencies, each in place of the excitation's own")
+      .required()
+      .above(0)
+      .items(1, max_items);
+}
+
 Field peaks() {
   return integer("peaks", "number of extremes wanted, the initial one included")
       .required()
@@ -123,12 +130,13 @@ Choice make_analyses() {
              {{{"duration", "cycles"}, true}}}},
            {"steady_state", "the periodic motion approached from the initial state", {}},
            {"xy_curve", "output amplitude over input amplitude", {{amplitudes()}}},
-           {"frequency_response",
-            "output amplitude over frequency",
-            {{grid("frequencies", {"rad/s"}, "forcing frequencies, each in place of the excitation's own")
-                  .required()
-                  .above(0)
-                  .items(1, max_items)}}},
+           {"frequency_response", "output amplitude over frequency", {{frequencies()}}},
+           {"regime_map",
+            "output amplitude, stops and rests over frequency and input amplitude",
+            {{frequencies(), amplitudes(),
+              boolean("sticking_boundary",
+                      "also find, at each frequency, the smallest amplitude whose steady state never sticks")
+                  .with_fallback(false)}}},
            {"free_decay", "extremes of the free vibration from the initial state", {{peaks()}}},
            identify_variant(),
            formula_variant()}};
@@ -194,6 +202,7 @@ const std::vector<Needs>& needs() {
       {"steady_state", "", harmonic, {"amplitude", "frequency"}, true, periodic},
       {"xy_curve", "", harmonic, {"frequency"}, true, periodic},
       {"frequency_response", "", harmonic, {"amplitude"}, true, periodic},
+      {"regime_map", "", harmonic, {}, true, periodic},
       {"free_decay", "", {"none"}, {}, true, free},
       {"identify",
        "xy_curve",

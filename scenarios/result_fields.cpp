@@ -60,6 +60,27 @@ Fields curve(const Fields& own) {
                       {"points[].reason", "", "only of a point without numbers: why"}});
 }
 
+Fields regime_map() {
+  return {{"points[].omega", "rad/s", "forcing frequency"},
+          {"points[].Y", "m or N", "input amplitude"},
+          {"points[].x", "m", "output amplitude (peak - trough)/2"},
+          {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+          {"points[].sticks", "1", "rests a period; 1 without a stop: the mass never moves"},
+          {"points[].reason", "", "only of a point without numbers: why"},
+          {"regimes[].stops", "1", "times a period the mass comes to rest and stays"},
+          {"regimes[].sticks", "1", "rests a period"},
+          {"regimes[].points", "1", "points of the map in this regime"},
+          {"regimes[].omega_from", "rad/s", "their lowest frequency"},
+          {"regimes[].omega_to", "rad/s", "their highest frequency"},
+          {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
+          {"regimes[].Y_to", "m or N", "their largest input amplitude"},
+          {"boundary[].omega", "rad/s", "forcing frequency"},
+          {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
+          {"boundary[].x", "m", "output amplitude there"},
+          {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
+          {"boundary[].reason", "", "only where no boundary was found: why"}};
+}
+
 Fields free_decay() {
   return {{"peaks[].t", "s", "time of the extreme"},
           {"peaks[].x", "m", "its position, signed"},
@@ -126,6 +147,7 @@ std::vector<ResultField> result_fields(const std::string& analysis, const std::s
       {"simulate", history()},
       {"steady_state", steady_state()},
       {"xy_curve", curve({{"points[].Y", "m or N", "excitation amplitude"}})},
+      {"regime_map", regime_map()},
       {"frequency_response", curve({{"points[].omega", "rad/s", "forcing frequency"},
                                     {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}})},
       {"free_decay", free_decay()},

@@ -11,6 +11,7 @@
 #include "sim/curves.hpp"
 #include "sim/simulate.hpp"
 #include "sim/steady_state.hpp"
+#include "sim/sticking_boundary.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -42,6 +43,15 @@ class Runner {
   Answer operator()(const FrequencyResponse& question) const {
     return answer(sim::frequency_response(scenario_.model, question.frequencies, options_), CurveOver::frequency,
                   amplitude_unit());
+  }
+
+  Answer operator()(const RegimeMap& question) const {
+    const sim::Model& model = scenario_.model;
+    Answer result =
+        answer_map(sim::regime_map(model, question.frequencies, question.amplitudes, options_), amplitude_unit());
+    if (question.sticking_boundary && !result.result.is_null())
+      add_boundary(result, sim::sticking_boundary(model, question.frequencies), amplitude_unit());
+    return result;
   }
 
   Answer operator()(const FreeDecayQuestion& question) const {

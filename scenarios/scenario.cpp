@@ -151,6 +151,9 @@ Analysis analysis(const Json& section, const sim::Model& model, std::optional<Me
   if (type == "steady_state") return SteadyStateQuestion{};
   if (type == "xy_curve") return XyCurve{grid_values(section.at("amplitudes"))};
   if (type == "frequency_response") return FrequencyResponse{grid_values(section.at("frequencies"))};
+  if (type == "regime_map")
+    return RegimeMap{grid_values(section.at("frequencies")), grid_values(section.at("amplitudes")),
+                     section.at("sticking_boundary").get<bool>()};
   if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
   if (type == "identify") return identify_question(section, model, std::move(data));
   const Json& formula = section.at("formula");

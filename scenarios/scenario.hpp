@@ -30,6 +30,12 @@ struct FrequencyResponse {
   std::vector<double> frequencies;  ///< rad/s
 };
 
+struct RegimeMap {
+  std::vector<double> frequencies;  ///< rad/s
+  std::vector<double> amplitudes;   ///< m or N
+  bool sticking_boundary = false;   ///< find it too
+};
+
 struct FreeDecayQuestion {
   int peaks = 0;
 };
@@ -50,8 +56,8 @@ struct Formula {
   std::string arguments;  ///< JSON, SI
 };
 
-using Analysis =
-    std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, FreeDecayQuestion, Identify, Formula>;
+using Analysis = std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, RegimeMap,
+                              FreeDecayQuestion, Identify, Formula>;
 
 /// One expected value of a result.
 struct Expectation {
