@@ -70,7 +70,7 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
     const Affine force = affine_force(memory, now, direction);
     guards.push_back(break_away(memory, now, 1) - force);
     guards.push_back(break_away(memory, now, -1) + force);
-  } else if (slider_stops_by_itself(now)) {
+  } else if (slider_stops_by_itself(now) || is_left_behind(memory.mode, direction)) {
     guards.push_back(slider_speed(memory, now));
   }
 }

@@ -31,14 +31,14 @@ Affine ResetIntegrator::affine_force(const Memory& memory, const Instant& now, D
   return {.constant = -bond * memory.state[0], .position = bond, .velocity = damping_};
 }
 
-void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Direction,
+void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Direction direction,
                                     std::vector<Affine>& guards) const {
   const Affine limit = now.limit(kinetic_);
   if (memory.mode == 0) {
     const Affine stretched{.constant = -stiffness_ * memory.state[0], .position = stiffness_};
     guards.push_back(limit - stretched);
     guards.push_back(limit + stretched);
-  } else if (stops_by_itself(limit, stiffness_)) {
+  } else if (stops_by_itself(limit, stiffness_) || is_left_behind(memory.mode, direction)) {
     guards.push_back(dragged_speed(limit, memory.mode, stiffness_));
   }
 }

@@ -18,4 +18,7 @@ namespace dualdamp::friction {
   return limit.rate != 0.0 || std::abs(limit.position) >= stiffness;
 }
 
+/// A step of the limit downward makes a slider slide whose mass moves back: it then stops at once.
+[[nodiscard]] constexpr bool is_left_behind(int side, Direction direction) { return sign(direction) == -side; }
+
 }  // namespace dualdamp::friction

@@ -239,6 +239,28 @@ TEST_CASE("drift: a slider under a growing limit stops before the mass", "[frict
   CHECK(host.force() == Approx(force).epsilon(1e-12));
 }
 
+TEST_CASE("fluctuation: a step downward relaxes a spring that is being unloaded, and leaves it stuck",
+          "[friction][modified]") {
+  const double stiffness = 1000.0;
+  for (const bool bond : {false, true}) {
+    const Law law = bond ? Law(friction::ResetIntegrator(2.0, stiffness, 0.0, 0.0))
+                         : Law(ContactCompliance(2.0, 2.0, stiffness, 0.0));
+    test::LawHost host(law, {});
+    host.move_to(0.01);
+    host.move_to(0.0095);
+    REQUIRE(host.force() == Approx(1.5).epsilon(1e-12));
+    // The limit steps to 1 N; the mass goes on backwards.
+    const auto path = [from = host.now()](double t) {
+      return Instant{t, from.x - (t - from.t), -1.0, {.factor = 0.5}};
+    };
+    host.follow(host.now().t + 1e-9, path);
+    CHECK(host.force() == Approx(1.0).epsilon(1e-5));
+    host.follow(host.now().t + 5e-4, path);
+    CHECK(host.force() == Approx(0.5).epsilon(1e-5));
+    REQUIRE_FALSE(host.broken());
+  }
+}
+
 TEST_CASE("position_slope: loops of a rigid and of a compliant contact", "[friction][modified]") {
   const double F = 2.0;
   const double c = 30.0;
