@@ -59,6 +59,8 @@ class ExponentialBasis {
   /// The largest |Im z| or growth: rounding of z s costs eps turning() s of an element's modulus.
   [[nodiscard]] double turning() const { return turning_; }
   void step_panel(const Values& from, Values& to) const;
+  /// E_k(panel()), likewise.
+  [[nodiscard]] const Values& over_panel() const { return rotor_; }
 
   /// Fixes the panel; call once after the last add().
   void finish();

@@ -55,20 +55,13 @@ struct Bernstein {
     b[6] = right.value;
   }
 
-  /// Lowers all coefficients by a rounding allowance but those that a factored zero at an end makes exactly zero;
-  /// returns the least of the lowered ones.
-  double lower_by(double allowance, int left_zeros, int right_zeros) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 7; ++i) {
-      double& coefficient = b[static_cast<std::size_t>(i)];
-      if (i < left_zeros || 6 - i < right_zeros) {
-        coefficient = std::max(coefficient, 0.0);
-      } else {
-        coefficient -= allowance;
-        least = std::min(least, coefficient);
-      }
+  /// Whether all coefficients exceed a rounding allowance but those that a factored zero at an end makes exactly
+  /// zero.
+  [[nodiscard]] bool exceeds(double allowance, int left_zeros, int right_zeros) const {
+    for (int i = left_zeros; i <= 6 - right_zeros; ++i) {
+      if (!(b[static_cast<std::size_t>(i)] > allowance)) return false;
     }
-    return least;
+    return true;
   }
 };
 
@@ -151,8 +144,7 @@ class PanelSearch {
 
   /// False when the panel leaves the range of double precision.
   [[nodiscard]] bool finite(const Jet& end) const {
-    return std::isfinite(sixth_) && std::isfinite(end.value) && std::isfinite(end.slope) &&
-           std::isfinite(end.curvature);
+    return std::isfinite(sixth_ + std::abs(end.value) + std::abs(end.slope) + std::abs(end.curvature));
   }
 
   /// Whether contacts with zero at s < t are one: between them the guard does not clearly stand out of rounding.
@@ -347,7 +339,7 @@ double PanelSearch::accept_root(const Jet& a, const Jet& b) {
 bool PanelSearch::positive_between(const Jet& a, const Jet& b) const {
   Bernstein low(a, b);
   low.b[3] -= remainder(b.s - a.s);
-  return low.lower_by(allowance(a, b), a.zeros, b.zeros) > 0.0;
+  return low.exceeds(allowance(a, b), a.zeros, b.zeros);
 }
 
 /// The minimum between slopes of opposite sign, by Newton on g' with bisection as a safeguard.
@@ -467,19 +459,20 @@ double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
   return width;
 }
 
-/// Panels meet where every guard is decided beyond rounding; moves an undecided inner end b, evaluates there.
+/// Panels meet where every guard is decided beyond rounding; moves an undecided inner end b and evaluates there.
 double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double b,
-                       ExponentialBasis::Values& values) {
+                       const ExponentialBasis::Values*& values, ExponentialBasis::Values& room) {
   for (int attempt = 0; attempt < 4; ++attempt) {
     bool decided = true;
     for (const Guard& guard : guards) {
-      const double value = std::abs(evaluate(basis, guard.value, values));
+      const double value = std::abs(evaluate(basis, guard.value, *values));
       decided = decided &&
-                (value >= graze * guard.amplitude || value >= graze * bound(basis, guard.value, values, b, 0.0));
+                (value >= graze * guard.amplitude || value >= graze * bound(basis, guard.value, *values, b, 0.0));
     }
     if (decided) break;
     b = a + 0.77 * (b - a);
-    basis.evaluate(b, values);
+    basis.evaluate(b, room);
+    values = &room;
   }
   return b;
 }
@@ -520,29 +513,31 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
   crossing.s = horizon;
   const auto earlier = static_cast<std::ptrdiff_t>(grazings.size());
   std::array<ExponentialBasis::Values, 2> ends;
-  int current = 0;
-  start_values(basis, ends[0]);
+  if (!basis.even()) start_values(basis, ends[0]);
+  const ExponentialBasis::Values* left = &ends[0];
   double a = 0.0;
   while (a < horizon) {
     ++count.panels;
-    const ExponentialBasis::Values& left = ends[static_cast<std::size_t>(current)];
-    ExponentialBasis::Values& right = ends[static_cast<std::size_t>(1 - current)];
-    const double width = panel_width(basis, guards, left, a);
+    ExponentialBasis::Values& room = ends[left == &ends[0] ? 1 : 0];
+    const ExponentialBasis::Values* right = &room;
+    const double width = panel_width(basis, guards, *left, a);
     double b = std::min(a + width, horizon);
-    if (width == basis.panel() && b < horizon && !basis.has_chains()) {
-      basis.step_panel(left, right);
+    if (!(width == basis.panel() && b < horizon) || basis.has_chains()) {
+      basis.evaluate(b, room);
+    } else if (a == 0.0) {
+      right = &basis.over_panel();
     } else {
-      basis.evaluate(b, right);
+      basis.step_panel(*left, room);
     }
-    if (b < horizon) b = clear_panel_end(basis, guards, a, b, right);
+    if (b < horizon) b = clear_panel_end(basis, guards, a, b, right, room);
     double first = -1.0;
     for (std::size_t g = 0; g < guards.size(); ++g) {
       if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
       PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
-      search.bound_panel(a, b - a, left);
-      Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, left);
+      search.bound_panel(a, b - a, *left);
+      Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, *left);
       if (a > 0.0 && search.touches(begin)) begin = handed_over(begin);
-      Jet end = search.jet(b, right);
+      Jet end = search.jet(b, *right);
       if (!search.finite(end)) {
         // The motion runs away: nothing can be certified, and the values must not look like those of a motion.
         crossing.values.re.fill(std::numeric_limits<double>::infinity());
@@ -573,10 +568,14 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
       count.grazings += static_cast<long>(grazings.size()) - earlier;
       return;
     }
-    current = 1 - current;
+    left = right;
     a = b;
   }
-  copy(basis, ends[static_cast<std::size_t>(current)], crossing.values);
+  if (a == 0.0) {
+    start_values(basis, crossing.values);
+  } else {
+    copy(basis, *left, crossing.values);
+  }
   count.grazings += static_cast<long>(grazings.size()) - earlier;
 }
 
