@@ -33,6 +33,11 @@ class Drive {
   /// Sum of moduli of all force parts now [N].
   [[nodiscard]] double force_scale() const;
 
+  /// Phasor j of base [m] or external force [N] now; their constant part is offset(), of the force alone.
+  [[nodiscard]] core::Complex phasor(std::size_t j) const { return amplitudes_[j] * turns_[j]; }
+  [[nodiscard]] double offset() const { return offset_; }
+  [[nodiscard]] bool moves_base() const { return base_; }
+
   /// The drive `s` after now.
   struct Value {
     double y = 0.0;

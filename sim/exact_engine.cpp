@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/closed_form.hpp"
+
 namespace dualdamp::sim {
 
 using core::Complex;
@@ -77,13 +79,56 @@ class ExactEngine::PhaseInterval final : public Interval {
     return rate > 0.0 ? 1.6 / rate : duration;
   }
 
+  [[nodiscard]] const ClosedForm* closed_form() const override {
+    if (!ClosedForm::covers(engine_.mode_->basis())) return nullptr;
+    if (!formed_) form();
+    formed_ = true;
+    return &form_;
+  }
+
+  /// The engine has moved on to another phase.
+  void forget() { formed_ = false; }
+
   Affine force;  ///< of all laws, without the transients
   std::vector<double> transients;
   std::vector<double> decays;
 
  private:
+  void form() const;
+
   const ExactEngine& engine_;
+  mutable ClosedForm form_;
+  mutable bool formed_ = false;
 };
+
+void ExactEngine::PhaseInterval::form() const {
+  const LinearMode& mode = *engine_.mode_;
+  const core::ExponentialBasis& basis = mode.basis();
+  const Drive& drive = engine_.drive_;
+  form_.basis = &basis;
+  form_.duration = duration;
+  core::copy(basis, engine_.crossing_.values, form_.end);
+  core::assign(basis, 1.0, engine_.motion_, form_.x);
+  ModeFunction& driven = drive.moves_base() ? form_.y : form_.external;
+  core::clear(basis, drive.moves_base() ? form_.external : form_.y);
+  mode.represent({.constant = drive.offset()}, driven);
+  for (std::size_t j = 0; j < drive.frequencies().size(); ++j) {
+    const auto k = static_cast<std::size_t>(mode.harmonic_element(j));
+    const Complex start = drive.phasor(j) * Complex(form_.end.re[k], -form_.end.im[k]);
+    driven.re[k] += start.real();
+    driven.im[k] += start.imag();
+  }
+  core::differentiate(basis, form_.y, form_.y_rate);
+  core::clear(basis, form_.v);
+  core::clear(basis, form_.a);
+  core::clear(basis, form_.force);
+  if (direction == Direction::rest) return;
+  core::assign(basis, friction::sign(direction), engine_.speed(), form_.v);
+  core::assign(basis, friction::sign(direction), engine_.speed_rate(), form_.a);
+  mode.represent({.constant = force.constant, .transients = transients}, form_.force);
+  core::accumulate(basis, force.position, form_.x, form_.force);
+  core::accumulate(basis, force.velocity, form_.v, form_.force);
+}
 
 ExactEngine::ExactEngine(const Model& model)
     : model_(model), drive_(model.oscillator, model.excitation), interval_(std::make_unique<PhaseInterval>(*this)) {
@@ -599,12 +644,15 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
 
 /// What the interval tells of the phase laid last.
 void ExactEngine::describe_phase(double begin) {
+  interval_->forget();
   interval_->begin = begin;
   interval_->duration = crossing_.s;
   interval_->direction = direction_;
   interval_->force = total_->force;
-  if (!total_->decays.empty()) interval_->transients = total_->transients;
-  if (!total_->decays.empty() || !interval_->decays.empty()) interval_->decays = total_->decays;
+  if (!total_->decays.empty() || !interval_->decays.empty()) {
+    interval_->transients = total_->transients;
+    interval_->decays = total_->decays;
+  }
   interval_->ending.reset();
 }
 

@@ -12,6 +12,8 @@
 
 namespace dualdamp::sim {
 
+struct ClosedForm;
+
 enum class EventKind {
   reversal,   ///< the velocity changes sign and the mass moves on
   stop,       ///< the mass comes to rest and stays
@@ -52,6 +54,9 @@ class Interval {
   /// The width [s] of a panel from `begin + s` on over which the motion is well resolved by a polynomial of low
   /// degree; it grows where fast transients have died out.
   [[nodiscard]] virtual double resolution(double s) const = 0;
+  /// The motion as functions that can be integrated (`sim/closed_form.hpp`), where the engine knows them; else a
+  /// null pointer, and there is at(). Valid as long as the interval.
+  [[nodiscard]] virtual const ClosedForm* closed_form() const { return nullptr; }
 
   [[nodiscard]] double end() const { return begin + duration; }
   [[nodiscard]] Sample state_at(double t) const { return at(t - begin); }

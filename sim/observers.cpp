@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/closed_form.hpp"
+
 namespace dualdamp::sim {
 
 namespace {
@@ -35,6 +37,9 @@ void quadrature(const Interval& interval, const Visit& visit) {
   });
 }
 
+/// The speed is largest where the acceleration changes sign; so many cells a panel bracket that.
+constexpr int cells = 8;
+
 /// Where the acceleration changes sign between low and high, by bisection; `sign` is its sign at low.
 double speed_extreme(const Interval& interval, double low, double high, double sign) {
   for (int step = 0; step < 60; ++step) {
@@ -43,6 +48,100 @@ double speed_extreme(const Interval& interval, double low, double high, double s
   }
   return low;
 }
+
+/// The largest |v| at sign changes of the acceleration; 0 without any.
+double largest_inner_speed(const Interval& interval) {
+  double largest = 0.0;
+  double left = 0.0;
+  double left_a = interval.at(0.0).a;
+  for_panels(interval, [&](double from, double width) {
+    for (int cell = 1; cell <= cells; ++cell) {
+      const double right = from + width * cell / cells;
+      const double right_a = interval.at(right).a;
+      if (left_a * right_a < 0.0) {
+        const double at = speed_extreme(interval, left, right, left_a);
+        largest = std::max(largest, std::abs(interval.at(at).v));
+      }
+      left = right;
+      left_a = right_a;
+    }
+  });
+  return largest;
+}
+
+/// |v| where the acceleration vanishes near s: Newton's method. An error of s enters the speed by its square.
+double speed_near(const ClosedForm& form, const core::ModeFunction& jerk, double s) {
+  const core::ExponentialBasis& basis = *form.basis;
+  core::ExponentialBasis::Values values;
+  basis.evaluate(s, values);
+  for (int i = 0; i < 4; ++i) {
+    const double step = -core::evaluate(basis, form.a, values) / core::evaluate(basis, jerk, values);
+    if (!(std::abs(step) * basis.fastest() < 1.0)) break;
+    s += step;
+    if (!basis.shift(step, values)) basis.evaluate(s, values);
+    if (std::abs(step) * basis.fastest() < 1e-6) break;
+  }
+  return std::abs(core::evaluate(basis, form.v, values));
+}
+
+/// E_k(s + delta) from E_k(s) and by = E_k(delta).
+void turn_by(const core::ExponentialBasis& basis, const core::ExponentialBasis::Values& by,
+             core::ExponentialBasis::Values& values) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    const core::Complex value = core::Complex(values.re[k], values.im[k]) * core::Complex(by.re[k], by.im[k]);
+    values.re[k] = value.real();
+    values.im[k] = value.imag();
+  }
+}
+
+/// The same on the closed form: from cell to cell by one product for each element.
+double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
+  const core::ExponentialBasis& basis = *form.basis;
+  core::ModeFunction jerk;
+  core::differentiate(basis, form.a, jerk);
+  core::ExponentialBasis::Values here;
+  core::ExponentialBasis::Values turn;
+  std::fill_n(here.re.begin(), basis.size(), 1.0);
+  std::fill_n(here.im.begin(), basis.size(), 0.0);
+  double turned = 0.0;
+  double largest = 0.0;
+  double left_a = core::at_start(basis, form.a);
+  for_panels(interval, [&](double from, double width) {
+    const double step = width / cells;
+    if (step != turned) basis.evaluate(step, turn);
+    turned = step;
+    for (int cell = 0; cell < cells; ++cell) {
+      turn_by(basis, turn, here);
+      const double right_a = core::evaluate(basis, form.a, here);
+      if (left_a * right_a < 0.0) {
+        const double crossing = from + step * (cell + left_a / (left_a - right_a));
+        largest = std::max(largest, speed_near(form, jerk, crossing));
+      }
+      left_a = right_a;
+    }
+  });
+  return largest;
+}
+
+/// The motion at both ends of an interval.
+struct Ends {
+  Sample begin;
+  Sample end;
+
+  explicit Ends(const Interval& interval) {
+    const ClosedForm* form = interval.closed_form();
+    if (form == nullptr) {
+      begin = interval.at(0.0);
+      end = interval.at(interval.duration);
+      return;
+    }
+    const core::ExponentialBasis& basis = *form->basis;
+    begin = {.y = core::at_start(basis, form->y),
+             .x = core::at_start(basis, form->x),
+             .v = core::at_start(basis, form->v)};
+    end = {.y = form->at_end(form->y), .x = form->at_end(form->x), .v = form->at_end(form->v)};
+  }
+};
 
 }  // namespace
 
@@ -66,29 +165,16 @@ void Sampler::finish(const Sample& final) {
 }
 
 void Extremes::observe(const Interval& interval) {
-  const Sample begin = interval.at(0.0);
-  const Sample end = interval.at(interval.duration);
+  const auto [begin, end] = Ends(interval);
   if (!seen_) peak_ = trough_ = begin.x;
   seen_ = true;
   peak_ = std::max({peak_, begin.x, end.x});
   trough_ = std::min({trough_, begin.x, end.x});
   max_speed_ = std::max({max_speed_, std::abs(begin.v), std::abs(end.v)});
   if (interval.direction == friction::Direction::rest || interval.duration <= 0.0) return;
-  // The speed is largest where the acceleration changes sign; eight cells a panel bracket it.
-  double left = 0.0;
-  double left_a = begin.a;
-  for_panels(interval, [&](double from, double width) {
-    for (int cell = 1; cell <= 8; ++cell) {
-      const double right = from + width * cell / 8.0;
-      const double right_a = interval.at(right).a;
-      if (left_a * right_a < 0.0) {
-        const double at = speed_extreme(interval, left, right, left_a);
-        max_speed_ = std::max(max_speed_, std::abs(interval.at(at).v));
-      }
-      left = right;
-      left_a = right_a;
-    }
-  });
+  const ClosedForm* form = interval.closed_form();
+  const double inside = form == nullptr ? largest_inner_speed(interval) : largest_inner_speed(interval, *form);
+  max_speed_ = std::max(max_speed_, inside);
 }
 
 double EnergyAudit::stored(const Sample& sample) const {
@@ -97,9 +183,18 @@ double EnergyAudit::stored(const Sample& sample) const {
 }
 
 void EnergyAudit::observe(const Interval& interval) {
-  if (!started_) first_ = stored(interval.at(0.0));
+  const auto [begin, end] = Ends(interval);
+  if (!started_) first_ = stored(begin);
   started_ = true;
-  last_ = stored(interval.at(interval.duration));
+  last_ = stored(end);
+  if (const ClosedForm* form = interval.closed_form()) {
+    add_in_closed_form(*form);
+  } else {
+    add_by_quadrature(interval);
+  }
+}
+
+void EnergyAudit::add_by_quadrature(const Interval& interval) {
   const bool damper_moves = oscillator_.damper_to == DamperTo::base;
   quadrature(interval, [&](const Sample& s, double weight) {
     const double damper_speed = damper_moves ? s.v - s.y_rate : s.v;
@@ -111,6 +206,23 @@ void EnergyAudit::observe(const Interval& interval) {
   });
 }
 
+void EnergyAudit::add_in_closed_form(const ClosedForm& form) {
+  const core::ExponentialBasis& basis = *form.basis;
+  const bool damper_moves = oscillator_.damper_to == DamperTo::base;
+  core::ModeFunction damper_speed;
+  core::assign(basis, 1.0, form.v, damper_speed);
+  if (damper_moves) core::accumulate(basis, -1.0, form.y_rate, damper_speed);
+  core::ModeFunction base_force;
+  core::assign(basis, oscillator_.stiffness, form.y, base_force);
+  core::accumulate(basis, -oscillator_.stiffness, form.x, base_force);
+  if (damper_moves) core::accumulate(basis, -oscillator_.damping, damper_speed, base_force);
+  const ClosedIntegrals integrals(form);
+  input_.add(integrals.product(base_force, form.y_rate));
+  input_.add(integrals.product(form.external, form.v));
+  friction_.add(integrals.product(form.force, form.v));
+  viscous_.add(oscillator_.damping * integrals.product(damper_speed, damper_speed));
+}
+
 Energy EnergyAudit::account() const {
   Energy result{.input = input_.value(), .friction = friction_.value(), .viscous = viscous_.value()};
   result.stored = last_ - first_;
@@ -119,6 +231,10 @@ Energy EnergyAudit::account() const {
 }
 
 void Fundamental::observe(const Interval& interval) {
+  if (const ClosedForm* form = interval.closed_form()) {
+    sum_ += std::polar(1.0, -omega_ * interval.begin) * integral_against_turn(*form, form->x, omega_);
+    return;
+  }
   quadrature(interval,
              [&](const Sample& s, double weight) { sum_ += weight * s.x * std::polar(1.0, -omega_ * s.t); });
 }

@@ -59,8 +59,9 @@ class CompensatedSum {
   double lost_ = 0.0;
 };
 
-/// Energy account by Gauss-Legendre quadrature: the integrands are analytic inside an interval, so that the rule is
-/// exact to rounding. Forces come from the laws, not from the equation of motion: the defect is a real check.
+/// Energy account: from the interval's closed form, or else by Gauss-Legendre quadrature; the integrands are
+/// analytic inside an interval, so that either is exact to rounding. Forces come from the laws, not from the
+/// equation of motion: the defect is a real check.
 class EnergyAudit {
  public:
   explicit EnergyAudit(const Oscillator& oscillator) : oscillator_(oscillator) {}
@@ -71,6 +72,8 @@ class EnergyAudit {
 
  private:
   [[nodiscard]] double stored(const Sample& sample) const;
+  void add_by_quadrature(const Interval& interval);
+  void add_in_closed_form(const ClosedForm& form);
 
   Oscillator oscillator_;
   bool started_ = false;
