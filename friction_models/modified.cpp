@@ -42,6 +42,9 @@ struct Course {
 
 constexpr std::size_t course_size = 6;
 
+/// Beyond rounding, relative.
+constexpr double clearly = 1e-12;
+
 Memory joined(Memory memory, const Course& course) {
   const auto level = std::bit_cast<std::array<int, 2>>(course.level);
   memory.indices.insert(memory.indices.end(), {course.drift_ended ? 1 : 0, course.cell, level[0], level[1],
@@ -87,8 +90,8 @@ class ModifiedLaw final : public LawModel {
   void guards(const Memory& memory, const Instant& now, Direction direction,
               std::vector<double>& values) const override {
     const auto [inner, course] = split(memory);
-    law_.guards(inner, modify(course, now), direction, values);
     for (const Affine& guard : own_guards(course, now)) values.push_back(value(guard, now));
+    law_.guards(inner, modify(course, now), direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override;
 
@@ -110,8 +113,8 @@ class ModifiedLaw final : public LawModel {
   void affine_guards(const Memory& memory, const Instant& now, Direction direction,
                      std::vector<Affine>& guards) const override {
     const auto [inner, course] = split(memory);
-    law_.affine_guards(inner, modify(course, now), direction, guards);
     for (const Affine& guard : own_guards(course, now)) guards.push_back(guard);
+    law_.affine_guards(inner, modify(course, now), direction, guards);
   }
 
   [[nodiscard]] bool has_rates() const override { return law_.has_rates(); }
@@ -159,7 +162,8 @@ class ModifiedLaw final : public LawModel {
     return (course.cell + 1) * (modifiers_.correlation_time / cells_per_correlation_time);
   }
 
-  /// x on its side; and for limits that fall with |x|: the smallest not yet zero, the largest zero already.
+  /// They come before those of the law, which must not see limits below zero: x on its side; and for limits that
+  /// fall with |x|: the smallest not yet zero, the largest zero already.
   [[nodiscard]] std::vector<Affine> own_guards(const Course& course, const Instant& now) const {
     if (modifiers_.slope == 0.0) return {};
     std::vector<Affine> guards = {{.position = static_cast<double>(course.side)}};
@@ -173,7 +177,8 @@ class ModifiedLaw final : public LawModel {
     return guards;
   }
 
-  void pass_kink(Memory& inner, Course& course, std::size_t guard, const Instant& now, Direction direction) const;
+  void settle(Memory& inner, const Instant& now, Direction direction) const;
+  void pass_kink(Memory& inner, Course& course, int guard, const Instant& now, Direction direction) const;
   void change_step(Memory& inner, Course& course, const Instant& now, Direction direction) const;
 
   Law law_;
@@ -183,7 +188,7 @@ class ModifiedLaw final : public LawModel {
 };
 
 /// At a guard of the wrapper: the limits go on from the same value.
-void ModifiedLaw::pass_kink(Memory& inner, Course& course, std::size_t guard, const Instant& now,
+void ModifiedLaw::pass_kink(Memory& inner, Course& course, int guard, const Instant& now,
                             Direction direction) const {
   if (guard == 0) {
     course.side = -course.side;
@@ -211,20 +216,35 @@ void ModifiedLaw::change_step(Memory& inner, Course& course, const Instant& now,
   if (next.drift_ended != course.drift_ended || fluctuation(next) > fluctuation(course))
     law_.jump(inner, {Trigger::limit_change}, old, direction);
   course = next;
+  settle(inner, modify(course, now), direction);
+}
+
+/// After a step: the law's guards that are clearly violated. So laws that step together need no more events than
+/// one.
+void ModifiedLaw::settle(Memory& inner, const Instant& now, Direction direction) const {
+  std::vector<Affine> guards;
+  for (int repeats = 0; repeats < 4; ++repeats) {
+    guards.clear();
+    law_.affine_guards(inner, now, direction, guards);
+    const auto violated = std::ranges::find_if(guards, [&](const Affine& g) {
+      const double size = std::abs(g.constant) + std::abs(g.position * now.x) + std::abs(g.velocity * now.v);
+      return value(g, now) < -clearly * size;
+    });
+    if (violated == guards.end()) return;
+    law_.jump(inner, {static_cast<int>(violated - guards.begin())}, now, direction);
+  }
 }
 
 void ModifiedLaw::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
   auto [inner, course] = split(memory);
-  const Instant modified_now = modify(course, now);
-  std::vector<double> guards;
-  law_.guards(inner, modified_now, direction, guards);
-  const int of_the_law = static_cast<int>(guards.size());
+  const int own = static_cast<int>(own_guards(course, now).size());
   if (trigger.cause == Trigger::scheduled) {
     change_step(inner, course, now, direction);
-  } else if (trigger.cause < of_the_law) {
-    law_.jump(inner, trigger, modified_now, direction);
+  } else if (trigger.cause >= 0 && trigger.cause < own) {
+    pass_kink(inner, course, trigger.cause, now, direction);
   } else {
-    pass_kink(inner, course, static_cast<std::size_t>(trigger.cause - of_the_law), now, direction);
+    const int cause = trigger.cause < 0 ? trigger.cause : trigger.cause - own;
+    law_.jump(inner, {cause}, modify(course, now), direction);
   }
   memory = joined(std::move(inner), course);
 }
