@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/closed_form.hpp"
 
@@ -464,22 +465,33 @@ core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) co
 /// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
 bool ExactEngine::find_violated() {
   const core::ExponentialBasis& basis = mode_->basis();
-  for (std::size_t i = 0; i < guard_count_; ++i) {
+  std::size_t i = 0;
+  while (i < guard_count_) {
     core::Guard& guard = guards_[i];
-    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owners_[i].tolerance) continue;
-    const bool from_rest = owners_[i].kind == Owner::Kind::velocity && v_ == 0.0;
+    const Owner& owner = owners_[i++];
+    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owner.tolerance) continue;
+    const bool from_rest = owner.kind == Owner::Kind::velocity && v_ == 0.0;
     const core::Germ germ =
-        from_rest ? slip_germ(guard, owners_[i].tolerance) : core::germ(basis, guard, owners_[i].tolerance);
+        from_rest ? slip_germ(guard, owner.tolerance) : core::germ(basis, guard, owner.tolerance);
     if (germ.sign < 0) {
       crossing_.found = true;
-      crossing_.guard = static_cast<int>(i);
+      crossing_.guard = static_cast<int>(i) - 1;
       crossing_.s = 0.0;
       basis.evaluate(0.0, crossing_.values);
       return true;
     }
     guard.known_zeros = std::min(germ.zeros, 3);
+    if (germ.sign == 0 && direction_ == Direction::rest) drop_guard(--i);
   }
   return false;
+}
+
+/// Beside a mass at rest a guard that is zero to every order stays zero; a search would take its rounding for
+/// crossings.
+void ExactEngine::drop_guard(std::size_t i) {
+  --guard_count_;
+  std::swap(guards_[i], guards_[guard_count_]);
+  std::swap(owners_[i], owners_[guard_count_]);
 }
 
 /// Ends the phase after s: position, velocity, drive and the laws' own states.

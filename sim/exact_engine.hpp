@@ -125,6 +125,7 @@ class ExactEngine {
   core::Guard& new_guard(const Owner& owner);
   [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
   bool find_violated();
+  void drop_guard(std::size_t i);
   void settle();
   friction::Direction settle_closely(double tolerance);
   [[nodiscard]] double pull_now() const;

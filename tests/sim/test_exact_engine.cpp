@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
 #include "sim/simulate.hpp"
 #include "tests/support/brute_force.hpp"
@@ -136,6 +137,27 @@ TEST_CASE("A start exactly at the limit stays while the pull falls and slips whi
   ExactEngine engine(still);
   CHECK(engine.direction() == Direction::rest);
   CHECK(events_of(engine, 1e6).empty());
+}
+
+TEST_CASE("Beside a mass at rest a contact at its limit neither breaks away nor holds on again", "[exact]") {
+  // The contact was dragged along until the mass stopped: it stands stretched to its limit, within rounding.
+  Random random(27);
+  int stretched = 0;
+  for (int i = 0; i < 200; ++i) {
+    Model model = ramped(1.0, 100.0, 1.0, ExcitationType::none, 0.0);
+    const double limit = random.uniform(0.1, 2.0);
+    model.friction = {coulomb(4.0, 5.0),
+                      friction::Law(friction::ContactCompliance(limit, limit, random.uniform(100.0, 1e4), 0.0))};
+    model.initial = {random.uniform(-0.01, 0.01), random.sign() * random.uniform(0.5, 2.0)};
+    const auto events = events_of(model, 1e3);
+    const auto stop = std::find_if(events.begin(), events.end(),
+                                   [](const Event& event) { return event.kind == EventKind::stop; });
+    CAPTURE(i);
+    REQUIRE(stop != events.end());
+    CHECK(stop + 1 == events.end());
+    stretched += stop != events.begin() && (stop - 1)->kind == EventKind::switching ? 1 : 0;
+  }
+  CHECK(stretched > 100);
 }
 
 TEST_CASE("A harmonic pull at the limit at the start: growing, falling and at its turning point", "[exact]") {
