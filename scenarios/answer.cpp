@@ -159,6 +159,40 @@ Table regime_table(const sim::Curve& map, const std::string& unit) {
           .key = "regimes"};
 }
 
+Column typed(Column column, CellKind kind) {
+  column.kind = kind;
+  return column;
+}
+
+Table branch_table(const std::vector<sim::BranchPoint>& points, const std::string& name, const std::string& unit) {
+  using sim::BranchPoint;
+  using sim::SteadyState;
+  const auto state = [&](const std::string& title, const std::string& unit_of, auto get) {
+    return column(title, unit_of, points,
+                  [get](const BranchPoint& point) { return static_cast<double>(std::invoke(get, point.state)); });
+  };
+  const auto sticks = [](const SteadyState& s) { return s.sticks.size(); };
+  return {.name = "branch",
+          .columns = {column(name, unit, points, &BranchPoint::parameter), state("x", "m", &SteadyState::amplitude),
+                      state("peak", "m", &SteadyState::peak), state("trough", "m", &SteadyState::trough),
+                      typed(state("stops", "", &SteadyState::stops_per_cycle), CellKind::count),
+                      typed(state("sticks", "", sticks), CellKind::count),
+                      typed(state("stable", "", &SteadyState::stable), CellKind::truth)},
+          .key = "points"};
+}
+
+Table change_table(const std::vector<sim::BranchChange>& changes, const std::string& name,
+                   const std::string& unit) {
+  using sim::BranchChange;
+  return {.name = "changes",
+          .columns = {text_column("kind", changes, [](const BranchChange& c) { return sim::name(c.kind); }),
+                      column(name, unit, changes, &BranchChange::parameter),
+                      column("x", "m", changes, &BranchChange::amplitude),
+                      typed(column("stops_before", "", changes, &BranchChange::stops_before), CellKind::count),
+                      typed(column("stops_after", "", changes, &BranchChange::stops_after), CellKind::count)},
+          .key = "changes"};
+}
+
 Json parameters_json(const identify::ParameterSet& set) {
   return {{"zeta", finite(set.zeta)}, {"c", finite(set.c)}, {"x_f", finite(set.x_f)}, {"F0", finite(set.F0)}};
 }
@@ -411,6 +445,19 @@ void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundar
         text_column("reason", boundary, [](const sim::BoundaryPoint& point) { return point.outcome.reason; }));
   answer.result["boundary"] = nullptr;
   answer.tables.push_back(std::move(table));
+}
+
+Answer answer(const sim::Branch& branch, sim::BranchParameter parameter, const std::string& unit) {
+  if (!branch.outcome.ok()) return failed("the branch has no first point: " + branch.outcome.reason);
+  const bool amplitude = parameter == sim::BranchParameter::amplitude;
+  Answer answer;
+  answer.result["points"] = nullptr;
+  answer.result["changes"] = nullptr;
+  answer.tables.push_back(branch_table(branch.points, amplitude ? "Y" : "omega", amplitude ? unit : "rad/s"));
+  answer.tables.push_back(change_table(branch.changes, amplitude ? "Y" : "omega", amplitude ? unit : "rad/s"));
+  if (!branch.changes.empty() && branch.changes.back().kind == sim::ChangeKind::end)
+    answer.warnings.emplace_back("the branch ends inside the range: no orbit continues it");
+  return answer;
 }
 
 Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {

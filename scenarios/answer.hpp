@@ -8,6 +8,7 @@
 #include "identify/record.hpp"
 #include "scenarios/json.hpp"
 #include "scenarios/run.hpp"
+#include "sim/continuation.hpp"
 #include "sim/curves.hpp"
 #include "sim/simulate.hpp"
 #include "sim/sticking_boundary.hpp"
@@ -33,6 +34,8 @@ enum class CurveOver { amplitude, frequency };
 [[nodiscard]] Answer answer_map(const sim::Curve& map, const std::string& unit);
 /// The sticking boundary beside a map.
 void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundary, const std::string& unit);
+
+[[nodiscard]] Answer answer(const sim::Branch& branch, sim::BranchParameter parameter, const std::string& unit);
 
 [[nodiscard]] Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record);
 

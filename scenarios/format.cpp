@@ -78,6 +78,15 @@ Field frequencies() {
       .items(1, max_items);
 }
 
+/// Where a branch begins and where it is left.
+Field range(std::string name, const std::vector<std::string>& units, std::string meaning) {
+  return section(std::move(name),
+                 {{quantity("from", units, "value at the first point").required().above(0),
+                   quantity("to", units, "the branch is followed until it leaves the range").required().above(0)}},
+                 std::move(meaning))
+      .required();
+}
+
 Field peaks() {
   return integer("peaks", "number of extremes wanted, the initial one included")
       .required()
@@ -137,6 +146,12 @@ Choice make_analyses() {
               boolean("sticking_boundary",
                       "also find, at each frequency, the smallest amplitude whose steady state never sticks")
                   .with_fallback(false)}}},
+           {"xy_branch",
+            "one orbit followed in amplitude by arc length, past folds and through orbits that do not attract",
+            {{range("amplitudes", {"m", "N"}, "excitation amplitudes, in place of the excitation's own")}}},
+           {"frequency_branch",
+            "one orbit followed in frequency likewise",
+            {{range("frequencies", {"rad/s"}, "forcing frequencies, in place of the excitation's own")}}},
            {"free_decay", "extremes of the free vibration from the initial state", {{peaks()}}},
            identify_variant(),
            formula_variant()}};
@@ -203,6 +218,8 @@ const std::vector<Needs>& needs() {
       {"xy_curve", "", harmonic, {"frequency"}, true, periodic},
       {"frequency_response", "", harmonic, {"amplitude"}, true, periodic},
       {"regime_map", "", harmonic, {}, true, periodic},
+      {"xy_branch", "", harmonic, {"frequency"}, true, periodic},
+      {"frequency_branch", "", harmonic, {"amplitude"}, true, periodic},
       {"free_decay", "", {"none"}, {}, true, free},
       {"identify",
        "xy_curve",

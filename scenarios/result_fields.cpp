@@ -126,6 +126,21 @@ Fields diagnostics() {
                 parameters(at + "subsets[].", "", "from a part of the data: "));
 }
 
+Fields branch(const ResultField& parameter) {
+  return {{"points[]." + parameter.path, parameter.unit, parameter.meaning},
+          {"points[].x", "m", "output amplitude (peak - trough)/2"},
+          {"points[].peak", "m", "max x"},
+          {"points[].trough", "m", "min x"},
+          {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+          {"points[].sticks", "1", "rests a period"},
+          {"points[].stable", "", "no multiplier outside the unit circle"},
+          {"changes[].kind", "", "sequence, sticking, stops, fold, stability, end"},
+          {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
+          {"changes[].x", "m", "output amplitude there"},
+          {"changes[].stops_before", "1", "stops before"},
+          {"changes[].stops_after", "1", "stops behind"}};
+}
+
 Fields identify() {
   Fields fields = {{"estimates[].method", "", "name of the method"},
                    {"estimates[].usable", "", "the method stands by its number"}};
@@ -150,6 +165,8 @@ std::vector<ResultField> result_fields(const std::string& analysis, const std::s
       {"regime_map", regime_map()},
       {"frequency_response", curve({{"points[].omega", "rad/s", "forcing frequency"},
                                     {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}})},
+      {"xy_branch", branch({"Y", "m or N", "excitation amplitude"})},
+      {"frequency_branch", branch({"omega", "rad/s", "forcing frequency"})},
       {"free_decay", free_decay()},
       {"identify", identify()}};
   if (const auto found = table.find(analysis); found != table.end()) return found->second;

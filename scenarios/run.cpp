@@ -54,6 +54,11 @@ class Runner {
     return result;
   }
 
+  Answer operator()(const BranchQuestion& question) const {
+    return answer(sim::follow_branch(scenario_.model, question.parameter, question.from, question.to),
+                  question.parameter, amplitude_unit());
+  }
+
   Answer operator()(const FreeDecayQuestion& question) const {
     return answer(sim::free_decay(scenario_.model, question.peaks));
   }

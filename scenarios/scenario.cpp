@@ -140,6 +140,10 @@ Identify identify_question(const Json& section, const sim::Model& model, std::op
   return result;
 }
 
+BranchQuestion branch(sim::BranchParameter parameter, const Json& range) {
+  return {parameter, number(range.at("from")), number(range.at("to"))};
+}
+
 Analysis analysis(const Json& section, const sim::Model& model, std::optional<MeasuredData> data) {
   const auto type = section.at("type").get<std::string>();
   if (type == "simulate") {
@@ -154,6 +158,8 @@ Analysis analysis(const Json& section, const sim::Model& model, std::optional<Me
   if (type == "regime_map")
     return RegimeMap{grid_values(section.at("frequencies")), grid_values(section.at("amplitudes")),
                      section.at("sticking_boundary").get<bool>()};
+  if (type == "xy_branch") return branch(sim::BranchParameter::amplitude, section.at("amplitudes"));
+  if (type == "frequency_branch") return branch(sim::BranchParameter::frequency, section.at("frequencies"));
   if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
   if (type == "identify") return identify_question(section, model, std::move(data));
   const Json& formula = section.at("formula");

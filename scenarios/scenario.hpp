@@ -11,6 +11,7 @@
 
 #include "core/diagnostics.hpp"
 #include "identify/methods.hpp"
+#include "sim/continuation.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::scenarios {
@@ -36,6 +37,13 @@ struct RegimeMap {
   bool sticking_boundary = false;   ///< find it too
 };
 
+/// A branch of steady states; amplitudes in m or N, frequencies in rad/s.
+struct BranchQuestion {
+  sim::BranchParameter parameter = sim::BranchParameter::amplitude;
+  double from = 0.0;
+  double to = 0.0;
+};
+
 struct FreeDecayQuestion {
   int peaks = 0;
 };
@@ -56,7 +64,7 @@ struct Formula {
   std::string arguments;  ///< JSON, SI
 };
 
-using Analysis = std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, RegimeMap,
+using Analysis = std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, RegimeMap, BranchQuestion,
                               FreeDecayQuestion, Identify, Formula>;
 
 /// One expected value of a result.

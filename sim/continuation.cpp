@@ -31,6 +31,18 @@ bool same_cycle(const std::vector<EventKind>& a, const std::vector<EventKind>& b
   return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
 }
 
+/// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips stays where it is.
+MatrixXd closing(const Passage& passage, const VectorXd& by_parameter) {
+  const Index n = passage.derivative.cols();
+  MatrixXd system(n, n + 1);
+  system.leftCols(n) = passage.derivative - MatrixXd::Identity(n, n);
+  system.col(n) = by_parameter;
+  for (Index row = 2; row < n; ++row) {
+    if (passage.holds(row)) system(row, row) = 1.0;
+  }
+  return system;
+}
+
 /// A point with what the next step needs.
 struct Node {
   double parameter = 0.0;
@@ -118,9 +130,7 @@ std::optional<VectorXd> Follower::tangent(const Node& node, const VectorXd& alon
   if (!slope || along.size() != n + 1) return std::nullopt;
   const VectorXd size = scale(node);
   MatrixXd system(n + 1, n + 1);
-  system.topLeftCorner(n, n) = node.passage.derivative - MatrixXd::Identity(n, n);
-  system.topRightCorner(n, 1) = *slope;
-  system.topRows(n) = (system.topRows(n) * size.asDiagonal()).eval();
+  system.topRows(n) = closing(node.passage, *slope) * size.asDiagonal();
   system.row(n) = along.transpose();
   const Eigen::FullPivLU<MatrixXd> lu(system);
   if (!lu.isInvertible()) return std::nullopt;
@@ -159,8 +169,7 @@ std::optional<Node> Follower::correct(const Node& from, double step) const {
     distance.head(n) = coordinates(start) - coordinates(from.passage.begin);
     distance[n] = node.parameter - from.parameter;
     MatrixXd system(n + 1, n + 1);
-    system.topLeftCorner(n, n) = node.passage.derivative - MatrixXd::Identity(n, n);
-    system.topRightCorner(n, 1) = *slope;
+    system.topRows(n) = closing(node.passage, *slope);
     system.row(n) = from.tangent.cwiseQuotient(size).transpose();
     VectorXd right(n + 1);
     right.head(n) = -gap;
@@ -226,6 +235,13 @@ bool Follower::inside(double parameter) const {
 }
 
 void Follower::add_change(ChangeKind kind, const BranchPoint& before, const BranchPoint& after) {
+  const double near = 4.0 * options_.location * std::max(std::abs(from_), std::abs(to_));
+  const bool one = !branch_.changes.empty() && kind != ChangeKind::end && branch_.changes.back().kind == kind &&
+                   std::abs(branch_.changes.back().parameter - after.parameter) <= near;
+  if (one) {  // two steps of one change, both halves of the cycle
+    branch_.changes.back().stops_after = after.state.stops_per_cycle;
+    return;
+  }
   branch_.changes.push_back({kind, 0.5 * (before.parameter + after.parameter), after.state.amplitude,
                              before.state.stops_per_cycle, after.state.stops_per_cycle});
 }

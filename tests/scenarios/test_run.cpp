@@ -80,6 +80,12 @@ TEST_CASE("run: the keys of the results are those of the contract", "[scenarios]
   const json response = result_of(scenarios::run(scenario_of("{type: frequency_response, frequencies: [1 Hz]}")));
   CHECK(keys(response.at("points").at(0)) ==
         std::vector<std::string>{"omega", "phase", "stable", "sticks", "stops", "x"});
+  const json branch =
+      result_of(scenarios::run(scenario_of("{type: xy_branch, amplitudes: {from: 0.1 m, to: 0.03 m}}")));
+  CHECK(keys(branch.at("points").at(0)) ==
+        std::vector<std::string>{"Y", "peak", "stable", "sticks", "stops", "trough", "x"});
+  CHECK(branch.at("points").back().at("Y") == 0.03);
+  CHECK(branch.at("changes").at(0).at("kind") == "sticking");
   const json history = result_of(scenarios::run(scenario_of("{type: simulate, cycles: 2}")));
   for (const char* key : {"events", "final", "energy"}) CHECK(history.contains(key));
   CHECK(keys(history.at("events").at(0)) == std::vector<std::string>{"kind", "t", "v", "x"});
