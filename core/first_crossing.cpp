@@ -68,9 +68,10 @@ struct Bernstein {
 /// The search for one guard within one outer panel.
 class PanelSearch {
  public:
+  /// `earlier`: grazings of earlier searches, at the begin of the list.
   PanelSearch(const ExponentialBasis& basis, const Guard& guard, int index, std::vector<Grazing>& grazings,
-              SearchCount& count)
-      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), count_(count) {}
+              std::ptrdiff_t earlier, SearchCount& count)
+      : basis_(basis), guard_(guard), index_(index), grazings_(grazings), earlier_(earlier), count_(count) {}
 
   /// The jet from values of the basis; close to a known zero from the Taylor series that has it exactly.
   [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) {
@@ -107,14 +108,14 @@ class PanelSearch {
   [[nodiscard]] double slack(double s, double amplitude) const {
     double allowance = (graze + epsilon * basis_.turning() * s) * amplitude;
     const double angle = s * basis_.fastest();
-    for (int i = 0; i < guard_.known_zeros && angle < 1.0; ++i) allowance *= angle;
+    for (int i = 0; i < guard_.known_zeros && angle < taylor_angle; ++i) allowance *= angle;
     return allowance;
   }
 
   /// The same from the amplitudes at s alone, which decides what is a contact; costs an evaluation.
   [[nodiscard]] double rounding(double s) const {
     ExponentialBasis::Values values;
-    const bool factored = guard_.known_zeros > 0 && s * basis_.fastest() < 1.0;
+    const bool factored = guard_.known_zeros > 0 && s * basis_.fastest() < taylor_angle;
     const double there = factored && basis_.fastest() > 0.0 ? 1.0 / basis_.fastest() : s;
     basis_.evaluate(there, values);
     return slack(s, bound(basis_, guard_.value, values, there, 0.0));
@@ -157,15 +158,15 @@ class PanelSearch {
   }
   void record_grazing(double s) {
     if (rounding(s) <= graze * vanished) return;
-    const bool known =
-        !grazings_.empty() && grazings_.back().guard == index_ && same_contact(grazings_.back().s, s);
-    if (!known) grazings_.push_back({index_, s});
+    const auto nearest = nearest_grazing(s);
+    if (nearest != grazings_.end() && same_contact(std::min(nearest->s, s), std::max(nearest->s, s))) return;
+    grazings_.push_back({index_, s});
   }
   /// The contact of which a crossing is the end is not a grazing of its own.
-  void drop_contact(double root, std::ptrdiff_t earlier) {
-    while (std::ssize(grazings_) > earlier && grazings_.back().guard == index_ &&
-           same_contact(grazings_.back().s, root)) {
-      grazings_.pop_back();
+  void drop_contact(double root) {
+    for (auto last = nearest_grazing(root); last != grazings_.end() && same_contact(last->s, root);
+         last = nearest_grazing(root)) {
+      grazings_.erase(last);
     }
   }
   /// First root in (a, b), or a negative number.
@@ -203,6 +204,15 @@ class PanelSearch {
     curvature_ = bound(basis_, guard_.curvature, values, a, h);
     amplitude_ = bound(basis_, guard_.value, values, a, h);
   }
+  /// Of this guard and this search; the end of the list when there is none.
+  [[nodiscard]] std::vector<Grazing>::iterator nearest_grazing(double s) const {
+    auto nearest = grazings_.end();
+    for (auto it = grazings_.begin() + earlier_; it != grazings_.end(); ++it) {
+      if (it->guard != index_) continue;
+      if (nearest == grazings_.end() || std::abs(it->s - s) < std::abs(nearest->s - s)) nearest = it;
+    }
+    return nearest;
+  }
   [[nodiscard]] double sign_change(double low, double high);
   [[nodiscard]] Jet taylor_jet(double s);
   /// What the remainder takes from the middle coefficient of L on a panel of width h.
@@ -226,6 +236,7 @@ class PanelSearch {
   const Guard& guard_;
   int index_;
   std::vector<Grazing>& grazings_;
+  std::ptrdiff_t earlier_;
   SearchCount& count_;
   double sixth_ = 0.0;
   double curvature_ = 0.0;
@@ -477,6 +488,13 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
   return b;
 }
 
+/// Those of this search, in order of time.
+void finish_grazings(std::vector<Grazing>& grazings, std::ptrdiff_t earlier, SearchCount& count) {
+  count.grazings += static_cast<long>(grazings.size()) - earlier;
+  std::sort(grazings.begin() + earlier, grazings.end(),
+            [](const Grazing& a, const Grazing& b) { return a.s < b.s; });
+}
+
 }  // namespace
 
 void prepare(const ExponentialBasis& basis, Guard& guard) {
@@ -533,7 +551,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     double first = -1.0;
     for (std::size_t g = 0; g < guards.size(); ++g) {
       if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
-      PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
+      PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, earlier, count);
       search.bound_panel(a, b - a, *left);
       Jet begin = a == 0.0 ? search.start_jet() : search.jet(a, *left);
       if (a > 0.0 && search.touches(begin)) begin = handed_over(begin);
@@ -553,7 +571,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
       const double root = search.first_root(begin, end);
       if (root < 0.0 && touched && b < horizon) search.record_grazing(b);
       if (root < 0.0) continue;
-      search.drop_contact(root, earlier);
+      search.drop_contact(root);
       if (first < 0.0 || root < first) {
         first = root;
         crossing.guard = static_cast<int>(g);
@@ -565,7 +583,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
       crossing.s = first;
       const auto late = [&](const Grazing& grazing) { return grazing.s > first; };
       grazings.erase(std::remove_if(grazings.begin() + earlier, grazings.end(), late), grazings.end());
-      count.grazings += static_cast<long>(grazings.size()) - earlier;
+      finish_grazings(grazings, earlier, count);
       return;
     }
     left = right;
@@ -576,7 +594,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
   } else {
     copy(basis, *left, crossing.values);
   }
-  count.grazings += static_cast<long>(grazings.size()) - earlier;
+  finish_grazings(grazings, earlier, count);
 }
 
 namespace {

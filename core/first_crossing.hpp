@@ -12,9 +12,9 @@
 ///   s = horizon  Belongs to the next search: a guard that reaches zero there within rounding is not reported here
 ///                and the caller's check at the start of the next mode finds it.
 /// Tangency. Rounding of g at s is taken as (16 eps + eps max|Im z| s) times the sum of the guard's amplitudes
-///   |c_k E_k(s)|, the second part from the phases z s; with n known zeros and s < T = 1/max|z| as that at T times
-///   (s/T)^n. A minimum within it of zero is one grazing contact: reported, not a crossing. Deeper dips are two
-///   crossings, of which the first is returned. Touches between which g does not leave that rounding are one
+///   |c_k E_k(s)|, the second part from the phases z s; with n known zeros and s < T/2, T = 1/max|z|, as that at T
+///   times (s/T)^n. A minimum within it of zero is one grazing contact: reported, not a crossing. Deeper dips are
+///   two crossings, of which the first is returned. Touches between which g does not leave that rounding are one
 ///   contact; the contact of which a crossing is the end is no grazing.
 /// Range. A guard that leaves the range of double precision ends the search: nothing found, values infinite.
 /// Why nothing can be missed. The interval is covered by panels. On a panel of width h the quintic Hermite

@@ -21,9 +21,9 @@ using test::GuardCase;
 
 /// Levels count roundings as the header of the search defines them: 16 eps of the amplitudes' sum there and what
 /// the phases lose. A minimum within one rounding of zero is a grazing, a deeper one a crossing. The search itself
-/// knows a value to a quarter of a rounding and a sum of amplitudes to a factor of two: between `sure` and `clear`
-/// it may decide either way, though not in contradiction to itself.
-constexpr Real sure = 0.75;
+/// knows a value to half a rounding, and joins contacts between which the guard hardly rises: between `sure` and
+/// `clear` it may decide either way, though not in contradiction to itself.
+constexpr Real sure = 0.5;
 constexpr Real clear = 3;
 
 /// A stretch where the guard is within `clear` of zero, or crosses.

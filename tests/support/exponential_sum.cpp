@@ -315,11 +315,11 @@ Real ExponentialSum::unit(Real s) const {
     }
     return 16 * double_epsilon * sum;
   }
-  const bool factored = zeros_ > 0 && rate_ * s < 1;
+  const bool factored = near_start(s);
   const std::vector<LongComplex>& e = values(factored ? 1 / rate_ : s);
   for (std::size_t k = 0; k < elements_.size(); ++k) sum += elements_[k].sizes[0] * std::abs(e[k]);
   sum *= double_epsilon * (16 + turning_ * s);
-  return factored ? sum * std::pow(near_start(s) ? rate_ : rate_ * s, zeros_) : sum;
+  return factored ? sum * std::pow(rate_, zeros_) : sum;
 }
 
 Real ExponentialSum::rounding(Real s) const { return near_start(s) ? unit(s) * std::pow(s, zeros_) : unit(s); }

@@ -24,8 +24,8 @@ using LongComplex = std::complex<Real>;
 
 /// A point of the account. Levels are values in units of the rounding that the search allows itself:
 /// f / ((16 eps + eps max|Im z| s) sum |c_k E_k(s)|), eps of double. With n known zeros at s = 0 the denominator
-/// for s < T = 1/max|z| is that at T times (s/T)^n; for polynomials, without such a T, their terms of order n and
-/// above.
+/// for s <= T/2, T = 1/max|z|, is that at T times (s/T)^n; for polynomials, without such a T, their terms of order
+/// n and above.
 struct Knot {
   Real s = 0;
   Real level = 0;
