@@ -189,6 +189,7 @@ void ExactEngine::place(double x, double v) {
 void ExactEngine::begin_motion() {
   drive_.reset(0.0);
   repeats_ = 0;
+  instant_scale_ = 0.0;
   outcome_ = {};
   if (tracking_) reset_sensitivity();
 }
@@ -396,6 +397,14 @@ void ExactEngine::lay_rest() {
   }
 }
 
+/// Of all phases that met at this instant: a law that lets go takes its large forces away, but not their rounding.
+double ExactEngine::force_rounding() const { return rounding * std::max(force_scale_, instant_scale_); }
+
+/// In a slip. Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
+double ExactEngine::velocity_rounding() const {
+  return force_rounding() / model_.oscillator.mass / mode_->basis().fastest();
+}
+
 void ExactEngine::lay_slip() {
   const Oscillator& o = model_.oscillator;
   mode_ = &mode_for(o.damping + total_->force.velocity, o.stiffness + total_->force.position);
@@ -404,10 +413,8 @@ void ExactEngine::lay_slip() {
   mode_->solve(forcing_, x_, v_, motion_);
   force_scale_ = force_scale();
   const double sign = friction::sign(direction_);
-  // Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
-  core::Guard& guard = new_guard({.kind = Owner::Kind::velocity,
-                                  .by_velocity = sign,
-                                  .tolerance = rounding * force_scale_ / o.mass / basis.fastest()});
+  core::Guard& guard =
+      new_guard({.kind = Owner::Kind::velocity, .by_velocity = sign, .tolerance = velocity_rounding()});
   core::differentiate(basis, motion_, guard.value);
   if (sign < 0.0) core::assign(basis, -1.0, guard.value, guard.value);
   core::differentiate(basis, guard.value, guard.slope);
@@ -427,6 +434,10 @@ void ExactEngine::add_law_guards() {
                                       .by_velocity = g.velocity,
                                       .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
                                                                std::abs(g.velocity * v_) + g.cancelled)});
+      if (direction_ != Direction::rest) {
+        owners_[guard_count_ - 1].tolerance +=
+            velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
+      }
       ModeForcing own{
           .constant = g.constant, .ramp = g.rate, .transients = std::vector<double>(mode_->decays().size())};
       for (std::size_t d = 0; d < mode_->decays().size(); ++d) {
@@ -456,7 +467,7 @@ void ExactEngine::lay_phase() {
 /// `rounding` of its parts; the acceleration is that sum again, and may not overrule the decision within rounding.
 core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) const {
   const double push = friction::sign(direction_) * pull_now();
-  const double error = rounding * force_scale_;
+  const double error = force_rounding();
   if (push > 0.5 * error) return {1, 1};
   if (push < -4.0 * error) return {-1, 1};
   return core::germ(mode_->basis(), guard, tolerance, 2);
@@ -632,6 +643,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   }
   const core::Crossing& end = crossing_;
   repeats_ = at_once || left == 0.0 ? repeats_ + 1 : 0;
+  instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
   if (repeats_ > max_repeats) {
     outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
     return nullptr;

@@ -142,6 +142,8 @@ class ExactEngine {
   [[nodiscard]] const Interval* step(double left, bool to_period_end);
   void advance(double s, bool to_period_end);
   [[nodiscard]] double force_scale() const;
+  [[nodiscard]] double force_rounding() const;
+  [[nodiscard]] double velocity_rounding() const;
 
   Model model_;
   Drive drive_;
@@ -165,6 +167,7 @@ class ExactEngine {
   std::array<Total, 3> totals_;    ///< by direction
   Total* total_ = totals_.data();  ///< of the present phase
   double force_scale_ = 0.0;
+  double instant_scale_ = 0.0;  ///< the largest of the phases that met at this instant, the one before it included
   core::ModeFunction motion_;
   std::vector<core::Guard> guards_;
   std::vector<Owner> owners_;
