@@ -101,8 +101,12 @@ void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now
       }
       return;
     case Trigger::limit_change:
-      // A damped spring follows its new limit without a halt.
-      if (slips && !is_damped()) stop_slider(memory, now, memory.mode * halted);
+      // A damped spring follows its new limit without a halt; one that had no limit begins anew.
+      if (now.limit_now(static_) == 0.0) {
+        memory = start(now);
+      } else if (slips && !is_damped()) {
+        stop_slider(memory, now, memory.mode * halted);
+      }
       return;
     default:
       if (slips) return stop_slider(memory, now, stuck);

@@ -79,6 +79,7 @@ class ModifiedLaw final : public LawModel {
 
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
     const auto [inner, course] = split(memory);
+    if (is_gone(course)) return 0.0;
     return law_.force(inner, modify(course, now), direction);
   }
 
@@ -91,7 +92,7 @@ class ModifiedLaw final : public LawModel {
               std::vector<double>& values) const override {
     const auto [inner, course] = split(memory);
     for (const Affine& guard : own_guards(course, now)) values.push_back(value(guard, now));
-    law_.guards(inner, modify(course, now), direction, values);
+    if (!is_gone(course)) law_.guards(inner, modify(course, now), direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override;
 
@@ -104,6 +105,7 @@ class ModifiedLaw final : public LawModel {
   [[nodiscard]] bool is_affine() const override { return law_.is_affine(); }
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction direction) const override {
     const auto [inner, course] = split(memory);
+    if (is_gone(course)) return {};
     return law_.affine_force(inner, modify(course, now), direction);
   }
   [[nodiscard]] Affine affine_limit(const Memory& memory, const Instant& now) const override {
@@ -114,19 +116,22 @@ class ModifiedLaw final : public LawModel {
                      std::vector<Affine>& guards) const override {
     const auto [inner, course] = split(memory);
     for (const Affine& guard : own_guards(course, now)) guards.push_back(guard);
-    law_.affine_guards(inner, modify(course, now), direction, guards);
+    if (!is_gone(course)) law_.affine_guards(inner, modify(course, now), direction, guards);
   }
 
   [[nodiscard]] bool has_rates() const override { return law_.has_rates(); }
   void rates(const Memory& memory, const Instant& now, Direction direction,
              std::span<double> rates) const override {
     const auto [inner, course] = split(memory);
+    std::ranges::fill(rates, 0.0);
+    if (is_gone(course)) return;
     law_.rates(inner, modify(course, now), direction, rates);
   }
   [[nodiscard]] bool advances() const override { return law_.advances(); }
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
                Direction direction) const override {
     auto [inner, course] = split(memory);
+    if (is_gone(course)) return;
     law_.advance(inner, modify(course, begin), modify(course, end), duration, direction);
     memory = joined(std::move(inner), course);
   }
@@ -143,6 +148,11 @@ class ModifiedLaw final : public LawModel {
  private:
   [[nodiscard]] double fluctuation(const Course& course) const {
     return std::max(0.0, 1.0 + modifiers_.ratio * course.level);
+  }
+  /// No limit is left: there is no contact, until one returns.
+  [[nodiscard]] bool is_gone(const Course& course) const {
+    if (modifiers_.slope == 0.0) return course.drift_ended || fluctuation(course) == 0.0;
+    return !limits_.empty() && static_cast<std::size_t>(course.vanished) == limits_.size();
   }
   [[nodiscard]] Instant modify(const Course& course, Instant now) const {
     const double factor = course.drift_ended ? 0.0 : fluctuation(course);
@@ -213,10 +223,9 @@ void ModifiedLaw::change_step(Memory& inner, Course& course, const Instant& now,
     next.level = correlation * course.level + std::sqrt(1.0 - correlation * correlation) * draw;
   }
   // What slides goes on sliding under a limit that falls.
-  if (next.drift_ended != course.drift_ended || fluctuation(next) > fluctuation(course))
-    law_.jump(inner, {Trigger::limit_change}, old, direction);
+  if (fluctuation(next) > fluctuation(course)) law_.jump(inner, {Trigger::limit_change}, old, direction);
   course = next;
-  settle(inner, modify(course, now), direction);
+  if (!is_gone(course)) settle(inner, modify(course, now), direction);
 }
 
 /// After a step: the law's guards that are clearly violated. So laws that step together need no more events than

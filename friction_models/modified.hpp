@@ -10,9 +10,10 @@
 ///
 /// The law inside sees `Instant::modification` and stays affine in every mode: between the changes below limits are
 /// affine in t and x. The wrapper adds
-///   times    the ends of cells; the end of a falling drift at t = -1/drift. Where limits rise by a step, or end to
-///            move, the law first gets `Trigger::limit_change` at the old ones.
+///   times    the ends of cells; the end of a falling drift at t = -1/drift. Where limits rise by a step the law
+///            first gets `Trigger::limit_change` at the old ones.
 ///   guards   x = 0, where the slope changes its sign; a limit that vanishes, or returns.
+/// While no limit is left the law has no force; it begins anew, unstretched, where a limit returns.
 ///
 /// Source: uhlenbeck1930 in `docs/refs.bib` for the process. Cost: a copy of what the law remembers at each call.
 

@@ -57,7 +57,8 @@ void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, 
         hold(memory, now);
       return;
     case Trigger::limit_change:
-      if (slips) hold(memory, now);
+      if (now.limit_now(kinetic_) == 0.0) memory = start(now);
+      if (memory.mode != 0) hold(memory, now);
       return;
     default:
       if (slips) return hold(memory, now);

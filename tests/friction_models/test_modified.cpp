@@ -261,6 +261,23 @@ TEST_CASE("fluctuation: a step downward relaxes a spring that is being unloaded,
   }
 }
 
+TEST_CASE("a contact whose limit vanishes begins anew, unstretched, where it returns", "[friction][modified]") {
+  // 2 N - 200 N/m |x| is gone beyond 10 mm; the spring stands unstretched where the mass comes back.
+  for (const bool bond : {false, true}) {
+    const Law stiff =
+        bond ? Law(friction::ResetIntegrator(2.0, 1e5, 0.5, 0.0)) : Law(ContactCompliance(2.0, 2.0, 1e5, 0.0));
+    test::LawHost host(friction::modified(stiff, {{"position_slope", -200.0}}, {2.0}), {});
+    host.move_to(0.03);
+    CHECK(host.force() == 0.0);
+    CHECK(host.guards().size() == 2);
+    host.move_to(0.0101);
+    CHECK(host.force() == 0.0);
+    host.move_to(0.005);
+    CHECK(host.force() == Approx(-1.0).epsilon(1e-12));
+    REQUIRE_FALSE(host.broken());
+  }
+}
+
 TEST_CASE("position_slope: loops of a rigid and of a compliant contact", "[friction][modified]") {
   const double F = 2.0;
   const double c = 30.0;
