@@ -206,7 +206,8 @@ double ExactEngine::time() const {
 /// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold
 /// the mass and the forces of the others; and the guards.
 void ExactEngine::collect(bool with_guards) {
-  total_ = &totals_[static_cast<std::size_t>(static_cast<int>(direction_) + 1)];
+  const int index = static_cast<int>(direction_) + 1;
+  total_ = &totals_[static_cast<std::size_t>(index)];
   // Laws without modes do the same each time in one direction.
   if (total_->lasting) return;
   total_->lasting = !some_modal_;
