@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
@@ -80,6 +81,10 @@ TEST_CASE("run: the keys of the results are those of the contract", "[scenarios]
   const json response = result_of(scenarios::run(scenario_of("{type: frequency_response, frequencies: [1 Hz]}")));
   CHECK(keys(response.at("points").at(0)) ==
         std::vector<std::string>{"omega", "phase", "stable", "sticks", "stops", "x"});
+  const json map = result_of(
+      scenarios::run(scenario_of("{type: regime_map, frequencies: [10 rad/s, 2 Hz], amplitudes: [0.05, 0.1]}")));
+  CHECK(map.at("points").size() == 4);
+  CHECK(keys(map.at("points").at(0)) == std::vector<std::string>{"Y", "omega", "sticks", "stops", "x"});
   const json branch =
       result_of(scenarios::run(scenario_of("{type: xy_branch, amplitudes: {from: 0.1 m, to: 0.03 m}}")));
   CHECK(keys(branch.at("points").at(0)) ==
@@ -123,6 +128,25 @@ TEST_CASE("run: every number of a result is in the tables", "[scenarios][run]") 
       const Scenario scenario = scenarios::load_scenario(path.string());
       check_paths(result_of(scenarios::run(scenario)), "", patterns_of(scenario));
     }
+}
+
+TEST_CASE("run: the regimes of a map count its points, and the boundary stands beside it", "[scenarios][run]") {
+  const json map = result_of(scenarios::run(
+      scenario_of("{type: regime_map, frequencies: {from: 0.5 Hz, to: 2 Hz, count: 7}, amplitudes: {from: 1 mm, "
+                  "to: 0.4 m, count: 11}, sticking_boundary: true}")));
+  std::map<std::pair<int, int>, int> counted;
+  for (const json& point : map.at("points")) ++counted[{point.at("stops"), point.at("sticks")}];
+  REQUIRE(map.at("regimes").size() == counted.size());
+  CHECK(counted.size() >= 3);  // never moves, sticks, does not stick
+  for (const json& regime : map.at("regimes"))
+    CHECK(counted.at({regime.at("stops"), regime.at("sticks")}) == regime.at("points"));
+  REQUIRE(map.at("boundary").size() == 7);
+  for (const json& point : map.at("boundary")) {
+    CHECK(point.at("Y").get<double>() == Approx(point.at("Y_closed_form").get<double>()).epsilon(1e-9));
+    for (const json& other : map.at("points"))
+      if (other.at("omega") == point.at("omega"))
+        CHECK((other.at("Y") > point.at("Y")) == (other.at("sticks") == 0));
+  }
 }
 
 TEST_CASE("run: an expected value that is off ends with status 1 and says by how much", "[scenarios][run]") {
