@@ -6,154 +6,215 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/plain_phase.hpp"
+
 namespace dualdamp::test {
 
 namespace {
 
 using State = std::array<double, 2>;
 
+/// Below zero by more than this, relative to its parts, a guard has been crossed.
+constexpr double crossed = 1e-13;
+
+/// > 0 while the mode holds.
+struct Guard {
+  NextEvent event;
+  double value = 0.0;
+  double rate = 0.0;  ///< d(value)/dt
+  double parts = 0.0;
+
+  [[nodiscard]] bool is_crossed() const { return value < -crossed * parts; }
+};
+
 class Walk {
  public:
-  Walk(const sim::Model& model, double kinetic, double static_level)
-      : o_(model.oscillator),
-        e_(model.excitation),
-        kinetic_(kinetic),
-        static_(static_level),
-        z_{model.initial.position, model.initial.velocity} {
-    double fastest = std::max(std::sqrt(o_.stiffness / o_.mass), std::abs(o_.damping) / o_.mass);
-    if (e_.is_harmonic()) fastest = std::max(fastest, e_.frequency);
-    for (const sim::Harmonic& h : e_.harmonics) fastest = std::max(fastest, h.order * e_.frequency);
+  Walk(const sim::Model& model, const PlainFriction& friction)
+      : model_(model), friction_(friction), mass_{.x = model.initial.position, .v = model.initial.velocity} {
+    const sim::Oscillator& o = model.oscillator;
+    double stiffness = o.stiffness;
+    double damping = std::abs(o.damping);
+    double fastest = 0.0;
+    for (const Spring& s : friction.springs) {
+      stiffness += s.stiffness;
+      damping += s.damping;
+    }
+    for (const DampedContact& c : friction.contacts) {
+      stiffness += c.stiffness;
+      damping += c.damping;
+      fastest = std::max(fastest, c.decay());
+    }
+    fastest = std::max({fastest, std::sqrt(stiffness / o.mass), damping / o.mass});
+    const sim::Excitation& e = model.excitation;
+    if (e.is_harmonic()) fastest = std::max(fastest, e.frequency);
+    for (const sim::Harmonic& h : e.harmonics) fastest = std::max(fastest, h.order * e.frequency);
     step_ = 2.0 * std::numbers::pi / fastest / 400.0;
   }
 
   BruteForce run(double duration) {
-    direction_ = z_[1] > 0.0 ? 1 : z_[1] < 0.0 ? -1 : 0;
-    if (direction_ == 0) settle();
-    while (t_ < duration) {
-      const double h = std::min(careful(step_), duration - t_);
-      if (direction_ == 0) {
-        rest(h);
-      } else {
-        slip(h);
-      }
+    mass_.direction = mass_.v > 0.0 ? 1 : mass_.v < 0.0 ? -1 : 0;
+    if (mass_.direction == 0) take_place(model_, {}, friction_, mass_);
+    while (mass_.t < duration) {
+      const double h = mass_.t < fine_until_ ? step_ / 64.0 : step_;
+      step(std::min(h, duration - mass_.t));
     }
-    result_.x = z_[0];
-    result_.v = z_[1];
+    result_.x = mass_.x;
+    result_.v = mass_.v;
     return result_;
   }
 
  private:
   /// Force of base and excitation on the mass.
   [[nodiscard]] double drive(double t) const {
+    const sim::Oscillator& o = model_.oscillator;
+    const sim::Excitation& e = model_.excitation;
     double level = 0.0;
     double rate = 0.0;
-    if (e_.is_harmonic()) {
+    if (e.is_harmonic()) {
       const auto add = [&](int order, double amplitude, double phase) {
-        const double w = order * e_.frequency;
+        const double w = order * e.frequency;
         level += amplitude * std::cos(w * t + phase);
         rate -= amplitude * w * std::sin(w * t + phase);
       };
-      add(1, e_.amplitude, e_.phase);
-      for (const sim::Harmonic& h : e_.harmonics) add(h.order, h.amplitude, h.phase);
+      add(1, e.amplitude, e.phase);
+      for (const sim::Harmonic& h : e.harmonics) add(h.order, h.amplitude, h.phase);
     } else {
-      level = e_.slope * t;
-      rate = e_.slope;
+      level = e.slope * t;
+      rate = e.slope;
     }
-    const bool base = e_.type == sim::ExcitationType::base_harmonic || e_.type == sim::ExcitationType::base_ramp;
-    if (!base) return level + e_.offset;
-    return o_.stiffness * level + (o_.damper_to == sim::DamperTo::base ? o_.damping * rate : 0.0);
+    const bool base = e.type == sim::ExcitationType::base_harmonic || e.type == sim::ExcitationType::base_ramp;
+    if (!base) return level + e.offset;
+    return o.stiffness * level + (o.damper_to == sim::DamperTo::base ? o.damping * rate : 0.0);
   }
-  [[nodiscard]] double pull(double t) const { return drive(t) - o_.stiffness * z_[0]; }
 
-  [[nodiscard]] State stepped(double h) {
-    const auto right = [this](const State& z, State& rate, double t) {
+  [[nodiscard]] double net_force(const LinearForce& friction, double t, double x, double v) const {
+    const sim::Oscillator& o = model_.oscillator;
+    return drive(t) - o.damping * v - o.stiffness * x -
+           (friction.constant + friction.stiffness * x + friction.damping * v);
+  }
+
+  [[nodiscard]] MassState after(double h) {
+    MassState next = mass_;
+    next.t += h;
+    if (mass_.direction == 0) return next;
+    const LinearForce friction = friction_.force(mass_.direction);
+    const auto right = [&](const State& z, State& rate, double t) {
       rate[0] = z[1];
-      rate[1] = (drive(t) - o_.damping * z[1] - o_.stiffness * z[0] - direction_ * kinetic_) / o_.mass;
+      rate[1] = net_force(friction, t, z[0], z[1]) / model_.oscillator.mass;
     };
-    State z = z_;
-    stepper_.do_step(right, z, t_, h);
-    return z;
+    State z = {mass_.x, mass_.v};
+    stepper_.do_step(right, z, mass_.t, h);
+    next.x = z[0];
+    next.v = z[1];
+    return next;
   }
 
-  void settle() {
-    const double now = pull(t_);
-    direction_ = std::abs(now) <= static_ ? 0 : now > 0.0 ? 1 : -1;
-  }
-
-  void note(sim::EventKind kind) { result_.events.push_back({t_, kind, z_[0]}); }
-
-  /// Steps are shortened where something might come and go within one.
-  [[nodiscard]] double careful(double h) {
-    if (direction_ == 0) return std::abs(std::abs(pull(t_)) - static_) < 0.01 * static_ ? h / 64.0 : h;
-    const auto acceleration = [&](const State& z, double t) {
-      return direction_ * (drive(t) - o_.damping * z[1] - o_.stiffness * z[0]) - kinetic_;
-    };
-    const bool turns = acceleration(z_, t_) < 0.0 && acceleration(stepped(h), t_ + h) > 0.0;
-    return turns ? h / 64.0 : h;
-  }
-
-  void rest(double h) {
-    z_[1] = 0.0;
-    if (std::abs(pull(t_ + h)) <= static_) {
-      t_ += h;
-      return;
+  /// At a state of the present mode, h after its begin.
+  void list_guards(const MassState& at, double h, std::vector<Guard>& guards) const {
+    guards.clear();
+    const LinearForce friction = friction_.force(at.direction);
+    const double force = net_force(friction, at.t, at.x, at.v);
+    const double acceleration = at.direction == 0 ? 0.0 : force / model_.oscillator.mass;
+    if (at.direction == 0) {
+      const double d = step_ / 64.0;
+      const double rate = (drive(at.t + d) - drive(at.t - d)) / (2.0 * d);
+      for (const int side : {1, -1}) {
+        const double spare = friction_.static_level - side * force;
+        guards.push_back(
+            {{.what = NextEvent::What::release, .side = side}, spare, -side * rate, friction_.static_level});
+      }
+    } else {
+      guards.push_back({{}, at.direction * at.v, at.direction * acceleration, speed_});
+      const int side = at.direction;
+      const double edge = friction_.edge(side);
+      guards.push_back(
+          {{.what = NextEvent::What::spring, .side = side}, side * (edge - at.x), -side * at.v, length_});
     }
+    for (std::size_t i = 0; i < friction_.contacts.size(); ++i) {
+      DampedContact c = friction_.contacts[i];
+      c.relax(h);
+      const double moving = c.decay() * (c.settled() - c.stretch);
+      if (c.side != 0) {
+        guards.push_back({{.what = NextEvent::What::contact, .contact = i},
+                          c.side * (at.v - moving),
+                          c.side * (acceleration + c.decay() * moving),
+                          speed_ + c.decay() * length_});
+        continue;
+      }
+      for (const int side : {1, -1}) {
+        const double f = c.stiffness * (at.x - c.foot) + c.damping * at.v;
+        const double rate = c.stiffness * at.v + c.damping * acceleration;
+        guards.push_back({{.what = NextEvent::What::contact, .side = side, .contact = i},
+                          c.static_level - side * f,
+                          -side * rate,
+                          c.static_level});
+      }
+    }
+  }
+
+  /// The first guard crossed after h; null: none.
+  [[nodiscard]] const Guard* crossed_after(double h) {
+    list_guards(after(h), h, guards_);
+    const auto first = std::ranges::find_if(guards_, &Guard::is_crossed);
+    return first == guards_.end() ? nullptr : &*first;
+  }
+
+  void step(double h) {
+    list_guards(mass_, 0.0, before_);
+    if (crossed_after(h) != nullptr) return pass_event(h);
+    const bool fine = mass_.t < fine_until_;
+    for (std::size_t i = 0; i < guards_.size() && !fine; ++i) {
+      if (before_[i].rate < 0.0 && guards_[i].rate > 0.0) {
+        fine_until_ = mass_.t + h;
+        return;
+      }
+    }
+    advance(h);
+  }
+
+  void pass_event(double h) {
     double low = 0.0;
-    for (double high = h; high - low > 1e-17 * (1.0 + t_);) {
+    double high = h;
+    for (int i = 0; i < 60; ++i) {
       const double middle = (low + high) / 2.0;
-      if (middle <= low || middle >= high) break;
-      (std::abs(pull(t_ + middle)) <= static_ ? low : high) = middle;
+      (crossed_after(middle) != nullptr ? high : low) = middle;
     }
-    t_ += low;
-    direction_ = pull(t_) > 0.0 ? 1 : -1;
-    note(sim::EventKind::release);
-    leave_zero();
+    const NextEvent event = crossed_after(high)->event;
+    advance(high);
+    note(take_place(model_, event, friction_, mass_));
+    // A spring that stands at its reach lets go as soon as the mass moves.
+    while (mass_.direction != 0 && std::abs(friction_.edge(mass_.direction) - mass_.x) <= crossed * length_) {
+      friction_.let_go(mass_.direction);
+      note(sim::EventKind::switching);
+    }
   }
 
-  void slip(double h) {
-    const State z = stepped(h);
-    if (z[1] * direction_ > 0.0) {
-      z_ = z;
-      t_ += h;
-      return;
-    }
-    double low = 0.0;
-    for (double high = h; high - low > 1e-17 * (1.0 + t_);) {
-      const double middle = (low + high) / 2.0;
-      if (middle <= low || middle >= high) break;
-      (stepped(middle)[1] * direction_ > 0.0 ? low : high) = middle;
-    }
-    z_ = stepped(low);
-    z_[1] = 0.0;
-    t_ += low;
-    settle();
-    note(direction_ == 0 ? sim::EventKind::stop : sim::EventKind::reversal);
-    if (direction_ != 0) leave_zero();
+  void advance(double h) {
+    mass_ = after(h);
+    friction_.relax(h);
+    speed_ = std::max(speed_, std::abs(mass_.v));
+    length_ = std::max(length_, std::abs(mass_.x));
   }
 
-  /// A step long enough to leave the zero of the velocity, perhaps a double one, well behind.
-  void leave_zero() {
-    const double h = step_ / 8.0;
-    z_ = stepped(h);
-    t_ += h;
-  }
+  void note(sim::EventKind kind) { result_.events.push_back({mass_.t, kind, mass_.x}); }
 
-  sim::Oscillator o_;
-  sim::Excitation e_;
-  double kinetic_;
-  double static_;
-  State z_;
-  double t_ = 0.0;
+  const sim::Model& model_;
+  PlainFriction friction_;
+  MassState mass_;
   double step_ = 0.0;
-  int direction_ = 0;
+  double fine_until_ = 0.0;
+  double speed_ = std::abs(mass_.v);   ///< the largest so far [m/s]
+  double length_ = std::abs(mass_.x);  ///< of the position [m]
+  std::vector<Guard> before_;
+  std::vector<Guard> guards_;
   boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper_;
   BruteForce result_;
 };
 
 }  // namespace
 
-BruteForce follow_coulomb(const sim::Model& model, double kinetic, double static_level, double duration) {
-  return Walk(model, kinetic, static_level).run(duration);
+BruteForce follow(const sim::Model& model, const PlainFriction& friction, double duration) {
+  return Walk(model, friction).run(duration);
 }
 
 }  // namespace dualdamp::test

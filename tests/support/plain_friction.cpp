@@ -66,24 +66,17 @@ double PlainFriction::drawn_foot(const Spring& spring, double x) {
 
 LinearForce PlainFriction::force(int direction) const {
   LinearForce sum{.constant = direction * kinetic};
-  for (const Spring& s : springs) {
-    if (s.side != 0) {
-      sum.constant += s.side * s.kinetic;
-      continue;
+  const auto add = [&](const auto& element) {
+    if (element.side != 0) {
+      sum.constant += element.side * element.kinetic;
+      return;
     }
-    sum.constant -= s.stiffness * s.foot;
-    sum.stiffness += s.stiffness;
-    sum.damping += s.damping;
-  }
-  for (const DampedContact& c : contacts) {
-    if (c.side != 0) {
-      sum.constant += c.side * c.kinetic;
-      continue;
-    }
-    sum.constant -= c.stiffness * c.foot;
-    sum.stiffness += c.stiffness;
-    sum.damping += c.damping;
-  }
+    sum.constant -= element.stiffness * element.foot;
+    sum.stiffness += element.stiffness;
+    sum.damping += element.damping;
+  };
+  std::ranges::for_each(springs, add);
+  std::ranges::for_each(contacts, add);
   return sum;
 }
 
@@ -109,15 +102,12 @@ void PlainFriction::let_go(int side) {
   }
 }
 
-bool PlainFriction::turn(double x) {
-  bool any = false;
+void PlainFriction::turn(double x) {
   for (Spring& s : springs) {
     if (s.side == 0) continue;
     s.foot = x - s.side * s.trail;
     s.side = 0;
-    any = true;
   }
-  return any;
 }
 
 void PlainFriction::relax(double s) {

@@ -69,8 +69,8 @@ class PlainFriction {
   [[nodiscard]] double edge(int side) const;
   /// All springs that do so there.
   void let_go(int side);
-  /// v = 0 at x: feet that were dragged stand. Returns whether there were any.
-  bool turn(double x);
+  /// v = 0 at x: feet that were dragged stand.
+  void turn(double x);
   /// Time passes.
   void relax(double s);
 

@@ -19,6 +19,36 @@ constexpr double at_zero = 1e-12;
 
 }  // namespace
 
+sim::EventKind take_place(const sim::Model& model, const NextEvent& event, PlainFriction& friction,
+                          MassState& mass) {
+  switch (event.what) {
+    case NextEvent::What::release:
+      mass.direction = event.side;
+      return sim::EventKind::release;
+    case NextEvent::What::spring:
+      friction.let_go(event.side);
+      return sim::EventKind::switching;
+    case NextEvent::What::contact: {
+      DampedContact& contact = friction.contacts[event.contact];
+      if (contact.side == 0) {
+        contact.break_away(event.side, mass.x);
+      } else {
+        contact.stick(mass.x);
+      }
+      return sim::EventKind::switching;
+    }
+    case NextEvent::What::turn:
+      break;
+  }
+  mass.v = 0.0;
+  mass.direction = 0;
+  friction.turn(mass.x);
+  const double pull = PlainPhase(model, friction, mass).net_force();
+  if (std::abs(pull) <= friction.static_level) return sim::EventKind::stop;
+  mass.direction = pull > 0.0 ? 1 : -1;
+  return sim::EventKind::reversal;
+}
+
 PlainPhase::PlainPhase(const sim::Model& model, const PlainFriction& friction, const MassState& from)
     : model_(model), friction_(friction), from_(from), force_(friction.force(from.direction)) {
   const sim::Oscillator& o = model.oscillator;
@@ -171,7 +201,7 @@ bool PlainPhase::begins_with_double_root() const {
 
 ExponentialSum PlainPhase::sum(const Guard& g) const {
   ExponentialSum f;
-  Real constant = g.constant;
+  auto constant = static_cast<Real>(g.constant);
   if (from_.direction == 0) {
     constant += static_cast<Real>(g.by_position) * static_cast<Real>(from_.x);
     for (const auto& h : problem_.harmonics) {
@@ -212,7 +242,7 @@ std::vector<NextEvent> PlainPhase::next_events(double horizon) const {
     sums.push_back(sum(guard));
     if (sums.back().level(0) > 4) continue;
     events.push_back(guard.event);
-    events.back().uncertainty = 8.0 * uncertainty(guard, sums.back(), 0.0);
+    events.back().uncertainty = std::min(8.0 * uncertainty(guard, sums.back(), 0.0), 1e-9 / rate());
   }
   for (double end = std::min(horizon, 4.0 / rate()); events.empty(); end = std::min(horizon, 4.0 * end)) {
     for (std::size_t i = 0; i < guards_.size(); ++i) {
@@ -231,15 +261,8 @@ std::vector<NextEvent> PlainPhase::next_events(double horizon) const {
   return events;
 }
 
-MassState PlainPhase::at(double s) const {
-  MassState state = from_;
-  state.t += s;
-  if (from_.direction == 0) return state;
-  const Guard position{.by_position = 1.0};
-  const Guard velocity{.by_velocity = 1.0};
-  state.x = static_cast<double>(sum(position).at(static_cast<Real>(s)));
-  state.v = static_cast<double>(sum(velocity).at(static_cast<Real>(s)));
-  return state;
+double PlainPhase::position(double s) const {
+  return from_.direction == 0 ? from_.x : static_cast<double>(sum({.by_position = 1.0}).at(static_cast<Real>(s)));
 }
 
 }  // namespace dualdamp::test

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/interval.hpp"
 #include "sim/model.hpp"
 #include "tests/support/exponential_sum.hpp"
 #include "tests/support/oracle.hpp"
@@ -29,6 +30,11 @@ struct NextEvent {
   double uncertainty = 0;  ///< what rounding of state, places and drive moves it by [s]
 };
 
+/// What the event does to friction and direction, by the equations of the laws. A mass that has come to rest stays
+/// while the pull is within the static level.
+sim::EventKind take_place(const sim::Model& model, const NextEvent& event, PlainFriction& friction,
+                          MassState& mass);
+
 class PlainPhase {
  public:
   PlainPhase(const sim::Model& model, const PlainFriction& friction, const MassState& from);
@@ -37,7 +43,7 @@ class PlainPhase {
   [[nodiscard]] bool is_regular() const;
   /// The first event; all that come within rounding of it, any of which may be the first. Empty: none.
   [[nodiscard]] std::vector<NextEvent> next_events(double horizon) const;
-  [[nodiscard]] MassState at(double s) const;
+  [[nodiscard]] double position(double s) const;
   /// All forces on the mass at v = 0 now; at rest without those that hold it [N].
   [[nodiscard]] double net_force() const;
   /// Sum of the moduli of all forces [N].
