@@ -22,6 +22,13 @@ Json finite(const std::vector<double>& values) {
   return list;
 }
 
+Json certificate_json(const core::SearchCount& count) {
+  return {{"searches", count.searches},
+          {"panels", count.panels},
+          {"splits", count.splits},
+          {"grazings", count.grazings}};
+}
+
 Json energy_json(const sim::Energy& energy) {
   return {{"input", finite(energy.input)},
           {"friction", finite(energy.friction)},
@@ -353,6 +360,7 @@ Answer answer_of_points(const sim::Curve& curve, const std::string& what) {
     answer.warnings.push_back("points[" + std::to_string(remark.first) + "]" + more + ": " + remark.text);
   }
   answer.result["points"] = nullptr;
+  answer.result["certificate"] = certificate_json(curve.certificate);
   return answer;
 }
 
@@ -365,8 +373,7 @@ Answer answer(const sim::History& history, const sim::Excitation& excitation) {
   answer.result["final"] = {
       {"t", finite(history.final.t)}, {"x", finite(history.final.x)}, {"v", finite(history.final.v)}};
   answer.result["energy"] = energy_json(history.energy);
-  answer.result["search"] = {
-      {"searches", history.searches}, {"panels", history.panels}, {"grazings", history.grazings}};
+  answer.result["certificate"] = certificate_json(history.certificate);
   answer.tables.push_back(event_table(history.events));
   if (!history.samples.empty()) answer.tables.push_back(history_table(history.samples, excitation));
   return answer;
@@ -394,6 +401,7 @@ Answer answer(const sim::SteadyState& state) {
     result["multipliers"].push_back({finite(multiplier.real()), finite(multiplier.imag())});
   result["stable"] = state.stable();
   result["energy"] = energy_json(state.energy);
+  result["certificate"] = certificate_json(state.certificate);
   if (!state.sticks.empty())
     answer.tables.push_back({"sticks",
                              {column("start", "s", state.sticks, &sim::Stick::start),

@@ -23,6 +23,14 @@ Fields energy() {
           {"energy.defect", "J", "input - friction - viscous - stored"}};
 }
 
+/// How the search for events was certified.
+Fields certificate() {
+  return {{"certificate.searches", "1", "searches for the next event"},
+          {"certificate.panels", "1", "stretches of time examined"},
+          {"certificate.splits", "1", "how many of them had to be divided"},
+          {"certificate.grazings", "1", "limits touched and not crossed"}};
+}
+
 Fields history() {
   return joined({{"events[].t", "s", "time"},
                  {"events[].kind", "", "reversal, stop, release, grazing, switching"},
@@ -31,9 +39,7 @@ Fields history() {
                  {"final.t", "s", "time at the end"},
                  {"final.x", "m", "position at the end"},
                  {"final.v", "m/s", "velocity at the end"}},
-                joined(energy(), {{"search.searches", "1", "searches for the next event"},
-                                  {"search.panels", "1", "panels certified free of events"},
-                                  {"search.grazings", "1", "guards touched and not crossed"}}));
+                joined(energy(), certificate()));
 }
 
 Fields steady_state() {
@@ -49,36 +55,38 @@ Fields steady_state() {
                  {"sticks[].position", "m", "its position"},
                  {"multipliers[][]", "1", "Floquet multipliers of the full period, [re, im]"},
                  {"stable", "", "all multipliers inside the unit circle"}},
-                energy());
+                joined(energy(), certificate()));
 }
 
 Fields curve(const Fields& own) {
-  return joined(own, {{"points[].x", "m", "output amplitude (peak - trough)/2"},
-                      {"points[].stops", "1", "times a period the mass comes to rest and stays"},
-                      {"points[].sticks", "1", "rests a period"},
-                      {"points[].stable", "", "all multipliers inside the unit circle"},
-                      {"points[].reason", "", "only of a point without numbers: why"}});
+  return joined(joined(own, certificate()),
+                {{"points[].x", "m", "output amplitude (peak - trough)/2"},
+                 {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+                 {"points[].sticks", "1", "rests a period"},
+                 {"points[].stable", "", "all multipliers inside the unit circle"},
+                 {"points[].reason", "", "only of a point without numbers: why"}});
 }
 
 Fields regime_map() {
-  return {{"points[].omega", "rad/s", "forcing frequency"},
-          {"points[].Y", "m or N", "input amplitude"},
-          {"points[].x", "m", "output amplitude (peak - trough)/2"},
-          {"points[].stops", "1", "times a period the mass comes to rest and stays"},
-          {"points[].sticks", "1", "rests a period; 1 without a stop: the mass never moves"},
-          {"points[].reason", "", "only of a point without numbers: why"},
-          {"regimes[].stops", "1", "times a period the mass comes to rest and stays"},
-          {"regimes[].sticks", "1", "rests a period"},
-          {"regimes[].points", "1", "points of the map in this regime"},
-          {"regimes[].omega_from", "rad/s", "their lowest frequency"},
-          {"regimes[].omega_to", "rad/s", "their highest frequency"},
-          {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
-          {"regimes[].Y_to", "m or N", "their largest input amplitude"},
-          {"boundary[].omega", "rad/s", "forcing frequency"},
-          {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
-          {"boundary[].x", "m", "output amplitude there"},
-          {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
-          {"boundary[].reason", "", "only where no boundary was found: why"}};
+  return joined({{"points[].omega", "rad/s", "forcing frequency"},
+                 {"points[].Y", "m or N", "input amplitude"},
+                 {"points[].x", "m", "output amplitude (peak - trough)/2"},
+                 {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+                 {"points[].sticks", "1", "rests a period; 1 without a stop: the mass never moves"},
+                 {"points[].reason", "", "only of a point without numbers: why"},
+                 {"regimes[].stops", "1", "times a period the mass comes to rest and stays"},
+                 {"regimes[].sticks", "1", "rests a period"},
+                 {"regimes[].points", "1", "points of the map in this regime"},
+                 {"regimes[].omega_from", "rad/s", "their lowest frequency"},
+                 {"regimes[].omega_to", "rad/s", "their highest frequency"},
+                 {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
+                 {"regimes[].Y_to", "m or N", "their largest input amplitude"},
+                 {"boundary[].omega", "rad/s", "forcing frequency"},
+                 {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
+                 {"boundary[].x", "m", "output amplitude there"},
+                 {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
+                 {"boundary[].reason", "", "only where no boundary was found: why"}},
+                certificate());
 }
 
 Fields free_decay() {

@@ -34,9 +34,7 @@ History simulate(const Model& model, const SimulateOptions& options) {
   sampler.finish(history.final);
   history.samples = std::move(sampler.samples());
   history.energy = energy.account();
-  history.searches = engine.count().searches;
-  history.panels = engine.count().panels;
-  history.grazings = engine.count().grazings;
+  history.certificate = engine.count();
   return history;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/first_crossing.hpp"
 #include "core/outcome.hpp"
 #include "sim/energy.hpp"
 #include "sim/interval.hpp"
@@ -23,10 +24,7 @@ struct History {
   std::vector<Sample> samples;  ///< at 0, 1/sample_rate, ...; empty when sample_rate is 0
   Sample final;
   Energy energy;
-  /// The certificate of the event search.
-  long searches = 0;
-  long panels = 0;
-  long grazings = 0;
+  core::SearchCount certificate;  ///< of the searches for events
 };
 
 struct SimulateOptions {
