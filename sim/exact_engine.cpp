@@ -481,10 +481,11 @@ bool ExactEngine::find_violated() {
   while (i < guard_count_) {
     core::Guard& guard = guards_[i];
     const Owner& owner = owners_[i++];
-    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + owner.tolerance) continue;
+    const double tolerance =
+        owner.tolerance + std::abs(owner.by_position) * x_rounding_ + std::abs(owner.by_velocity) * v_rounding_;
+    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
     const bool from_rest = owner.kind == Owner::Kind::velocity && v_ == 0.0;
-    const core::Germ germ =
-        from_rest ? slip_germ(guard, owner.tolerance) : core::germ(basis, guard, owner.tolerance);
+    const core::Germ germ = from_rest ? slip_germ(guard, tolerance) : core::germ(basis, guard, tolerance);
     if (germ.sign < 0) {
       crossing_.found = true;
       crossing_.guard = static_cast<int>(i) - 1;
@@ -506,9 +507,21 @@ void ExactEngine::drop_guard(std::size_t i) {
   std::swap(owners_[i], owners_[guard_count_]);
 }
 
+/// How far x and v may be off at the end of a phase: as the search has it (core/first_crossing.hpp), of amplitudes
+/// that may be far larger than those of the phase to come.
+void ExactEngine::keep_rounding(double s) {
+  x_rounding_ = v_rounding_ = 0.0;
+  if (direction_ == Direction::rest) return;
+  const core::ExponentialBasis& basis = mode_->basis();
+  const double part = rounding + std::numeric_limits<double>::epsilon() * basis.turning() * s;
+  x_rounding_ = part * core::bound(basis, motion_, crossing_.values, s, 0.0);
+  v_rounding_ = part * core::bound(basis, speed(), crossing_.values, s, 0.0);
+}
+
 /// Ends the phase after s: position, velocity, drive and the laws' own states.
 void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
+  if (some_modal_ && s > 0.0) keep_rounding(s);
   const friction::Instant before = now();
   if (direction_ != Direction::rest) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
@@ -645,7 +658,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   const core::Crossing& end = crossing_;
   repeats_ = at_once || left == 0.0 ? repeats_ + 1 : 0;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
-  if (repeats_ > max_repeats) {
+  if (repeats_ > max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) {
     outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
     return nullptr;
   }

@@ -6,7 +6,7 @@
 /// (`core/first_crossing.hpp`). The driver knows no law by name. At v = 0 it decides by the sum of forces:
 ///   rest      while |pull| <= sum of static limits, equality included when the excess is not growing;
 ///   slip      otherwise, in the direction of the pull.
-/// A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times.
+/// A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times for each law.
 ///
 /// Under a harmonic excitation time is kept modulo one forcing period, so that long runs lose no phase.
 ///
@@ -140,6 +140,7 @@ class ExactEngine {
   void describe_phase(double begin);
   void begin_motion();
   [[nodiscard]] const Interval* step(double left, bool to_period_end);
+  void keep_rounding(double s);
   void advance(double s, bool to_period_end);
   [[nodiscard]] double force_scale() const;
   [[nodiscard]] double force_rounding() const;
@@ -159,7 +160,9 @@ class ExactEngine {
   friction::Direction direction_ = friction::Direction::rest;
   std::vector<friction::Memory> memories_;
 
-  int repeats_ = 0;  ///< events in a row that took no time
+  int repeats_ = 0;          ///< events in a row that took no time
+  double x_rounding_ = 0.0;  ///< of x_ and v_ from the phase before
+  double v_rounding_ = 0.0;
   std::map<ModeKey, LinearMode> modes_;
   ModeKey key_;
   const LinearMode* mode_ = nullptr;  ///< of the present phase
