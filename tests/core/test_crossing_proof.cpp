@@ -23,7 +23,7 @@ using test::GuardCase;
 /// the phases lose. A minimum within one rounding of zero is a grazing, a deeper one a crossing. The search itself
 /// knows a value to half a rounding, and joins contacts between which the guard hardly rises: between `sure` and
 /// `clear` it may decide either way, though not in contradiction to itself.
-constexpr Real sure = 0.5;
+constexpr Real sure = 0.5L;
 constexpr Real clear = 3;
 
 /// A stretch where the guard is within `clear` of zero, or crosses.

@@ -9,7 +9,7 @@ namespace dualdamp::oracle {
 
 namespace {
 
-constexpr Real double_epsilon = std::numeric_limits<double>::epsilon();
+constexpr Real double_epsilon = 0x1p-52L;
 /// Relative error of a term: 256 roundings of 2^-64 for the coefficient, the functions, products and sums; and 4 of
 /// the argument z s.
 constexpr Real term_error = 0x1p-56L;
@@ -382,15 +382,12 @@ void ExponentialSum::Scan::scan(Real a, Real b, int depth) {
   const Real largest_unit = factored_ ? f_.unit(b) : double_epsilon * (16 + f_.turning_ * b) * f_.bound(a, b, 0);
   if (std::abs(j[0]) - value_move > clear * largest_unit) {
     account.knots.push_back({m, j[0] / f_.unit(m)});
-  } else if (std::abs(j[1]) > slope_move) {
+  } else if (std::abs(j[1]) > slope_move || value_move <= f_.unit(m) / 64) {
     note(a);
     note(b);
   } else if (std::abs(j[2]) > bend_move) {
     note(a);
     note_extremum(a, b);
-    note(b);
-  } else if (value_move <= f_.unit(m) / 64) {
-    note(a);
     note(b);
   } else if (depth < 80) {
     scan(a, m, depth + 1);

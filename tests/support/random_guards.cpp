@@ -109,9 +109,9 @@ class BasisDraw {
 
 /// f^(order)(s) = target
 struct Condition {
-  Real s = 0;
+  double s = 0.0;
   int order = 0;
-  Real target = 0;
+  double target = 0.0;
 };
 
 /// Changes the coefficients of one guard, as few of them as there are conditions, so that it meets them: Gaussian
@@ -123,7 +123,7 @@ class Imposing {
     for (const Condition& condition : conditions) {
       std::vector<Real> line;
       Real value = 0;
-      const std::vector<LongComplex> columns = f.columns(condition.s, condition.order);
+      const std::vector<LongComplex> columns = f.columns(static_cast<Real>(condition.s), condition.order);
       for (std::size_t k = 0; k < columns.size(); ++k) {
         line.push_back(columns[k].real());
         line.push_back(c.elements[k].exponent.imag() == 0.0 ? Real(0) : -columns[k].imag());
@@ -134,7 +134,7 @@ class Imposing {
       if (largest == 0) continue;
       for (Real& entry : line) entry /= largest;
       lines_.push_back(line);
-      missing_.push_back((condition.target - value) / largest);
+      missing_.push_back((static_cast<Real>(condition.target) - value) / largest);
     }
   }
 
