@@ -10,9 +10,9 @@
 ///
 /// With static > kinetic the slider jumps at break-away: the force falls to kinetic, x and v stay. The spring
 /// starts unstretched. Limits that grow or fall end a slip where the slider stops, which is then not where the mass
-/// does; a step of the limits upward halts a sliding spring, which breaks away again at the kinetic limit, for no time
-/// passed in which static friction could build up. Holds for contacts whose asperities deform elastically before
-/// sliding.
+/// does; a step of the limits upward halts a sliding spring, which breaks away again at the kinetic limit, for no
+/// time passed in which static friction could build up. Holds for contacts whose asperities deform elastically
+/// before sliding.
 ///
 /// Source: liang2004identifying, jenkins1962 in `docs/refs.bib`. Exact engine; with damping not under
 /// limits that vary with position. Cost: two events a stroke.
