@@ -202,7 +202,9 @@ class PanelSearch {
     }
     sixth_ = bound(basis_, guard_.sixth, values, a, h);
     curvature_ = bound(basis_, guard_.curvature, values, a, h);
-    amplitude_ = bound(basis_, guard_.value, values, a, h);
+    // Beside a known zero amplitudes count as far as its scale reaches: chains have not grown yet at s = 0.
+    const double reach = near_start(a) && basis_.fastest() > 0.0 ? 1.0 / basis_.fastest() - a : 0.0;
+    amplitude_ = bound(basis_, guard_.value, values, a, std::max(h, reach));
   }
   /// Of this guard and this search; the end of the list when there is none.
   [[nodiscard]] std::vector<Grazing>::iterator nearest_grazing(double s) const {

@@ -16,7 +16,9 @@
 ///   times (s/T)^n. A minimum within it of zero is one grazing contact: reported, not a crossing. Deeper dips are
 ///   two crossings, of which the first is returned. Touches between which g does not leave that rounding are one
 ///   contact; the contact of which a crossing is the end is no grazing.
-/// Range. A guard that leaves the range of double precision ends the search: nothing found, values infinite.
+/// Range. A guard that leaves the range of double precision ends the search: nothing found, values infinite. One
+/// whose
+///   amplitudes have decayed below 1e-280 has no zeros any more.
 /// Why nothing can be missed. The interval is covered by panels. On a panel of width h the quintic Hermite
 ///   interpolant H of (g, g', g'') at both ends obeys
 ///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,

@@ -204,6 +204,7 @@ class GuardDraw {
       plant(special, conditions);
       // Twice: the first time coefficients may cancel.
       if (!Imposing(c_, row, conditions).solve() || !Imposing(c_, row, conditions).solve()) continue;
+      clear_remnants(row);
       // The zero's order is known only where the next derivative stands out of the rounding of the fastest element.
       if (reference(c_, row).level(0) < 100) continue;
       const double scale = random_.chance(0.5) ? 1.0 : random_.logarithmic(1e-9, 1e9);
@@ -226,6 +227,13 @@ class GuardDraw {
       row.coefficients.push_back(coefficient);
     }
     return row;
+  }
+
+  /// What cancellation has left of a coefficient would only count where all else has decayed out of range.
+  static void clear_remnants(GuardCase::Row& row) {
+    for (Complex& c : row.coefficients) {
+      if (std::abs(c) < 1e-100) c = 0.0;
+    }
   }
 
   void plant(double s, std::vector<Condition>& conditions) {
