@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <vector>
@@ -84,6 +85,11 @@ class ExactEngine {
 
     friend auto operator<=>(const ModeKey&, const ModeKey&) = default;
   };
+  /// Relative rounding of a sum of parts.
+  static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  /// Values farther than this (relative) from a limit are decided by their sign; closer ones by their Taylor germ.
+  static constexpr double clearly = 1e-9;
+
   /// What a guard of the present phase belongs to.
   struct Owner {
     enum class Kind { velocity, limit, law } kind = Kind::velocity;
