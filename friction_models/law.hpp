@@ -24,10 +24,13 @@
 ///   affine form    force, guards and limit as affine functions of time, position and velocity inside a mode: gives
 ///                  the exact engine (`affine_force`; `affine_limit`; `affine_guards`). A law states either this or
 ///                  `force`, `static_limit`, `guards`, which follow from it.
-///   modes          `start`, guards, `jump`: the law remembers something.
+///   memory         `start`: the law remembers something. Modes: guards, `jump`.
 ///   static limit   the law holds the mass at rest.
 ///   own states     `rates`: d(state)/dt in a mode; without it states are held between events. `advance`: states at
-///                  the end of a phase, in closed form, for an affine law whose states are not held.
+///                  the end of a phase, in closed form, for an affine law whose states are not held. A law whose
+///                  force needs those rates states both at once, `respond`. `scales`: the size of each state.
+///   delay          `delay`: the law also sees the velocity that long ago, `Instant::past_velocity`.
+///   dissipation    `dissipation`: power turned to heat, where that is not F v since the law stores energy.
 ///   schedule       `next_change`: the time at which the mode changes whatever the motion does.
 ///   aperiodic      `aperiodic`: why no motion under this law is periodic ("its friction is random").
 ///
@@ -96,6 +99,7 @@ struct Instant {
   double x = 0.0;  ///< m
   double v = 0.0;  ///< m/s
   Modification modification{};
+  double past_velocity = 0.0;  ///< velocity one `delay` of the law ago [m/s]; that of the start before it
 
   /// A force limit of `nominal` [N] from now on, modifiers included.
   [[nodiscard]] constexpr Affine limit(double nominal) const {
@@ -143,15 +147,27 @@ concept OwnForce = requires(const L& law, const Memory& memory, const Instant& n
   { law.force(memory, now, direction) } -> std::same_as<double>;
 };
 
-/// What every law provides: a force, or an affine force.
+/// Ability: own continuous states whose rates the force contains. Fills in the rates and returns the force [N].
 template <class L>
-concept FrictionLaw = std::copyable<L> && (AffineForce<L> || OwnForce<L>);
+concept RespondingLaw =
+    requires(const L& law, const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) {
+      { law.respond(memory, now, direction, rates) } -> std::same_as<double>;
+    };
+
+/// What every law provides: a force in one of these forms.
+template <class L>
+concept FrictionLaw = std::copyable<L> && (AffineForce<L> || OwnForce<L> || RespondingLaw<L>);
 
 /// Ability: modes or states of its own. Without it a law remembers nothing.
 template <class L>
-concept ModalLaw =
+concept ModalLaw = requires(const L& law, const Instant& now) {
+  { law.start(now) } -> std::same_as<Memory>;
+};
+
+/// Ability: mode changes.
+template <class L>
+concept JumpingLaw =
     requires(const L& law, Memory& memory, const Instant& now, Direction direction, Trigger trigger) {
-      { law.start(now) } -> std::same_as<Memory>;
       { law.jump(memory, trigger, now, direction) } -> std::same_as<void>;
     };
 
@@ -189,6 +205,25 @@ concept StateLaw =
     requires(const L& law, const Memory& frozen, const Instant& now, Direction direction, std::span<double> rates) {
       { law.rates(frozen, now, direction, rates) } -> std::same_as<void>;
     };
+
+/// Ability: the size of each state in a motion that slips, > 0: what errors of it are measured against. Without it
+/// states are positions, of the size of the motion.
+template <class L>
+concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<double> scales) {
+  { law.scales(memory, scales) } -> std::same_as<void>;
+};
+
+/// Ability: sees the velocity a fixed time ago. That time [s], > 0.
+template <class L>
+concept DelayedLaw = requires(const L& law) {
+  { law.delay() } -> std::same_as<double>;
+};
+
+/// Ability: power that the law turns to heat [W]. Without it: force times velocity.
+template <class L>
+concept DissipatingLaw = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+  { law.dissipation(memory, now, direction) } -> std::same_as<double>;
+};
 
 /// Ability: the states of an affine law at the end of a phase of `duration` [s].
 template <class L>
@@ -234,6 +269,10 @@ class LawModel {
 
   [[nodiscard]] virtual bool has_rates() const = 0;
   virtual void rates(const Memory&, const Instant&, Direction, std::span<double>) const = 0;
+  [[nodiscard]] virtual double respond(const Memory&, const Instant&, Direction, std::span<double>) const = 0;
+  virtual void scales(const Memory&, std::span<double>) const = 0;
+  [[nodiscard]] virtual double delay() const = 0;
+  [[nodiscard]] virtual double dissipation(const Memory&, const Instant&, Direction) const = 0;
   [[nodiscard]] virtual bool advances() const = 0;
   virtual void advance(Memory&, const Instant& begin, const Instant& end, double duration, Direction) const = 0;
 
@@ -288,6 +327,20 @@ class Law {
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const {
     model_->rates(memory, now, direction, rates);
   }
+  /// Fills in the rates, zero where states are held, and returns the force [N].
+  [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
+                               std::span<double> rates) const {
+    return model_->respond(memory, now, direction, rates);
+  }
+  /// The size of each state; 0 for a position.
+  void scales(const Memory& memory, std::span<double> scales) const { model_->scales(memory, scales); }
+  /// s; 0: none.
+  [[nodiscard]] double delay() const { return model_->delay(); }
+  /// W
+  [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const {
+    return model_->dissipation(memory, now, direction);
+  }
+
   /// False: states are held between events.
   [[nodiscard]] bool advances() const { return model_->advances(); }
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
@@ -314,6 +367,9 @@ struct Law::Model final : LawModel {
   double force(const Memory& memory, const Instant& now, Direction direction) const override {
     if constexpr (OwnForce<L>) {
       return law.force(memory, now, direction);
+    } else if constexpr (RespondingLaw<L>) {
+      std::vector<double> unused(memory.state.size());
+      return law.respond(memory, now, direction, unused);
     } else {
       return value(law.affine_force(memory, now, direction), now);
     }
@@ -335,7 +391,7 @@ struct Law::Model final : LawModel {
     }
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override {
-    if constexpr (ModalLaw<L>) law.jump(memory, trigger, now, direction);
+    if constexpr (JumpingLaw<L>) law.jump(memory, trigger, now, direction);
   }
 
   bool holds_mass() const override { return HoldsMass<L>; }
@@ -362,9 +418,35 @@ struct Law::Model final : LawModel {
     return {};
   }
 
-  bool has_rates() const override { return StateLaw<L>; }
+  bool has_rates() const override { return StateLaw<L> || RespondingLaw<L>; }
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> out) const override {
-    if constexpr (StateLaw<L>) law.rates(memory, now, direction, out);
+    if constexpr (StateLaw<L>) {
+      law.rates(memory, now, direction, out);
+    } else if constexpr (RespondingLaw<L>) {
+      static_cast<void>(law.respond(memory, now, direction, out));
+    }
+  }
+  double respond(const Memory& memory, const Instant& now, Direction direction,
+                 std::span<double> out) const override {
+    if constexpr (RespondingLaw<L>) {
+      return law.respond(memory, now, direction, out);
+    } else {
+      for (double& rate : out) rate = 0.0;
+      rates(memory, now, direction, out);
+      return force(memory, now, direction);
+    }
+  }
+  void scales(const Memory& memory, std::span<double> out) const override {
+    for (double& scale : out) scale = 0.0;
+    if constexpr (ScaledLaw<L>) law.scales(memory, out);
+  }
+  double delay() const override {
+    if constexpr (DelayedLaw<L>) return law.delay();
+    return 0.0;
+  }
+  double dissipation(const Memory& memory, const Instant& now, Direction direction) const override {
+    if constexpr (DissipatingLaw<L>) return law.dissipation(memory, now, direction);
+    return force(memory, now, direction) * now.v;
   }
   bool advances() const override { return AdvancingLaw<L>; }
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,

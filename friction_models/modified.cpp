@@ -127,6 +127,20 @@ class ModifiedLaw final : public LawModel {
     if (is_gone(course)) return;
     law_.rates(inner, modify(course, now), direction, rates);
   }
+  [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
+                               std::span<double> rates) const override {
+    const auto [inner, course] = split(memory);
+    std::ranges::fill(rates, 0.0);
+    return is_gone(course) ? 0.0 : law_.respond(inner, modify(course, now), direction, rates);
+  }
+  void scales(const Memory& memory, std::span<double> scales) const override {
+    law_.scales(split(memory).first, scales);
+  }
+  [[nodiscard]] double delay() const override { return law_.delay(); }
+  [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const override {
+    const auto [inner, course] = split(memory);
+    return is_gone(course) ? 0.0 : law_.dissipation(inner, modify(course, now), direction);
+  }
   [[nodiscard]] bool advances() const override { return law_.advances(); }
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
                Direction direction) const override {

@@ -1,6 +1,7 @@
 #pragma once
 /// The list of built-in laws: explicit, sorted by name, one line a law.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,12 +20,15 @@ struct LawEntry {
   std::string_view states{};  ///< what it remembers, in words; empty: nothing
   bool is_random = false;
   bool is_passive = true;                     ///< never gives out more work than it took in
+  std::string_view caution{};                 ///< what the literature warns of, in one sentence; empty: nothing
   std::string_view sources{};                 ///< keys in `docs/refs.bib`
   std::vector<std::string_view> modifiers{};  ///< names of those it supports
   /// Its own and, once in `laws()`, those of its modifiers.
   std::vector<Parameter> parameters{};
   /// Laws in parallel that make up this one. `values` complete.
   std::vector<Law> (*make)(const ParameterValues& values) = nullptr;
+  /// What to warn of with these complete values.
+  std::vector<std::string> (*warnings)(const ParameterValues& values) = nullptr;
 };
 
 [[nodiscard]] const std::vector<LawEntry>& laws();
