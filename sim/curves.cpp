@@ -1,10 +1,11 @@
 #include "sim/curves.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <span>
+
+#include "sim/parallel.hpp"
 
 namespace dualdamp::sim {
 
@@ -26,13 +27,53 @@ class Remarks {
   std::map<std::string, std::size_t> places_;
 };
 
+/// What packs find of these points; nothing where the model is none for them, or closure is to be better than
+/// theirs.
+std::vector<std::optional<SlidingOrbit>> in_packs(const Model& model, const SteadyStateOptions& options, int width,
+                                                  std::span<const CurvePoint> points) {
+  std::optional<OscillatorBatch> batch = batch_of(model, points.size());
+  if (!batch || options.tolerance < sliding_closure) return {points.size(), std::nullopt};
+  std::ranges::transform(points, batch->amplitude.begin(), &CurvePoint::Y);
+  std::ranges::transform(points, batch->frequency.begin(), &CurvePoint::omega);
+  return sliding_orbits(*batch, width);
+}
+
 /// Consecutive points, done by one thread.
 class Chunk {
  public:
-  void compute(Model& model, const SteadyStateOptions& options, CurvePoint& point, std::size_t index) {
-    model.excitation.frequency = point.omega;
-    model.excitation.amplitude = point.Y;
-    const SteadyState state = steady_state(model, options);
+  /// `first`: index of the first point.
+  void compute(Model model, const SteadyStateOptions& options, int width, std::span<CurvePoint> points,
+               std::size_t first) {
+    const std::vector<std::optional<SlidingOrbit>> orbits = in_packs(model, options, width, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (orbits[i]) {
+        take(*orbits[i], options, points[i]);
+        continue;
+      }
+      model.excitation.frequency = points[i].omega;
+      model.excitation.amplitude = points[i].Y;
+      take(steady_state(model, options), points[i], first + i);
+    }
+  }
+
+  /// `points` are those of this chunk.
+  void merge_into(Curve& curve, std::span<CurvePoint> points, Remarks& remarks) {
+    std::vector<std::uint32_t> numbers = {0};
+    for (const std::string& reason : reasons_) numbers.push_back(number_in(curve.reasons, reason));
+    for (CurvePoint& point : points) point.reason = numbers[point.reason];
+    for (const Remark& remark : remarks_.take()) remarks.add(remark.text, remark.first, remark.count);
+    curve.certificate += certificate_;
+  }
+
+ private:
+  void take(const SlidingOrbit& orbit, const SteadyStateOptions& options, CurvePoint& point) {
+    certificate_ += orbit.certificate;
+    point.x = orbit.peak;
+    if (options.full_account) point.phase = orbit.lag;
+    point.stable = true;
+  }
+
+  void take(const SteadyState& state, CurvePoint& point, std::size_t index) {
     certificate_ += state.certificate;
     if (state.outcome.ok()) {
       point.x = state.amplitude;
@@ -47,16 +88,6 @@ class Chunk {
     for (const std::string& warning : state.warnings) remarks_.add(warning, index);
   }
 
-  /// `points` are those of this chunk.
-  void merge_into(Curve& curve, std::span<CurvePoint> points, Remarks& remarks) {
-    std::vector<std::uint32_t> numbers = {0};
-    for (const std::string& reason : reasons_) numbers.push_back(number_in(curve.reasons, reason));
-    for (CurvePoint& point : points) point.reason = numbers[point.reason];
-    for (const Remark& remark : remarks_.take()) remarks.add(remark.text, remark.first, remark.count);
-    curve.certificate += certificate_;
-  }
-
- private:
   static std::uint32_t number_in(std::vector<std::string>& list, const std::string& text) {
     const auto found = std::ranges::find(list, text);
     const auto number = static_cast<std::uint32_t>(found - list.begin());
@@ -71,24 +102,21 @@ class Chunk {
 };
 
 /// Fills in points that have their `omega` and `Y`.
-Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyStateOptions& options) {
+Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyStateOptions& options,
+               const BatchOptions& batch) {
   constexpr std::size_t chunk_size = 64;
+  const std::span<CurvePoint> all(points);
   std::vector<Chunk> chunks((points.size() + chunk_size - 1) / chunk_size);
-  const auto part = [&](std::size_t number) {
-    return std::span(points)
-        .subspan(number * chunk_size)
-        .first(std::min(chunk_size, points.size() - number * chunk_size));
-  };
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t number) {
-    Model own = model;
-    std::size_t index = number * chunk_size;
-    for (CurvePoint& point : part(number)) chunks[number].compute(own, options, point, index++);
+  in_parts(points.size(), chunk_size, batch.threads, [&](std::size_t first, std::size_t count) {
+    chunks[first / chunk_size].compute(model, options, batch.width, all.subspan(first, count), first);
   });
 
   Curve curve;
   Remarks remarks;
-  for (std::size_t number = 0; number < chunks.size(); ++number)
-    chunks[number].merge_into(curve, part(number), remarks);
+  for (std::size_t first = 0; first < points.size(); first += chunk_size) {
+    const std::size_t count = std::min(chunk_size, points.size() - first);
+    chunks[first / chunk_size].merge_into(curve, all.subspan(first, count), remarks);
+  }
   curve.points = std::move(points);
   curve.remarks = remarks.take();
   return curve;
@@ -102,28 +130,29 @@ SteadyStateOptions brief(SteadyStateOptions options) {
 
 }  // namespace
 
-Curve xy_curve(const Model& model, const std::vector<double>& amplitudes, const SteadyStateOptions& options) {
+Curve xy_curve(const Model& model, const std::vector<double>& amplitudes, const SteadyStateOptions& options,
+               const BatchOptions& batch) {
   std::vector<CurvePoint> points;
   points.reserve(amplitudes.size());
   for (const double Y : amplitudes) points.push_back({.omega = model.excitation.frequency, .Y = Y});
-  return computed(model, std::move(points), brief(options));
+  return computed(model, std::move(points), brief(options), batch);
 }
 
 Curve frequency_response(const Model& model, const std::vector<double>& frequencies,
-                         const SteadyStateOptions& options) {
+                         const SteadyStateOptions& options, const BatchOptions& batch) {
   std::vector<CurvePoint> points;
   points.reserve(frequencies.size());
   for (const double omega : frequencies) points.push_back({.omega = omega, .Y = model.excitation.amplitude});
-  return computed(model, std::move(points), options);
+  return computed(model, std::move(points), options, batch);
 }
 
 Curve regime_map(const Model& model, const std::vector<double>& frequencies, const std::vector<double>& amplitudes,
-                 const SteadyStateOptions& options) {
+                 const SteadyStateOptions& options, const BatchOptions& batch) {
   std::vector<CurvePoint> points;
   points.reserve(frequencies.size() * amplitudes.size());
   for (const double omega : frequencies)
     for (const double Y : amplitudes) points.push_back({.omega = omega, .Y = Y});
-  return computed(model, std::move(points), brief(options));
+  return computed(model, std::move(points), brief(options), batch);
 }
 
 }  // namespace dualdamp::sim

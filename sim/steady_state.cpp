@@ -13,10 +13,6 @@ using friction::Direction;
 
 namespace {
 
-/// Multipliers this close to the unit circle do not attract within any laboratory's patience; and Newton's method
-/// meets them at the end of a continuum, whose double root it knows to half the digits only.
-constexpr double neutral = 1e-6;
-
 /// Rounding of a multiplier on the unit circle.
 constexpr double on_circle = 1e-9;
 
@@ -130,8 +126,8 @@ bool OrbitFinder::follow_to_orbit(Passage& passage, SteadyState& result) {
   if (!follow(passage, settled, options_.max_periods, result)) return false;
   // Sliders at rest: where they stand is settled, and Newton's method finds the rest of the orbit.
   Passage trial = map_.from(passage.begin, Derivative::with);
-  if (same_mode(trial.begin, trial.end) && trial.free_radius() < 1.0 - neutral && newton(trial, result) &&
-      trial.free_radius() < 1.0 - neutral) {
+  if (same_mode(trial.begin, trial.end) && trial.free_radius() < 1.0 - neutral_margin && newton(trial, result) &&
+      trial.free_radius() < 1.0 - neutral_margin) {
     passage = std::move(trial);
     return true;
   }
@@ -148,10 +144,10 @@ void OrbitFinder::find(SteadyState& result) {
   // Where orbits may coexist Newton could land on another one than the motion approaches.
   if (may_coexist_) follow(passage, near_orbit, periods_to_near_orbit, result);
   bool found = newton(passage, result);
-  const bool attracting = found && passage.radius() < 1.0 - neutral;
+  const bool attracting = found && passage.radius() < 1.0 - neutral_margin;
   if (!attracting && map_.outcome().ok()) {
     found = follow_to_orbit(passage, result);
-    if (found && passage.moves && passage.radius() >= 1.0 - neutral) {
+    if (found && passage.moves && passage.radius() >= 1.0 - neutral_margin) {
       result.warnings.emplace_back(
           "not unique: a multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
           "the one approached from the initial state");

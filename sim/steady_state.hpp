@@ -45,6 +45,10 @@ struct SteadyState {
   [[nodiscard]] bool stable() const;
 };
 
+/// Multipliers this close to the unit circle do not attract within any laboratory's patience; and Newton's method
+/// meets them at the end of a continuum, whose double root it knows to half the digits only.
+inline constexpr double neutral_margin = 1e-6;
+
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient followed before giving up

@@ -98,6 +98,8 @@ void print_figures(const StandardCase& work, const std::vector<Row>& rows) {
              1e-6 * steady_states_per_second(work, 200'000), 2.0);
   fmt::print("{:60}{:>14.0f}{:>14.0f}\n", "one steady state from nothing, in periods of the engine, at most",
              seconds_for_steady_state(work) / rows.front().time.median, 25.0);
+  fmt::print("{:60}{:>14.3f}{:>14.3f}\n", "seconds for an x-Y curve of 10,000 points, one core, at most",
+             seconds_for_curve(work, 10'000), 0.1);
 }
 
 int compare(int batches) {

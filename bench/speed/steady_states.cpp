@@ -10,6 +10,7 @@
 
 #include "bench/speed/timing.hpp"
 #include "sim/batch/batch.hpp"
+#include "sim/curves.hpp"
 #include "sim/steady_state.hpp"
 
 namespace dualdamp::bench::speed {
@@ -46,6 +47,24 @@ double seconds_for_steady_state(const StandardCase& work) {
   };
   const double median = time_in_turns(std::span(&find, 1), 9, 0.02).front().median;
   if (!std::isfinite(sink)) throw std::runtime_error("the standard case has no steady state");
+  return median;
+}
+
+double seconds_for_curve(const StandardCase& work, int count) {
+  sim::Model model = model_of(work);
+  model.initial = {};
+  std::vector<double> amplitudes;
+  for (int i = 0; i < count; ++i)
+    amplitudes.push_back((1.05 + 8.95 * i / (count - 1)) * work.friction / work.stiffness);
+  bool sticks = false;
+  const std::function<void(int)> compute = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      const sim::Curve curve = sim::xy_curve(model, amplitudes, {}, {.threads = 1});
+      sticks = curve.points.front().sticks > 0 && curve.points.back().sticks == 0;
+    }
+  };
+  const double median = time_in_turns(std::span(&compute, 1), 9, 0.1).front().median;
+  if (!sticks) throw std::runtime_error("the x-Y curve does not leave the sticking range");
   return median;
 }
 

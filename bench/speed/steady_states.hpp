@@ -9,6 +9,10 @@ namespace dualdamp::bench::speed {
 /// account.
 [[nodiscard]] double seconds_for_steady_state(const StandardCase& work);
 
+/// Processor seconds on one core for an x-Y curve of the standard case: `count` amplitudes from 1.05 to 10 times
+/// F0/k, sticking ones included.
+[[nodiscard]] double seconds_for_curve(const StandardCase& work, int count);
+
 /// Steady states a second, by the clock, of `count` oscillators that do not stick, in batches on all cores. They
 /// surround the standard case: zeta in 0.05..0.35, r in 0.7..1.3, friction at most 0.3 of the drive's force, drawn
 /// at random.

@@ -1,18 +1,16 @@
 #include "sim/batch/batch.hpp"
 
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <span>
 
 #include "friction_models/coulomb.hpp"
 #include "sim/batch/kernels.hpp"
 #include "sim/exact_engine.hpp"
+#include "sim/parallel.hpp"
 #include "sim/steady_state.hpp"
 
 namespace dualdamp::sim {
@@ -24,21 +22,25 @@ using batch::Kernels;
 /// Oscillators of one task. A multiple of every width, so that only the last task is filled up.
 constexpr std::size_t chunk = 512;
 static_assert(chunk % batch::widest == 0);
+static_assert(sliding_closure == batch::closure);
 
 /// Those the processor has, ascending.
-std::vector<const Kernels*> kernels_here() {
-  std::vector<const Kernels*> list{&batch::scalar_kernels};
+const std::vector<const Kernels*>& kernels_here() {
+  static const std::vector<const Kernels*> kernels = [] {
+    std::vector<const Kernels*> list{&batch::scalar_kernels};
 #ifdef __x86_64__
-  list.push_back(&batch::sse2_kernels);
-  if (__builtin_cpu_supports("avx2")) list.push_back(&batch::avx2_kernels);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-    list.push_back(&batch::avx512_kernels);
+    list.push_back(&batch::sse2_kernels);
+    if (__builtin_cpu_supports("avx2")) list.push_back(&batch::avx2_kernels);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+      list.push_back(&batch::avx512_kernels);
 #endif
-  return list;
+    return list;
+  }();
+  return kernels;
 }
 
 const Kernels& kernels_of(int width) {
-  const std::vector<const Kernels*> list = kernels_here();
+  const std::vector<const Kernels*>& list = kernels_here();
   const auto fits = std::find_if(list.begin(), list.end(), [=](const Kernels* k) { return k->width == width; });
   assert(width == 0 || fits != list.end());
   return fits == list.end() ? *list.back() : **fits;
@@ -128,24 +130,56 @@ void steady_state_by_engine(const OscillatorBatch& batch, std::size_t i, BatchSt
     result.radius[i] = std::max(result.radius[i], std::abs(value));
 }
 
+/// What the kernel writes, a column for each member of batch::Orbits.
+class OrbitColumns {
+ public:
+  [[nodiscard]] batch::Orbits all() {
+    return {.peak = peak_.data(),
+            .lag = lag_.data(),
+            .radius = radius_.data(),
+            .searches = searches_.data(),
+            .panels = panels_.data(),
+            .splits = splits_.data(),
+            .certified = certified_.data()};
+  }
+  [[nodiscard]] std::optional<SlidingOrbit> orbit(std::size_t i) const {
+    if (certified_[i] == 0.0 || !(radius_[i] < 1.0 - neutral_margin)) return std::nullopt;
+    return SlidingOrbit{.peak = peak_[i],
+                        .lag = lag_[i],
+                        .radius = radius_[i],
+                        .certificate = {.searches = std::lround(searches_[i]),
+                                        .panels = std::lround(panels_[i]),
+                                        .splits = std::lround(splits_[i])}};
+  }
+
+ private:
+  std::array<double, chunk> peak_, lag_, radius_, searches_, panels_, splits_, certified_;
+};
+
+/// Of the oscillators from `first` on, at most a chunk of them.
+void find_orbits(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first,
+                 std::span<std::optional<SlidingOrbit>> orbits) {
+  const Task task(batch, first, orbits.size());
+  OrbitColumns columns;
+  kernels.find_orbits(task.oscillators(), columns.all());
+  for (std::size_t lane = 0; lane < orbits.size(); ++lane) orbits[lane] = columns.orbit(lane);
+}
+
 void steady_states_of(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first, std::size_t count,
                       BatchSteadyStates& result) {
-  const Task task(batch, first, count);
-  std::array<double, chunk> peak;
-  std::array<double, chunk> lag;
-  std::array<double, chunk> radius;
-  std::array<double, chunk> certified;
-  kernels.find_orbits(task.oscillators(), {peak.data(), lag.data(), radius.data(), certified.data()});
+  std::array<std::optional<SlidingOrbit>, chunk> orbits;
+  find_orbits(batch, kernels, first, std::span(orbits).first(count));
   for (std::size_t lane = 0; lane < count; ++lane) {
     const std::size_t i = first + lane;
-    if (certified[lane] == 0.0) {
+    if (!orbits[lane]) {
       steady_state_by_engine(batch, i, result);
       continue;
     }
-    result.peak[i] = peak[lane];
-    result.trough[i] = -peak[lane];
-    result.lag[i] = lag[lane];
-    result.radius[i] = radius[lane];
+    const SlidingOrbit& orbit = *orbits[lane];
+    result.peak[i] = orbit.peak;
+    result.trough[i] = -orbit.peak;
+    result.lag[i] = orbit.lag;
+    result.radius[i] = orbit.radius;
   }
 }
 
@@ -191,27 +225,70 @@ void follow_some(const OscillatorBatch& batch, const Kernels& kernels, int perio
   }
 }
 
-/// Calls work(first, count) for chunks that cover `size` oscillators, on several threads.
-template <class Work>
-void in_chunks(std::size_t size, int threads, const Work& work) {
-  namespace tbb = oneapi::tbb;
-  const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
-  arena.execute([&] {
-    const std::size_t chunks = (size + chunk - 1) / chunk;
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t i) {
-      const std::size_t first = i * chunk;
-      work(first, std::min(chunk, size - first));
-    });
-  });
+struct Levels {
+  double kinetic = 0.0;  ///< N
+  double static_level = 0.0;
+
+  Levels& operator+=(const Levels& other) {
+    kinetic += other.kinetic;
+    static_level += other.static_level;
+    return *this;
+  }
+};
+
+/// The same whatever the motion does.
+bool is_constant(const friction::Affine& form) {
+  return form.rate == 0.0 && form.position == 0.0 && form.velocity == 0.0 && form.transient == 0.0;
+}
+
+/// Of a law that is Coulomb friction, by what it does: nothing remembered, a force that depends on the direction of
+/// slip alone, a constant limit not below it.
+std::optional<Levels> coulomb_levels(const friction::Law& law) {
+  if (!law.is_affine() || law.is_modal() || !law.aperiodic().empty()) return std::nullopt;
+  const friction::Affine forward = law.affine_force({}, {}, friction::Direction::forward);
+  const friction::Affine backward = law.affine_force({}, {}, friction::Direction::backward);
+  const friction::Affine limit = law.affine_limit({}, {});
+  if (!is_constant(forward) || !is_constant(backward) || !is_constant(limit)) return std::nullopt;
+  const bool levels = backward.constant == -forward.constant && 0.0 <= forward.constant;
+  if (!levels || limit.constant < forward.constant) return std::nullopt;
+  return Levels{forward.constant, limit.constant};
 }
 
 }  // namespace
+
+std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
+  const Excitation& drive = model.excitation;
+  if (!drive.is_harmonic() || !drive.harmonics.empty() || drive.offset != 0.0) return std::nullopt;
+  Levels sum;
+  for (const friction::Law& law : model.friction) {
+    const std::optional<Levels> levels = coulomb_levels(law);
+    if (!levels) return std::nullopt;
+    sum += *levels;
+  }
+  const auto column = [size](double value) { return std::vector<double>(size, value); };
+  return OscillatorBatch{.type = drive.type,
+                         .damper_to = model.oscillator.damper_to,
+                         .mass = column(model.oscillator.mass),
+                         .damping = column(model.oscillator.damping),
+                         .stiffness = column(model.oscillator.stiffness),
+                         .kinetic = column(sum.kinetic),
+                         .static_level = column(sum.static_level),
+                         .amplitude = column(drive.amplitude),
+                         .frequency = column(drive.frequency)};
+}
 
 std::vector<int> batch_widths() {
   std::vector<int> widths;
   for (const Kernels* kernels : kernels_here()) widths.push_back(kernels->width);
   return widths;
+}
+
+std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width) {
+  std::vector<std::optional<SlidingOrbit>> orbits(batch.size());
+  const Kernels& kernels = kernels_of(width);
+  for (std::size_t first = 0; first < orbits.size(); first += chunk)
+    find_orbits(batch, kernels, first, std::span(orbits).subspan(first, std::min(chunk, orbits.size() - first)));
+  return orbits;
 }
 
 BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options) {
@@ -222,8 +299,8 @@ BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions
   result.stops.resize(batch.size(), 0);
   result.engine.resize(batch.size(), 0);
   const Kernels& kernels = kernels_of(options.width);
-  in_chunks(batch.size(), options.threads,
-            [&](std::size_t first, std::size_t count) { steady_states_of(batch, kernels, first, count, result); });
+  in_parts(batch.size(), chunk, options.threads,
+           [&](std::size_t first, std::size_t count) { steady_states_of(batch, kernels, first, count, result); });
   return result;
 }
 
@@ -233,7 +310,7 @@ void follow(const OscillatorBatch& batch, int periods, BatchMotions& motions, co
   motions.reversals.assign(batch.size(), 0);
   motions.engine.assign(batch.size(), 0);
   const Kernels& kernels = kernels_of(options.width);
-  in_chunks(batch.size(), options.threads, [&](std::size_t first, std::size_t count) {
+  in_parts(batch.size(), chunk, options.threads, [&](std::size_t first, std::size_t count) {
     follow_some(batch, kernels, periods, first, count, motions);
   });
 }

@@ -18,10 +18,13 @@
 /// the exact engine takes over.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "core/first_crossing.hpp"
 #include "core/outcome.hpp"
 #include "sim/excitation.hpp"
+#include "sim/model.hpp"
 #include "sim/oscillator.hpp"
 
 namespace dualdamp::sim {
@@ -41,6 +44,10 @@ struct OscillatorBatch {
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 };
 
+/// `size` copies of `model`, where it is of the class above: one harmonic, no constant force, and laws without
+/// memory that together are one Coulomb law. The phase of the drive and the initial state are left out.
+[[nodiscard]] std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size);
+
 struct BatchOptions {
   int width = 0;    ///< one of batch_widths(); 0: the largest
   int threads = 0;  ///< at most; 0: all cores
@@ -48,6 +55,21 @@ struct BatchOptions {
 
 /// The widths that this processor has, ascending.
 [[nodiscard]] std::vector<int> batch_widths();
+
+/// A symmetric periodic orbit without sticking that attracts every motion.
+struct SlidingOrbit {
+  double peak = 0.0;              ///< max x, -min x [m]
+  double lag = 0.0;               ///< of x's fundamental behind the drive [rad], in [0, 2 pi)
+  double radius = 0.0;            ///< largest modulus of a Floquet multiplier of the full period
+  core::SearchCount certificate;  ///< of the half cycles on the way to the orbit and on it
+};
+
+/// Relative closure of a SlidingOrbit.
+inline constexpr double sliding_closure = 1e-14;
+
+/// The orbits that packs find, on this thread and without the exact engine: each by Newton's method on the
+/// half-period map and certified by that map (`sim/batch/find_orbits.hpp`). `width` as in BatchOptions.
+[[nodiscard]] std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width = 0);
 
 /// Steady states, one entry for each oscillator; where the outcome is not `done` its numbers mean nothing.
 struct BatchSteadyStates {
@@ -60,8 +82,7 @@ struct BatchSteadyStates {
   std::vector<unsigned char> engine;  ///< 1: found by the exact engine, 0: in a pack
 };
 
-/// The steady state approached from rest at x = 0 (`sim/steady_state.hpp`). In packs: the symmetric orbit without
-/// sticking, from Newton's method on the half-period map, certified by that map (`sim/batch/find_orbits.hpp`).
+/// The steady state approached from rest at x = 0 (`sim/steady_state.hpp`). In packs: sliding orbits.
 [[nodiscard]] BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options = {});
 
 /// Where motions are after some periods; in and out.

@@ -6,10 +6,10 @@
 /// second half cycle is the mirror image of the first. Its derivative D is exact: the propagator of the phase, and
 /// the shift of the reversal ds = -dv/a. The full period's Floquet multipliers are the squares of D's eigenvalues.
 /// Newton starts from the response to the fundamental of the friction force (harmonic balance); what it ends with
-/// is taken only when the map itself closes to 1e-14, each half cycle is certified, the mass does not stick at the
-/// turning point
-/// (|pull| > static) and both multipliers lie inside the unit circle. With zeta >= 0 and a friction force that
-/// never falls with speed (static = kinetic) two motions never move apart, so that such an orbit is the only one.
+/// is taken only when the map itself closes to 1e-14, each half cycle is certified and the mass does not stick at
+/// the turning point (|pull| > static); the caller asks that it attracts. With zeta >= 0 and a friction force that
+/// never falls with speed (static = kinetic) two motions never move apart, so that an orbit that attracts is the
+/// only one.
 
 #include "sim/batch/reversal_search.hpp"
 
@@ -18,7 +18,6 @@ namespace dualdamp::sim::batch {
 inline constexpr double pi = 3.14159265358979323846;
 /// Limits nearer than this (relative) are for the exact engine to decide.
 inline constexpr double clearly = 1e-9;
-inline constexpr double closed_enough = 1e-14;
 inline constexpr int shots = 3;
 inline constexpr int most_newton_steps = 10;
 
@@ -39,6 +38,11 @@ struct OrbitCandidate {
   Vector angle_gap;  ///< image - alpha
   Vector d00, d01, d10, d11;
 
+  // Certificate of the map, all candidates together.
+  Vector searches;
+  Vector panels;
+  Vector splits;
+
   explicit OrbitCandidate(const Oscillation<P>& o);
   void shoot(const Oscillation<P>& o);
   void apply_map(const Oscillation<P>& o);
@@ -46,7 +50,7 @@ struct OrbitCandidate {
   void move(Vector peak_step, Vector angle_step);
 
   [[nodiscard]] Mask closes() const {
-    return alive & (abs<P>(peak_gap) <= closed_enough * peak) & (abs<P>(angle_gap) <= closed_enough);
+    return alive & (abs<P>(peak_gap) <= closure * peak) & (abs<P>(angle_gap) <= closure);
   }
   /// Largest modulus of the full period's multipliers.
   [[nodiscard]] Vector radius() const;
@@ -55,7 +59,8 @@ struct OrbitCandidate {
 /// Harmonic balance: the friction's fundamental 4 x_f/pi opposes the velocity, so that at the peak
 /// Y e^{i alpha} = (1 - r^2) X + i (2 zeta r X + 4 x_f/pi).
 template <Pack P>
-OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o) {
+OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o)
+    : searches(splat<P>(0.0)), panels(searches), splits(searches) {
   const Vector friction = (4.0 / pi) * o.slip;
   const Vector elastic = 1.0 - o.r * o.r;
   const Vector viscous = 2.0 * o.zeta * o.r;
@@ -110,6 +115,9 @@ void OrbitCandidate<P>::apply_map(const Oscillation<P>& o) {
   alive = alive & (peak > 0.0) & (-pull > o.hold + clearly * (peak + o.hold));
   const Phase<P> phase(o, peak, splat<P>(0.0), splat<P>(-1.0), turned);
   const ReversalSearch<P> search(o, phase, 2.0 * pi / o.r, alive, alive);
+  searches = searches + flag<P>(alive);
+  panels = panels + search.panels();
+  splits = splits + search.halvings();
   alive = search.found();
 
   const Complex pushed = phase.driven * search.turn();
@@ -186,7 +194,10 @@ void find_orbits(const Oscillators& all, const Orbits& orbits) {
     P::store(peak, orbits.peak + first);
     P::store(lag, orbits.lag + first);
     P::store(radius, orbits.radius + first);
-    P::store(flag<P>(closed & (radius < 1.0 - clearly)), orbits.certified + first);
+    P::store(orbit.searches, orbits.searches + first);
+    P::store(orbit.panels, orbits.panels + first);
+    P::store(orbit.splits, orbits.splits + first);
+    P::store(flag<P>(closed), orbits.certified + first);
   }
 }
 

@@ -15,7 +15,7 @@ enum class DriveOn {
   mass,             ///< a force
 };
 
-/// See sim/batch.hpp for meaning and units.
+/// See sim/batch/batch.hpp for meaning and units.
 struct Oscillators {
   DriveOn drive = DriveOn::base;
   std::size_t count = 0;
@@ -32,6 +32,9 @@ struct Orbits {
   double* peak = nullptr;
   double* lag = nullptr;
   double* radius = nullptr;
+  double* searches = nullptr;  ///< core::SearchCount, of the half cycles tried
+  double* panels = nullptr;
+  double* splits = nullptr;
   double* certified = nullptr;
 };
 
@@ -49,6 +52,9 @@ struct Kernels {
   void (*find_orbits)(const Oscillators& oscillators, const Orbits& orbits) = nullptr;
   void (*follow)(const Oscillators& oscillators, const Passages& passages) = nullptr;
 };
+
+/// Relative closure of an orbit.
+inline constexpr double closure = 1e-14;
 
 /// The largest width: `count` is a multiple of it.
 inline constexpr std::size_t widest = 8;

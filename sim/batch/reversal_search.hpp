@@ -87,6 +87,9 @@ class ReversalSearch {
   [[nodiscard]] Mask found() const { return found_; }
   /// These lanes have none before the horizon, certified.
   [[nodiscard]] Mask beyond() const { return beyond_; }
+  /// Panels that were certified, and how often one was halved.
+  [[nodiscard]] Vector panels() const { return panels_; }
+  [[nodiscard]] Vector halvings() const { return halvings_; }
   /// Natural time of the reversal, and exp(z s), e^{i angle} there.
   [[nodiscard]] Vector time() const { return time_; }
   [[nodiscard]] const Complex& own() const { return own_; }
@@ -128,6 +131,7 @@ class ReversalSearch {
   Complex free_gain_;  ///< from its begin to its end
   Complex driven_gain_;
   Vector halvings_;
+  Vector panels_;
   Mask at_zero_;  ///< g has a known zero at the begin
 
   Mask searching_;
@@ -153,6 +157,7 @@ ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Phase
       free_gain_(oscillation.own_panel),
       driven_gain_(oscillation.turn_panel),
       halvings_(splat<P>(0.0)),
+      panels_(splat<P>(0.0)),
       at_zero_(from_reversal),
       searching_(wanted),
       time_(splat<P>(0.0)),
@@ -221,6 +226,7 @@ void ReversalSearch<P>::step() {
   update<P>(driven_, clear, driven);
   left_.update(clear, right);
   update<P>(begin_, clear, end);
+  panels_ = panels_ + flag<P>(clear);
   at_zero_ = at_zero_ & !clear;
   const Mask past = clear & (begin_ >= horizon_);
   beyond_ = beyond_ | past;
@@ -247,6 +253,7 @@ void ReversalSearch<P>::locate() {
   const Mask settled = pending_ & polish(s, own, turn, at);
   const Mask accepted = settled & certify(quintic, s, at.slope);
   found_ = found_ | accepted;
+  panels_ = panels_ + flag<P>(accepted);
   update<P>(time_, accepted, s);
   update<P>(own_, accepted, own);
   update<P>(turn_, accepted, turn);

@@ -5,9 +5,12 @@
 #include <complex>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 
+#include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
+#include "friction_models/modified.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/exact_engine.hpp"
@@ -17,6 +20,12 @@
 using namespace dualdamp::sim;
 using dualdamp::core::OutcomeKind;
 using dualdamp::test::Random;
+
+namespace friction = dualdamp::friction;
+using friction::Affine;
+using friction::Direction;
+using friction::Instant;
+using friction::Memory;
 
 namespace {
 
@@ -250,6 +259,84 @@ TEST_CASE("What packs cannot certify goes to the exact engine") {
   CHECK(states.stops[1] > 0);
   CHECK(states.peak[2] == 0.0);
   CHECK(states.outcome[7] == OutcomeKind::no_steady_state);
+}
+
+TEST_CASE("A model is for batches by what its laws do, not by their names") {
+  // Coulomb friction that no registry knows, and neighbours of it that are none.
+  struct OtherCoulomb {
+    static Affine affine_force(const Memory&, const Instant&, Direction direction) {
+      return {.constant = 2.0 * friction::sign(direction)};
+    }
+    static Affine affine_limit(const Memory&, const Instant&) { return {.constant = 3.0}; }
+  };
+  struct Viscous {
+    static Affine affine_force(const Memory&, const Instant&, Direction) { return {.velocity = 2.0}; }
+  };
+  struct OneWay {
+    static Affine affine_force(const Memory&, const Instant&, Direction direction) {
+      return {.constant = direction == Direction::forward ? 2.0 : -1.0};
+    }
+    static Affine affine_limit(const Memory&, const Instant&) { return {.constant = 2.0}; }
+  };
+  struct NeverHolds {
+    static Affine affine_force(const Memory&, const Instant&, Direction direction) {
+      return {.constant = 2.0 * friction::sign(direction)};
+    }
+  };
+  Model model;
+  model.oscillator = {.mass = 2.0, .stiffness = 50.0, .damping = 1.0, .damper_to = DamperTo::base};
+  model.excitation = {.type = ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 7.0, .phase = 1.0};
+  const auto with = [&](const auto&... laws) {
+    Model other = model;
+    (other.friction.emplace_back(laws), ...);
+    return other;
+  };
+  const friction::Coulomb coulomb(1.0, 1.5);
+
+  const std::optional<OscillatorBatch> batch = batch_of(with(coulomb, OtherCoulomb{}), 3);
+  REQUIRE(batch.has_value());
+  CHECK(batch->size() == 3);
+  CHECK(batch->type == ExcitationType::base_harmonic);
+  CHECK(batch->damper_to == DamperTo::base);
+  CHECK(batch->mass == std::vector<double>(3, 2.0));
+  CHECK(batch->stiffness == std::vector<double>(3, 50.0));
+  CHECK(batch->damping == std::vector<double>(3, 1.0));
+  CHECK(batch->kinetic == std::vector<double>(3, 3.0));
+  CHECK(batch->static_level == std::vector<double>(3, 4.5));
+  CHECK(batch->amplitude == std::vector<double>(3, 0.1));
+  CHECK(batch->frequency == std::vector<double>(3, 7.0));
+
+  CHECK_FALSE(batch_of(with(Viscous{}), 1));
+  CHECK_FALSE(batch_of(with(OneWay{}), 1));
+  CHECK_FALSE(batch_of(with(NeverHolds{}), 1));
+  CHECK_FALSE(batch_of(with(friction::ContactCompliance(1.0, 1.0, 1e4, 0.0)), 1));
+  CHECK_FALSE(batch_of(with(coulomb, friction::ContactCompliance(1.0, 1.0, 1e4, 0.0)), 1));
+  for (const char* modifier : {"drift", "position_slope"})
+    CHECK_FALSE(batch_of(with(friction::modified(friction::Law(coulomb), {{modifier, 0.1}}, {1.0, 1.5})), 1));
+
+  Model distorted = with(coulomb);
+  distorted.excitation.harmonics = {{.order = 3, .amplitude = 0.01}};
+  CHECK_FALSE(batch_of(distorted, 1));
+  Model pushed = with(coulomb);
+  pushed.excitation.type = ExcitationType::force_harmonic;
+  CHECK(batch_of(pushed, 1));
+  pushed.excitation.offset = 0.5;
+  CHECK_FALSE(batch_of(pushed, 1));
+  Model free = with(coulomb);
+  free.excitation.type = ExcitationType::none;
+  CHECK_FALSE(batch_of(free, 1));
+}
+
+TEST_CASE("Packs leave out an orbit whose neighbours are steady within 1e-6, as the engine does") {
+  // Undamped at r = 1/2 every multiplier is 1 (a continuum of orbits); beside it they leave the circle as c.
+  OscillatorBatch batch;
+  for (const double zeta : {1e-9, 1e-8, 1e-5}) add(batch, {.zeta = zeta, .r = 0.5, .friction = 0.1});
+  const auto orbits = sliding_orbits(batch);
+  CHECK_FALSE(orbits[0]);
+  CHECK_FALSE(orbits[1]);
+  REQUIRE(orbits[2]);
+  CHECK(orbits[2]->radius < 1.0 - 1e-6);
+  CHECK(orbits[2]->radius > 1.0 - 1e-3);
 }
 
 TEST_CASE("An empty batch has no steady states") {

@@ -1,17 +1,18 @@
 // Maps of steady states against Den Hartog's closed form, which shares no code with the engine, and against points
-// computed one by one.
+// that the engine finds one by one.
 #include "sim/curves.hpp"
 
-#include <oneapi/tbb/global_control.h>
-
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <set>
 
 #include "friction_models/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/support/random.hpp"
 
 using namespace dualdamp;
 
@@ -40,9 +41,53 @@ std::set<int> stops_of(const sim::Curve& map) {
   return stops;
 }
 
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
 bool same(const sim::CurvePoint& a, const sim::CurvePoint& b) {
-  return a.omega == b.omega && a.Y == b.Y && a.x == b.x && a.phase == b.phase && a.stops == b.stops &&
-         a.sticks == b.sticks && a.stable == b.stable && a.ok() == b.ok();
+  return a.omega == b.omega && a.Y == b.Y && same_bits(a.x, b.x) && same_bits(a.phase, b.phase) &&
+         a.stops == b.stops && a.sticks == b.sticks && a.stable == b.stable && a.reason == b.reason;
+}
+
+bool same(const core::SearchCount& a, const core::SearchCount& b) {
+  return a.searches == b.searches && a.panels == b.panels && a.splits == b.splits && a.grazings == b.grazings;
+}
+
+double turns_apart(double a, double b) {
+  const double gap = std::abs(a - b);
+  return std::min(gap, std::abs(gap - 2.0 * std::numbers::pi));
+}
+
+/// Any model whose points packs may find: two laws, which add up to one; a drive that does not begin at its peak; a
+/// motion that does not begin at rest.
+sim::Model model_for_packs(test::Random& random) {
+  sim::Model model = unit_model(random.uniform(0.01, 0.95));
+  model.friction.emplace_back(friction::Coulomb(0.5, 0.5));
+  model.excitation = {.amplitude = random.logarithmic(4.0, 50.0),
+                      .frequency = random.logarithmic(0.05, 10.0),
+                      .phase = random.angle()};
+  const bool force = random.chance(0.3);
+  model.excitation.type = force ? sim::ExcitationType::force_harmonic : sim::ExcitationType::base_harmonic;
+  if (random.chance(0.3)) model.oscillator.damper_to = sim::DamperTo::base;
+  model.initial = {.position = random.uniform(-2.0, 2.0), .velocity = random.uniform(-2.0, 2.0)};
+  return model;
+}
+
+/// Every point against the engine's answer to it alone, as far as both can know it.
+void compare_with_engine(const sim::Curve& curve, sim::Model model) {
+  for (const sim::CurvePoint& point : curve.points) {
+    model.excitation.frequency = point.omega;
+    model.excitation.amplitude = point.Y;
+    const sim::SteadyState state = sim::steady_state(model);
+    CAPTURE(model.oscillator.damping, point.omega, point.Y);
+    REQUIRE(point.ok() == state.outcome.ok());
+    if (!point.ok()) continue;
+    CHECK(point.stops == state.stops_per_cycle);
+    CHECK(point.sticks == static_cast<int>(state.sticks.size()));
+    CHECK(point.stable == state.stable());
+    // Both close to 1e-14 of the amplitude; 1/(1 - multiplier) amplifies that.
+    CHECK(point.x == Approx(state.amplitude).epsilon(1e-13).margin(0.0));
+    if (point.phase != 0.0) CHECK(turns_apart(point.phase, state.phase) < 1e-13);
+  }
 }
 
 }  // namespace
@@ -97,15 +142,79 @@ TEST_CASE("a point of a map is the steady state of its own numbers, whatever the
     const sim::SteadyState state = sim::steady_state(own);
     CHECK(map.points[i].omega == own.excitation.frequency);
     CHECK(map.points[i].Y == own.excitation.amplitude);
-    CHECK(map.points[i].x == state.amplitude);
+    // In packs or not: both close to 1e-14 of the amplitude.
+    CHECK(map.points[i].x == Approx(state.amplitude).epsilon(1e-13).margin(0.0));
     CHECK(map.points[i].stops == state.stops_per_cycle);
     CHECK(map.points[i].sticks == static_cast<int>(state.sticks.size()));
     CHECK(map.points[i].stable == state.stable());
   }
-  for (const std::size_t threads : {1, 3}) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-    CHECK(std::ranges::equal(sim::regime_map(model, frequencies, amplitudes).points, map.points, same));
+  for (const int threads : {1, 3}) {
+    const sim::Curve again = sim::regime_map(model, frequencies, amplitudes, {}, {.threads = threads});
+    CHECK(std::ranges::equal(again.points, map.points,
+                             [](const sim::CurvePoint& a, const sim::CurvePoint& b) { return same(a, b); }));
   }
+}
+
+TEST_CASE("curves and maps are the engine's to rounding, whoever finds the points") {
+  test::Random random(7);
+  int free = 0;
+  int sticking = 0;
+  const auto check = [&](const sim::Curve& curve, const sim::Model& model) {
+    compare_with_engine(curve, model);
+    for (const sim::CurvePoint& point : curve.points) ++(point.sticks > 0 ? sticking : free);
+  };
+  for (int i = 0; i < 12; ++i) {
+    const sim::Model model = model_for_packs(random);
+    check(sim::xy_curve(model, ratios(4.0, 100.0, 70)), model);
+    check(sim::frequency_response(model, ratios(0.05, 10.0, 70)), model);
+    check(sim::regime_map(model, ratios(0.05, 10.0, 9), ratios(4.0, 100.0, 9)), model);
+  }
+  CHECK(free > 500);
+  CHECK(sticking > 500);
+}
+
+TEST_CASE("curves and maps have the same bits for every width of packs and number of threads") {
+  test::Random random(8);
+  const auto compare = [](const auto& compute) {
+    const sim::Curve reference = compute(sim::BatchOptions{.width = 1, .threads = 1});
+    for (const int width : sim::batch_widths()) {
+      for (const int threads : {1, 2}) {
+        CAPTURE(width, threads);
+        const sim::Curve other = compute(sim::BatchOptions{.width = width, .threads = threads});
+        CHECK(std::ranges::equal(other.points, reference.points,
+                                 [](const sim::CurvePoint& a, const sim::CurvePoint& b) { return same(a, b); }));
+        CHECK(other.reasons == reference.reasons);
+        CHECK(same(other.certificate, reference.certificate));
+      }
+    }
+  };
+  for (int i = 0; i < 4; ++i) {
+    const sim::Model model = model_for_packs(random);
+    // 149 and 151 are prime: the last pack and the last task are not full.
+    compare([&](const auto& batch) { return sim::xy_curve(model, ratios(4.0, 100.0, 149), {}, batch); });
+    compare([&](const auto& batch) { return sim::frequency_response(model, ratios(0.05, 10.0, 151), {}, batch); });
+    compare([&](const auto& batch) {
+      return sim::regime_map(model, ratios(0.1, 3.0, 13), ratios(4.0, 100.0, 17), {}, batch);
+    });
+  }
+}
+
+TEST_CASE("a point found in a pack brings its certificate, and a closure that packs do not reach is the engine's") {
+  sim::Model model = unit_model(0.2);
+  model.excitation.frequency = 1.0;
+  model.excitation.amplitude = 10.0;
+  const std::vector<double> amplitudes = {10.0};
+  const auto orbits = sim::sliding_orbits(*sim::batch_of(model, 1));
+  REQUIRE(orbits.front().has_value());
+  CHECK(orbits.front()->certificate.searches > 0);
+  CHECK(orbits.front()->certificate.panels >= orbits.front()->certificate.searches);
+  CHECK(same(sim::xy_curve(model, amplitudes).certificate, orbits.front()->certificate));
+
+  const sim::SteadyStateOptions closer{.tolerance = 5e-15, .full_account = false};
+  const sim::Curve curve = sim::xy_curve(model, amplitudes, closer);
+  const sim::SteadyState state = sim::steady_state(model, closer);
+  CHECK(same_bits(curve.points.front().x, state.amplitude));
+  CHECK(same(curve.certificate, state.certificate));
 }
 
 TEST_CASE("reasons and warnings of many points are kept once, with their number and first point") {

@@ -208,7 +208,8 @@ TEST_CASE("an x-Y curve carries failed points as rows with a reason") {
 }
 
 TEST_CASE("the certificate of a curve is the sum of its points'") {
-  const sim::Model model = base_driven(1.0, 100.0, 1.0, 0.5, 0.5, 0.05, 10.0);
+  // Static friction above kinetic: none of the points is found in a pack.
+  const sim::Model model = base_driven(1.0, 100.0, 1.0, 0.5, 0.6, 0.05, 10.0);
   core::SearchCount sum;
   for (const double omega : {5.0, 10.0, 20.0}) {
     sim::Model point = model;
