@@ -106,4 +106,9 @@ const LawEntry* find_law(std::string_view name) {
   return found == list.end() ? nullptr : &*found;
 }
 
+std::vector<ParameterFault> complete(const LawEntry& law, ParameterValues& values) {
+  std::vector<ParameterFault> faults = complete(law.parameters, values);
+  return faults.empty() && law.check != nullptr ? law.check(values) : faults;
+}
+
 }  // namespace dualdamp::friction

@@ -27,6 +27,8 @@ struct LawEntry {
   std::vector<Parameter> parameters{};
   /// Laws in parallel that make up this one. `values` complete.
   std::vector<Law> (*make)(const ParameterValues& values) = nullptr;
+  /// What its table cannot say: rules between values that each are in range. `values` complete. May be absent.
+  std::vector<ParameterFault> (*check)(const ParameterValues& values) = nullptr;
   /// What to warn of with these complete values.
   std::vector<std::string> (*warnings)(const ParameterValues& values) = nullptr;
 };
@@ -35,5 +37,8 @@ struct LawEntry {
 
 /// nullptr when there is no such law.
 [[nodiscard]] const LawEntry* find_law(std::string_view name);
+
+/// Fills in the defaults of `values` and returns every fault by the law's table; without one, those by its `check`.
+[[nodiscard]] std::vector<ParameterFault> complete(const LawEntry& law, ParameterValues& values);
 
 }  // namespace dualdamp::friction

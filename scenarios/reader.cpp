@@ -342,16 +342,16 @@ class Reader {
 
   /// What the registry alone knows: defaults that follow another parameter, bounds between parameters.
   void check_law(const Node& node, const std::string& name, const std::string& path, Json& section) {
-    const std::vector<friction::Parameter>& table = friction::find_law(name)->parameters;
-    friction::ParameterValues values = law_values(table, section);
-    for (friction::ParameterFault& fault : friction::complete(table, values)) {
+    const friction::LawEntry& law = *friction::find_law(name);
+    friction::ParameterValues values = law_values(law.parameters, section);
+    for (friction::ParameterFault& fault : friction::complete(law, values)) {
       if (fault.is_missing) continue;  // noted already
       const auto place = reading_.places.find(path + "." + fault.name);
       complain(place == reading_.places.end() ? node.head() : place->second,
                "'" + path + "." + fault.name + "' is not possible: " + fault.message, std::move(fault.allowed),
                std::move(fault.found));
     }
-    section = law_json(table, values);
+    section = law_json(law.parameters, values);
   }
 
   const Document& document_;

@@ -92,14 +92,31 @@ class Slider {
   std::shared_ptr<int> calls_ = std::make_shared<int>(0);
 };
 
+enum class PlantedInDahl { nothing, modulus, no_number, heat, scale };
+
 /// z' = v - |v| z/z0, F = s0 z: Dahl's law, a smooth one.
-struct Dahl {
+class Dahl {
+ public:
+  explicit Dahl(PlantedInDahl planted) : planted_(planted) {}
+
   [[nodiscard]] Memory start(const Instant&) const { return {.state = {0.0}}; }
-  [[nodiscard]] double force(const Memory& m, const Instant&, Direction) const { return 100.0 * m.state[0]; }
-  void jump(Memory&, Trigger, const Instant&, Direction) const {}
-  void rates(const Memory& m, const Instant& now, Direction direction, std::span<double> rates) const {
-    rates[0] = now.v * (1.0 - friction::sign(direction) * m.state[0] / 0.01);
+  [[nodiscard]] double respond(const Memory& m, const Instant& now, Direction direction,
+                               std::span<double> rates) const {
+    const double speed = planted_ == PlantedInDahl::modulus ? std::abs(now.v) : friction::sign(direction) * now.v;
+    rates[0] = now.v - speed * m.state[0] / 0.01;
+    if (planted_ == PlantedInDahl::no_number) rates[0] += std::sqrt(m.state[0]);
+    return 100.0 * m.state[0];
   }
+  void scales(const Memory&, std::span<double> scales) const {
+    scales[0] = planted_ == PlantedInDahl::scale ? -1.0 : 0.01;
+  }
+  [[nodiscard]] double dissipation(const Memory& m, const Instant& now, Direction direction) const {
+    const double heat = 1e4 * m.state[0] * m.state[0] * friction::sign(direction) * now.v;
+    return planted_ == PlantedInDahl::heat ? -heat : heat;
+  }
+
+ private:
+  PlantedInDahl planted_;
 };
 
 bool named(const std::vector<std::string>& faults, const std::string& part) {
@@ -111,11 +128,15 @@ std::vector<std::string> faults_with(Planted planted) {
   return test::nonconformities({.law = friction::Law(Slider(planted))});
 }
 
+std::vector<std::string> faults_with(PlantedInDahl planted) {
+  return test::nonconformities({.law = friction::Law(Dahl(planted))});
+}
+
 }  // namespace
 
 TEST_CASE("laws that keep the contract conform", "[friction][conformance]") {
   CHECK(faults_with(Planted::nothing) == std::vector<std::string>{});
-  CHECK(test::nonconformities({.law = friction::Law(Dahl{})}) == std::vector<std::string>{});
+  CHECK(faults_with(PlantedInDahl::nothing) == std::vector<std::string>{});
 }
 
 TEST_CASE("the conformance suite names planted faults", "[friction][conformance]") {
@@ -132,6 +153,13 @@ TEST_CASE("the conformance suite names planted faults", "[friction][conformance]
   const friction::Law coulomb(friction::Coulomb(2.0, 2.0));
   const auto unscaled = [&](double) { return coulomb; };
   CHECK(named(test::nonconformities({.law = coulomb, .scaled = unscaled}), "a factor on its limits"));
+}
+
+TEST_CASE("the conformance suite names planted faults of laws that are not affine", "[friction][conformance]") {
+  CHECK(named(faults_with(PlantedInDahl::modulus), "kink at v = 0"));
+  CHECK(named(faults_with(PlantedInDahl::no_number), "not finite"));
+  CHECK(named(faults_with(PlantedInDahl::heat), "the dissipation is negative"));
+  CHECK(named(faults_with(PlantedInDahl::scale), "the scale of a state"));
 }
 
 TEST_CASE("the conformance suite names faults of parameter tables", "[friction][conformance]") {

@@ -7,6 +7,8 @@
 /// driver. On every step it asks for
 ///   * guards on the right side after a mode change, reached within 32 jumps;
 ///   * a finite force, the same when asked twice, and a static limit >= 0;
+///   * of a law that is not affine: finite rates, the same by every way of asking; no kink at v = 0 while the
+///     direction is frozen, |v| being sign(direction) v; a dissipation of its own >= 0 when declared passive;
 ///   * affine form = force, guards and limit, at the start of a step and, by `advance`, at its end;
 ///   * `advance` over two halves = `advance` over the whole, with the rates as its derivative;
 ///   * forms and jumps affine in the states, jumps in position and speed too, with the same branch: the driver
@@ -40,7 +42,7 @@ struct LawCase {
   std::function<friction::Law(double factor)> scaled{};  ///< the law with all its limits multiplied
 };
 
-/// A law of the registry with these values, defaults filled in.
+/// A law of the registry with these values, defaults filled in; passive and random as it is declared.
 [[nodiscard]] LawCase law_case(std::string_view name, const friction::ParameterValues& values);
 
 /// One sentence for each kind of fault; empty for a law that conforms.

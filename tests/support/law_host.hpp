@@ -27,8 +27,11 @@ class LawHost {
   [[nodiscard]] int events() const { return events_; }
   /// Where the last of them was.
   [[nodiscard]] const friction::Instant& last_event() const { return last_event_; }
-  /// Done against the law since the start [J]: exact for forces that are affine in the position between events.
+  /// Done against the law since the start [J]: by the trapezoidal rule for an affine law, exact where its force is
+  /// affine in the position between events; integrated with the states for another.
   [[nodiscard]] double work() const { return work_; }
+  /// What of it a law that is not affine says it turned to heat [J].
+  [[nodiscard]] double heat() const { return heat_; }
   /// What the law did wrong, in the order in which it did; it makes no sense to go on when broken.
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
   [[nodiscard]] bool broken() const { return broken_; }
@@ -40,13 +43,12 @@ class LawHost {
   /// Moves the mass in a straight line, from rest, in unit time.
   void move_to(double x);
   /// The states from now to `end`, no event in between.
-  void go(const friction::Instant& end);
+  void go(double end, const Path& path);
 
  private:
-  void integrate(const friction::Instant& end);
+  void integrate(double end, const Path& path);
   [[nodiscard]] int worst_guard();
   [[nodiscard]] double time_of_violation(double end, const Path& path) const;
-  void pass(const friction::Instant& end);
   void settle();
   void give_up(const std::string& fault);
 
@@ -56,6 +58,7 @@ class LawHost {
   friction::Direction direction_ = friction::Direction::rest;
   double guard_size_ = 0.0;
   double work_ = 0.0;
+  double heat_ = 0.0;
   int events_ = 0;
   friction::Instant last_event_;
   std::vector<std::string> faults_;
