@@ -9,6 +9,7 @@
 #include "friction_models/modified.hpp"
 #include "friction_models/modifiers.hpp"
 #include "friction_models/reset_integrator.hpp"
+#include "friction_models/stribeck.hpp"
 
 namespace dualdamp::friction {
 
@@ -85,6 +86,18 @@ std::vector<LawEntry> make_list() {
                                        p.number("damping")));
          return {modified(law, p, {p.number("kinetic")})};
        }},
+      {.name = "stribeck",
+       .summary = "force against the motion that falls with speed, static limit at rest",
+       .equation = "slip: F = level(|v|) sgn v, level(u) = kinetic + (static - kinetic) h(u/stribeck_velocity);  "
+                   "rest: F = pull while |pull| <= static",
+       .engine = EngineKind::smooth,
+       .sources = "stribeck1902, armstrong1994, bo1982",
+       .modifiers = all_modifiers,
+       .parameters = Stribeck::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         return {modified(Law(Stribeck(StribeckCurve(p))), p, {p.number("kinetic"), p.number("static")})};
+       },
+       .check = StribeckCurve::check_shape},
   };
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+/// What smooth laws share: formulas that stay finite and smooth a little beyond the phase they are frozen for.
+
+#include <algorithm>
+#include <cmath>
+
+namespace dualdamp::friction {
+
+/// base^exponent for base >= 0, exponent > 0. Below zero: the analytic continuation where there is one,
+/// base^exponent of a whole exponent; else that of an odd exponent, which has as many continuous derivatives as the
+/// power.
+[[nodiscard]] inline double continued_power(double base, double exponent) {
+  if (exponent == 1.0) return base;
+  if (exponent == 2.0) return base * base;
+  const double modulus = std::pow(std::abs(base), exponent);
+  const bool is_even = std::fmod(exponent, 2.0) == 0.0;
+  return base < 0.0 && !is_even ? -modulus : modulus;
+}
+
+/// A force level to divide by: modifiers may take it to zero, where the rate must stay a number.
+[[nodiscard]] inline double divisor(double level, double nominal) { return std::max(level, 1e-9 * nominal); }
+
+}  // namespace dualdamp::friction
