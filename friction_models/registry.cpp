@@ -5,6 +5,7 @@
 #include "friction_models/bristle.hpp"
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
+#include "friction_models/dahl.hpp"
 #include "friction_models/iwan.hpp"
 #include "friction_models/modified.hpp"
 #include "friction_models/modifiers.hpp"
@@ -64,6 +65,18 @@ std::vector<LawEntry> make_list() {
        .make = [](const Values& p) -> std::vector<Law> {
          const Law law(Coulomb(p.number("kinetic"), p.number("static")));
          return {modified(law, p, {p.number("kinetic"), p.number("static")})};
+       }},
+      {.name = "dahl",
+       .summary = "bristles that give way gradually, whatever the speed (Dahl)",
+       .equation = "F = sigma0 z;  z' = v |1 - sigma0 z sgn v/kinetic|^exponent sgn(1 - sigma0 z sgn v/kinetic)",
+       .engine = EngineKind::smooth,
+       .states = "mean deflection z of the bristles",
+       .sources = "dahl1976",
+       .modifiers = all_modifiers,
+       .parameters = Dahl::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         const Law law(Dahl(p.number("kinetic"), p.number("sigma0"), p.number("exponent")));
+         return {modified(law, p, {p.number("kinetic")})};
        }},
       {.name = "iwan",
        .summary = "springs with Coulomb sliders in parallel, which slide one after the other",

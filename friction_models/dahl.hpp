@@ -1,0 +1,46 @@
+#pragma once
+/// Dahl: bristles of mean deflection z that give way as friction nears its kinetic level. The force depends on the
+/// path, not on the speed.
+///
+///   F = sigma0 z,   z' = v |1 - sigma0 z sgn v/kinetic|^exponent sgn(1 - sigma0 z sgn v/kinetic)     [N]
+///
+/// exponent 1 between displacements +-A, a = sigma0 A/kinetic: peak force kinetic tanh a, work a cycle 4 kinetic A
+/// (1 - tanh(a)/a). sigma0 -> infinity is coulomb. Its force tends to the kinetic level and never passes it: no
+/// break-away, no level that falls with speed. Holds for rolling bearings and contacts before gross sliding.
+///
+/// Exponents below 1 (0: elastic-perfectly-plastic, which is contact_compliance) reach the kinetic level within a
+/// finite distance with an infinite curvature and are refused.
+///
+/// Source: dahl1976 in `docs/refs.bib`. Smooth engine; z is fast, at a rate of sigma0 |v|/kinetic.
+
+#include <span>
+#include <vector>
+
+#include "friction_models/law.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+class Dahl {
+ public:
+  static const std::vector<Parameter>& parameters();
+
+  /// N > 0, N/m > 0, >= 1.
+  Dahl(double kinetic, double sigma0, double exponent) : kinetic_(kinetic), sigma0_(sigma0), exponent_(exponent) {}
+
+  [[nodiscard]] Memory start(const Instant&) const { return {.state = {0.0}}; }
+  [[nodiscard]] double force(const Memory& memory, const Instant&, Direction) const {
+    return sigma0_ * memory.state[0];
+  }
+  void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const;
+  void scales(const Memory&, std::span<double> scales) const { scales[0] = kinetic_ / sigma0_; }
+  /// F v less what the bristles store, sigma0 z z'.
+  [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
+
+ private:
+  double kinetic_;
+  double sigma0_;
+  double exponent_;
+};
+
+}  // namespace dualdamp::friction
