@@ -7,6 +7,7 @@
 #include "friction_models/coulomb.hpp"
 #include "friction_models/dahl.hpp"
 #include "friction_models/iwan.hpp"
+#include "friction_models/lugre.hpp"
 #include "friction_models/modified.hpp"
 #include "friction_models/modifiers.hpp"
 #include "friction_models/reset_integrator.hpp"
@@ -86,6 +87,21 @@ std::vector<LawEntry> make_list() {
        .modifiers = {"drift", "fluctuation"},
        .parameters = Iwan::parameters(),
        .make = make_iwan},
+      {.name = "lugre",
+       .summary = "bristles that bend, with damping, and give way at a level that falls with speed",
+       .equation = "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v - sigma0 |v| z/g(v), g(v) = kinetic + (static - "
+                   "kinetic) exp(-(v/stribeck_velocity)^2)",
+       .engine = EngineKind::smooth,
+       .states = "mean deflection z of the bristles",
+       .is_passive = false,
+       .caution = "Under a load that oscillates below break-away about a mean the mass drifts.",
+       .sources = "canudas1995, barabanov2000, dupont2002",
+       .modifiers = all_modifiers,
+       .parameters = Lugre::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         return {modified(Law(Lugre(p)), p, {p.number("kinetic"), p.number("static")})};
+       },
+       .warnings = Lugre::warnings},
       {.name = "reset_integrator",
        .summary = "bond that stretches, breaks and is dragged along (Haessig and Friedland)",
        .equation = "stick: z' = v, F = (1 + static_gain) stiffness z + damping v, |z| < z0 = kinetic/stiffness;  "
