@@ -6,6 +6,7 @@
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
 #include "friction_models/dahl.hpp"
+#include "friction_models/elasto_plastic.hpp"
 #include "friction_models/iwan.hpp"
 #include "friction_models/lugre.hpp"
 #include "friction_models/modified.hpp"
@@ -79,6 +80,24 @@ std::vector<LawEntry> make_list() {
          const Law law(Dahl(p.number("kinetic"), p.number("sigma0"), p.number("exponent")));
          return {modified(law, p, {p.number("kinetic")})};
        }},
+      {.name = "elasto_plastic",
+       .summary = "LuGre bristles with an elastic range, which do not drift (Dupont and others)",
+       .equation =
+           "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v (1 - alpha(z, v) sigma0 sgn(v) z/g(v)), alpha = 0 up "
+           "to elastic_limit, g as in lugre",
+       .engine = EngineKind::smooth,
+       .states = "mean deflection z of the bristles",
+       .is_passive = false,
+       .sources = "dupont2002",
+       .modifiers = all_modifiers,
+       .parameters = ElastoPlastic::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         return {
+             modified(Law(ElastoPlastic(p)), p,
+                      {p.number("sigma0") * p.number("elastic_limit"), p.number("kinetic"), p.number("static")})};
+       },
+       .check = ElastoPlastic::check,
+       .warnings = Lugre::warnings},
       {.name = "iwan",
        .summary = "springs with Coulomb sliders in parallel, which slide one after the other",
        .equation = "F = sum of stiffness (x - a) over stuck elements, of +-limit over sliding ones",
