@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "friction_models/bouc_wen.hpp"
 #include "friction_models/bristle.hpp"
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/coulomb.hpp"
@@ -32,6 +33,24 @@ std::vector<Law> make_iwan(const Values& p) {
 std::vector<LawEntry> make_list() {
   const std::vector<std::string_view> all_modifiers = {"drift", "position_slope", "fluctuation"};
   return {
+      {.name = "bouc_wen",
+       .summary = "hysteretic spring that yields gradually (Bouc and Wen)",
+       .equation =
+           "F = stiffness (ratio x + (1 - ratio) z);  z' = v (1 - |z/z0|^exponent (b sgn(v z) + 1 - b)), z0 "
+           "= limit/stiffness, b = beta_share",
+       .engine = EngineKind::smooth,
+       .states = "hysteretic deflection z",
+       .is_passive = false,
+       .caution = "A loop does not close where it began: it has no return-point memory.",
+       .sources = "bouc1967, wen1976, erlicher2004",
+       .modifiers = {"drift", "fluctuation"},
+       .parameters = BoucWen::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         const Law law(BoucWen(p.number("limit"), p.number("stiffness"), p.number("exponent"), p.number("ratio"),
+                               p.number("beta_share")));
+         return {modified(law, p)};
+       },
+       .warnings = BoucWen::warnings},
       {.name = "bristle",
        .summary = "bonds that stretch, snap and form anew at random (Haessig and Friedland)",
        .equation = "F = sum of stiffness (x - b);  at |x - b| = snap_distance: b = x + snap_distance U(-1, 1)",
