@@ -8,6 +8,7 @@
 #include "friction_models/coulomb.hpp"
 #include "friction_models/dahl.hpp"
 #include "friction_models/elasto_plastic.hpp"
+#include "friction_models/generalized_maxwell_slip.hpp"
 #include "friction_models/iwan.hpp"
 #include "friction_models/lugre.hpp"
 #include "friction_models/modified.hpp"
@@ -117,6 +118,22 @@ std::vector<LawEntry> make_list() {
        },
        .check = ElastoPlastic::check,
        .warnings = Lugre::warnings},
+      {.name = "generalized_maxwell_slip",
+       .summary = "springs in parallel that slip one after the other at a level that falls with speed",
+       .equation =
+           "stuck: F_i' = stiffness v until sgn(v) F_i = share s(v);  slipping: F_i' = attraction (share sgn v "
+           "- F_i/s(v));  F = sum of F_i, s(v) as g(v) of lugre",
+       .engine = EngineKind::smooth,
+       .states = "force of each element, and whether it slips",
+       .is_passive = false,
+       .sources = "lampaert2003, albender2005",
+       .modifiers = all_modifiers,
+       .parameters = GeneralizedMaxwellSlip::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         return {modified(Law(GeneralizedMaxwellSlip(p)), p, {p.number("kinetic"), p.number("static")})};
+       },
+       .check = GeneralizedMaxwellSlip::check,
+       .warnings = GeneralizedMaxwellSlip::warnings},
       {.name = "iwan",
        .summary = "springs with Coulomb sliders in parallel, which slide one after the other",
        .equation = "F = sum of stiffness (x - a) over stuck elements, of +-limit over sliding ones",
