@@ -14,8 +14,8 @@ constexpr int max_nodes = 6;
 /// remainder of the quintic interpolant is then 2 % of the amplitude, small against the arch between two zeros.
 constexpr double panel_angle = 3.2;
 
-/// Below this |z delta| five Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
-constexpr double shift_limit = 1e-3;
+/// Below this |z delta| ten Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
+constexpr double shift_limit = 0.1;
 
 /// Nodes of one divided difference of z -> exp(z s).
 struct Nodes {
@@ -78,11 +78,18 @@ Complex divided_exponential(const Nodes& nodes, double s) {
   return (divided_exponential(without(nodes, far_b), s) - divided_exponential(without(nodes, far_a), s)) / gap;
 }
 
-/// exp(w) - 1 for |w| < shift_limit.
-Complex small_exponential(Complex w, bool tiny) {
+/// exp(w) - 1 for |w| < shift_limit; odd and even powers apart, which wait less for each other.
+Complex small_exponential(Complex w, double size) {
   // w^3/6 adds nothing to 1.
-  if (tiny) return w * (1.0 + 0.5 * w);
-  return w * (1.0 + w * (1.0 / 2.0 + w * (1.0 / 6.0 + w * (1.0 / 24.0 + w * (1.0 / 120.0)))));
+  if (size < 5e-6) return w * (1.0 + 0.5 * w);
+  const Complex square = w * w;
+  if (size < 1e-3) return w * (1.0 + square * (1.0 / 6.0)) + square * (1.0 / 2.0 + square * (1.0 / 24.0));
+  const Complex odd =
+      1.0 + square * (1.0 / 6.0 + square * (1.0 / 120.0 + square * (1.0 / 5040.0 + square * (1.0 / 362880.0))));
+  const Complex even =
+      1.0 / 2.0 +
+      square * (1.0 / 24.0 + square * (1.0 / 720.0 + square * (1.0 / 40320.0 + square * (1.0 / 3628800.0))));
+  return w * odd + square * even;
 }
 
 }  // namespace
@@ -100,7 +107,7 @@ int ExponentialBasis::add(Complex exponent, int parent) {
   return size_++;
 }
 
-void ExponentialBasis::finish() {
+void ExponentialBasis::finish(double expected) {
   panel_ = fastest_ > 0.0 ? panel_angle / fastest_ : 1.0;
   if (!has_chains_) evaluate(panel_, rotor_);
   even_ = !has_chains_;
@@ -108,6 +115,9 @@ void ExponentialBasis::finish() {
     const double rate = std::abs(exponent(k));
     even_ = even_ && growth(k) == 0.0 && (rate == 0.0 || 4.0 * rate >= fastest_);
   }
+  if (!even_ || !(expected > 0.0)) return;
+  expected_ = expected;
+  evaluate(expected_, expected_values_);
 }
 
 Complex ExponentialBasis::chain_value(int k, double s) const {
@@ -139,7 +149,7 @@ bool ExponentialBasis::shift(double delta, Values& values) const {
   if (has_chains_ || !(angle < shift_limit)) return false;
   for (std::size_t k = 0; k < index(size_); ++k) {
     if (square_[k] == 0.0) continue;
-    const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta, angle < 5e-6);
+    const Complex gain = small_exponential(Complex(re_[k], im_[k]) * delta, angle);
     const Complex old(values.re[k], values.im[k]);
     const Complex value = old + old * gain;
     values.re[k] = value.real();

@@ -47,7 +47,7 @@ class ExponentialBasis {
   /// E_k(s) for all k; s >= 0.
   void evaluate(double s, Values& values) const;
 
-  /// E_k(s + delta) from E_k(s), exact to rounding, for |z_k delta| < 1e-3.
+  /// E_k(s + delta) from E_k(s), exact to rounding, for |z_k delta| < 0.1.
   /// Returns false, values untouched, when delta is larger or the basis has chains.
   [[nodiscard]] bool shift(double delta, Values& values) const;
 
@@ -62,8 +62,12 @@ class ExponentialBasis {
   /// E_k(panel()), likewise.
   [[nodiscard]] const Values& over_panel() const { return rotor_; }
 
-  /// Fixes the panel; call once after the last add().
-  void finish();
+  /// Fixes the panel; call once after the last add(). `expected`: the time [s] after which a guard that starts at
+  /// zero most likely crosses, 0 for none. It saves the search work and has no part in what the search proves.
+  void finish(double expected = 0.0);
+  /// That time on an even basis, else 0; and E_k there.
+  [[nodiscard]] double expected() const { return expected_; }
+  [[nodiscard]] const Values& at_expected() const { return expected_values_; }
 
   /// No chain, no growing element, and all nonzero exponents within a factor of four: one panel width and one
   /// derivative bound serve the whole mode.
@@ -83,7 +87,9 @@ class ExponentialBasis {
   std::array<int, capacity> parent_{};
   std::array<double, capacity> square_{};
   Values rotor_{};
+  Values expected_values_{};
   double panel_ = 0.0;
+  double expected_ = 0.0;
   double fastest_ = 0.0;
   double turning_ = 0.0;
   int size_ = 0;

@@ -14,6 +14,8 @@ constexpr int max_depth = 60;
 /// Near a known zero the guard is its Taylor series: 0.5^18/18! of its scale is left out.
 constexpr double taylor_angle = 0.5;
 constexpr int taylor_terms = 18;
+/// How far beside the expected crossing Halley's method is worth a trial: it then takes two steps.
+constexpr double beside = 0.05;
 /// A guard that has decayed to this has no zero any more.
 constexpr double vanished = 1e-280;
 
@@ -75,21 +77,14 @@ class PanelSearch {
 
   /// The jet from values of the basis; close to a known zero from the Taylor series that has it exactly.
   [[nodiscard]] Jet jet(double s, const ExponentialBasis::Values& values) {
-    if (near_start(s)) return taylor_jet(s);
     Jet j;
-    j.s = s;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(basis_.size()); ++k) {
-      j.value += guard_.value.re[k] * values.re[k] - guard_.value.im[k] * values.im[k];
-      j.slope += guard_.slope.re[k] * values.re[k] - guard_.slope.im[k] * values.im[k];
-      j.curvature += guard_.curvature.re[k] * values.re[k] - guard_.curvature.im[k] * values.im[k];
-    }
+    take_jet(s, values, j);
     return j;
   }
 
   [[nodiscard]] Jet jet(double s) {
-    if (near_start(s)) return taylor_jet(s);
     ExponentialBasis::Values values;
-    basis_.evaluate(s, values);
+    if (!near_start(s)) basis_.evaluate(s, values);
     return jet(s, values);
   }
 
@@ -171,6 +166,8 @@ class PanelSearch {
   }
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
+  /// The same in (0, horizon), where it lies beside the one that the basis expects; else a negative number.
+  [[nodiscard]] double expected_root(double horizon);
   /// The elements at the root last returned.
   void values_at(double root, ExponentialBasis::Values& values) const {
     if (root == polished_) {
@@ -216,7 +213,8 @@ class PanelSearch {
     return nearest;
   }
   [[nodiscard]] double sign_change(double low, double high);
-  [[nodiscard]] Jet taylor_jet(double s);
+  void take_jet(double s, const ExponentialBasis::Values& values, Jet& j);
+  void take_taylor_jet(Jet& j);
   /// What the remainder takes from the middle coefficient of L on a panel of width h.
   [[nodiscard]] double remainder(double h) const {
     const double cube = h * h * h;
@@ -229,7 +227,9 @@ class PanelSearch {
   [[nodiscard]] bool positive_between(const Jet& a, const Jet& b) const;
   [[nodiscard]] bool flat(const Jet& a, const Jet& b) const;
   [[nodiscard]] double accept_root(const Jet& a, const Jet& b);
+  [[nodiscard]] bool is_first_crossing(const Jet& a, Jet& root) const;
   Jet polish(double s);
+  void polish(Jet& j);
   [[nodiscard]] Jet minimum(const Jet& a, const Jet& b);
   [[nodiscard]] Jet split_point(const Jet& a, const Jet& b);
   [[nodiscard]] double split(const Jet& a, const Jet& b, int depth);
@@ -249,7 +249,25 @@ class PanelSearch {
   ExponentialBasis::Values root_values_;
 };
 
-Jet PanelSearch::taylor_jet(double s) {
+/// In place: the processor waits when a jet just written is copied as a whole.
+inline void PanelSearch::take_jet(double s, const ExponentialBasis::Values& values, Jet& j) {
+  j.s = s;
+  j.zeros = 0;
+  if (near_start(s)) return take_taylor_jet(j);
+  double value = 0.0;
+  double slope = 0.0;
+  double curvature = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis_.size()); ++k) {
+    value += guard_.value.re[k] * values.re[k] - guard_.value.im[k] * values.im[k];
+    slope += guard_.slope.re[k] * values.re[k] - guard_.slope.im[k] * values.im[k];
+    curvature += guard_.curvature.re[k] * values.re[k] - guard_.curvature.im[k] * values.im[k];
+  }
+  j.value = value;
+  j.slope = slope;
+  j.curvature = curvature;
+}
+
+void PanelSearch::take_taylor_jet(Jet& j) {
   if (!has_taylor_) {
     has_taylor_ = true;
     ModeFunction derivative = guard_.value;
@@ -262,37 +280,43 @@ Jet PanelSearch::taylor_jet(double s) {
       differentiate(basis_, previous, derivative);
     }
   }
-  Jet result{s, 0.0, 0.0, 0.0, 0};
+  j.value = j.slope = j.curvature = 0.0;
   for (std::size_t k = taylor_terms; k-- > 0;) {
-    result.curvature = result.curvature * s + 2.0 * result.slope;
-    result.slope = result.slope * s + result.value;
-    result.value = result.value * s + taylor_[k];
+    j.curvature = j.curvature * j.s + 2.0 * j.slope;
+    j.slope = j.slope * j.s + j.value;
+    j.value = j.value * j.s + taylor_[k];
   }
-  return result;
 }
 
 /// Halley's iteration from a good guess; the basis is evaluated once and then shifted. Leaves the elements' values
 /// at the result in root_values_. `polished_` tells where it has converged.
 Jet PanelSearch::polish(double s) {
   basis_.evaluate(s, root_values_);
-  Jet j = jet(s, root_values_);
+  Jet j;
+  take_jet(s, root_values_, j);
+  polish(j);
+  return j;
+}
+
+/// The same from a jet and root_values_ there.
+void PanelSearch::polish(Jet& j) {
+  double s = j.s;
   for (int i = 0; i < 8; ++i) {
     const double step = halley(j);
     const double size = std::abs(step);
     polished_ = s;
-    if (!(size > 2.0 * epsilon * s)) return j;
+    if (!(size > 2.0 * epsilon * s)) return;
     if (!(s - step >= 0.0)) break;
     // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
     const bool last = size * basis_.fastest() < 5e-6 && size * std::abs(j.curvature) < 5e-6 * std::abs(j.slope) &&
                       basis_.fastest() > 0.0;
     s -= step;
     if (!basis_.shift(-step, root_values_)) basis_.evaluate(s, root_values_);
-    j = jet(s, root_values_);
+    take_jet(s, root_values_, j);
     polished_ = s;
-    if (last) return j;
+    if (last) return;
   }
   polished_ = none;
-  return j;
 }
 
 /// The quintic Hermite interpolant of a panel in powers of t in [0, 1].
@@ -340,12 +364,29 @@ double PanelSearch::accept_root(const Jet& a, const Jet& b) {
   // Seen from the far end, where the guard is negative.
   const double guess = 1.0 - halley(b) / width;
   Jet root = polish(a.s + width * Interpolant(a, b).root(guess > 0.0 && guess <= 1.0 ? guess : 1.0));
-  if (polished_ != root.s || !(root.s > a.s && root.s <= b.s) || !(root.slope < 0.0)) return none;
+  return root.s <= b.s && is_first_crossing(a, root) ? root.s : none;
+}
+
+/// Whether g, polished at `root`, changes its sign there for the first time behind a.
+bool PanelSearch::is_first_crossing(const Jet& a, Jet& root) const {
+  if (polished_ != root.s || !(root.s > a.s) || !(root.slope < 0.0)) return false;
   // Monotone as far as rounding of the value reaches: g does change its sign there.
   const double reach = slack(root.s);
-  if (!(std::abs(root.value) <= reach) || !(root.slope * root.slope > 4.0 * reach * curvature_)) return none;
+  if (!(std::abs(root.value) <= reach) || !(root.slope * root.slope > 4.0 * reach * curvature_)) return false;
   root.zeros = 1;
-  return positive_between(a, root) ? root.s : none;
+  return positive_between(a, root);
+}
+
+double PanelSearch::expected_root(double horizon) {
+  bound_panel(0.0, horizon, basis_.at_expected());
+  copy(basis_, basis_.at_expected(), root_values_);
+  Jet root;
+  take_jet(basis_.expected(), root_values_, root);
+  if (!(std::abs(halley(root)) * basis_.fastest() < beside)) return none;
+  polish(root);
+  // The horizon lies behind the contact, so that the crossing is not the next search's.
+  if (!((root.s - horizon) * root.slope > 4.0 * slack(root.s))) return none;
+  return is_first_crossing(start_jet(), root) ? root.s : none;
 }
 
 /// Whether L shows that g has no zero between the ends but the known ones.
@@ -490,6 +531,22 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
   return b;
 }
 
+/// Tries a lone guard that starts at zero where the basis expects its next crossing: one panel from the start to
+/// the root, no transcendental function.
+bool crosses_as_expected(const ExponentialBasis& basis, const Guard& guard, double horizon, Crossing& crossing,
+                         std::vector<Grazing>& grazings, SearchCount& count) {
+  if (basis.expected() == 0.0 || basis.expected() >= horizon || guard.known_zeros == 0) return false;
+  PanelSearch search(basis, guard, 0, grazings, static_cast<std::ptrdiff_t>(grazings.size()), count);
+  const double root = search.expected_root(horizon);
+  if (root < 0.0) return false;
+  ++count.panels;
+  crossing.found = true;
+  crossing.guard = 0;
+  crossing.s = root;
+  search.values_at(root, crossing.values);
+  return true;
+}
+
 /// Those of this search, in order of time.
 void finish_grazings(std::vector<Grazing>& grazings, std::ptrdiff_t earlier, SearchCount& count) {
   count.grazings += static_cast<long>(grazings.size()) - earlier;
@@ -532,6 +589,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
   crossing.guard = -1;
   crossing.s = horizon;
   const auto earlier = static_cast<std::ptrdiff_t>(grazings.size());
+  if (guards.size() == 1 && crosses_as_expected(basis, guards[0], horizon, crossing, grazings, count)) return;
   std::array<ExponentialBasis::Values, 2> ends;
   if (!basis.even()) start_values(basis, ends[0]);
   const ExponentialBasis::Values* left = &ends[0];

@@ -28,9 +28,12 @@
 ///   examined in the same way, with the zero at its end factored out: positive coefficients show that it is the
 ///   first one. It is a change of sign when g'^2 there exceeds 4 M2 times the rounding of g, M2 >= |g''|. Anything
 ///   else is split, at the minimum where there is one, until one of these cases holds.
+///   Where a lone guard starts at zero and Halley's method finds a root beside the crossing that the basis expects
+///   (ExponentialBasis::expected), the panel from the start to that root is tried before all others, by the same
+///   two conditions.
 ///
 /// Cost: on a basis without chains a panel costs a few dozen multiplications and no transcendental function; a
-/// crossing costs one evaluation of the basis. No allocation unless contacts graze.
+/// crossing costs one evaluation of the basis, none where it was expected. No allocation unless contacts graze.
 
 #include <span>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dualdamp::sim {
 
@@ -45,7 +46,13 @@ LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<
     harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
   }
   for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), slow_beside_decay));
-  basis_.finish();
+  basis_.finish(expected_turn(frequencies));
+}
+
+/// A periodic motion mostly turns twice a forcing period, a free one twice a period of its own.
+double LinearMode::expected_turn(std::span<const double> frequencies) const {
+  if (!frequencies.empty()) return std::numbers::pi / frequencies.front();
+  return own_form_ == OwnForm::oscillating ? std::numbers::pi * inverse_gap_ : 0.0;
 }
 
 /// Exponents of m z^2 + C z + K. The small root of a real pair comes from the product K/m, free of cancellation.

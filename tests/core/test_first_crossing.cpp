@@ -39,14 +39,14 @@ Terms polynomial(const std::vector<double>& c) {
 /// Several guards on the basis of all their elements.
 class Problem {
  public:
-  explicit Problem(const std::vector<Terms>& guards, int known_zeros = 0) {
+  explicit Problem(const std::vector<Terms>& guards, int known_zeros = 0, double expected = 0.0) {
     for (const Terms& terms : guards) {
       const int offset = basis_.size();
       for (const Term& term : terms) {
         basis_.add(term.exponent, term.parent < 0 ? term.parent : term.parent + offset);
       }
     }
-    basis_.finish();
+    basis_.finish(expected);
     int next = 0;
     for (const Terms& terms : guards) {
       Guard guard;
@@ -232,6 +232,41 @@ TEST_CASE("A zero at the horizon belongs to the next search") {
   // A crossing just before the horizon is an event, one just behind is not.
   check_crossing(search({cosine(1.0, 1.0)}, pi / 2.0 + 1e-12), 0, pi / 2.0, 4 * epsilon);
   CHECK_FALSE(search({cosine(1.0, 1.0)}, pi / 2.0 - 1e-12).crossing.found);
+}
+
+TEST_CASE("A crossing is found to rounding wherever it is expected") {
+  // sin(s + 0.3) - sin(0.3)
+  const Terms terms{cosine(1.0, 1.0, 0.3 - 0.5 * pi), constant(-std::sin(0.3)), cosine(0.0, 2.0)};
+  const double root = pi - 0.6;
+  for (const double expected : {0.0, root, root * (1.0 + 4 * epsilon), root + 1e-9, root - 1e-4, root + 0.02,
+                                root + 0.049, root - 0.06, 0.5, root + 2.0 * pi, 1e-300, 1e9}) {
+    const Result result = search(Problem({terms}, 1, expected), 10.0);
+    check_crossing(result, 0, root, 8 * epsilon * root);
+    CHECK(result.count.splits == 0);
+  }
+}
+
+TEST_CASE("An expected crossing does not hide what comes before it") {
+  // 1 - cos s + d sin s starts with slope d and is zero at 2 pi n and where tan(s/2) = -d: a narrow dip before each
+  // 2 pi n, which it enters with slope -d.
+  const double d = 1e-3;
+  const Terms terms{constant(1.0), {Complex(0.0, 1.0), Complex(-1.0, -d)}};
+  const double root = 2.0 * (pi - std::atan(d));
+  for (const double expected : {root, 2.0 * pi, root + 2.0 * pi, 4.0 * pi}) {
+    check_crossing(search(Problem({terms}, 1, expected), 20.0), 0, root, 16 * epsilon * root / d);
+  }
+  const Terms touching{constant(1.0), cosine(-1.0, 1.0)};
+  const Result touched = search(Problem({touching}, 2, 2.0 * pi), 10.0);
+  CHECK_FALSE(touched.crossing.found);
+  CHECK(touched.grazings.size() == 1);
+}
+
+TEST_CASE("An expected crossing at or behind the horizon belongs to the next search") {
+  const Problem problem({{cosine(1.0, 1.0, -0.5 * pi)}}, 1, pi * (1.0 - epsilon));
+  CHECK_FALSE(search(problem, pi).crossing.found);
+  CHECK_FALSE(search(problem, pi * (1.0 + epsilon)).crossing.found);
+  CHECK_FALSE(search(problem, pi - 1e-12).crossing.found);
+  check_crossing(search(problem, pi + 1e-12), 0, pi, 8 * epsilon);
 }
 
 TEST_CASE("A double root is one grazing, every time it comes, and not a crossing") {
