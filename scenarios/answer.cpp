@@ -350,14 +350,26 @@ Answer failed(const std::string& reason) {
   return answer;
 }
 
+/// A quantity that a curve or map runs over.
+struct Axis {
+  std::string name;
+  double sim::CurvePoint::* value;
+  std::string unit;
+};
+
 /// Remarks and the place of the list `points`; no result when no point has a number.
-Answer answer_of_points(const sim::Curve& curve, const std::string& what) {
+Answer answer_of_points(const sim::Curve& curve, const std::string& what, const std::vector<Axis>& axes) {
   if (std::ranges::none_of(curve.points, &sim::CurvePoint::ok))
     return failed("no point of the " + what + " has a number; the first: " + curve.reason(curve.points.front()));
   Answer answer;
   for (const sim::Remark& remark : curve.remarks) {
-    const std::string more = remark.count > 1 ? " and " + std::to_string(remark.count - 1) + " more" : "";
-    answer.warnings.push_back("points[" + std::to_string(remark.first) + "]" + more + ": " + remark.text);
+    const std::string count = remark.count > 1 ? std::to_string(remark.count) + " points; first " : "";
+    std::string place = "points[" + std::to_string(remark.first) + "]";
+    for (const Axis& axis : axes) {
+      const double value = curve.points[remark.first].*axis.value;
+      place += ", " + axis.name + " = " + core::format_number(value, 6) + " " + axis.unit;
+    }
+    answer.warnings.push_back(remark.text + " (" + count + place + ")");
   }
   answer.result["points"] = nullptr;
   answer.result["certificate"] = certificate_json(curve.certificate);
@@ -423,13 +435,16 @@ Answer answer(const sim::FreeDecay& decay) {
 }
 
 Answer answer(const sim::Curve& curve, CurveOver over, const std::string& unit) {
-  Answer answer = answer_of_points(curve, "curve");
+  const Axis axis = over == CurveOver::amplitude ? Axis{"Y", &sim::CurvePoint::Y, unit}
+                                                 : Axis{"omega", &sim::CurvePoint::omega, "rad/s"};
+  Answer answer = answer_of_points(curve, "curve", {axis});
   if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, over, unit));
   return answer;
 }
 
 Answer answer_map(const sim::Curve& map, const std::string& unit) {
-  Answer answer = answer_of_points(map, "map");
+  Answer answer =
+      answer_of_points(map, "map", {{"omega", &sim::CurvePoint::omega, "rad/s"}, {"Y", &sim::CurvePoint::Y, unit}});
   if (answer.result.is_null()) return answer;
   answer.result["regimes"] = nullptr;
   answer.tables.push_back(map_table(map, unit));
@@ -461,6 +476,7 @@ Answer answer(const sim::Branch& branch, sim::BranchParameter parameter, const s
   Answer answer;
   answer.result["points"] = nullptr;
   answer.result["changes"] = nullptr;
+  answer.result["certificate"] = certificate_json(branch.certificate);
   answer.tables.push_back(branch_table(branch.points, amplitude ? "Y" : "omega", amplitude ? unit : "rad/s"));
   answer.tables.push_back(change_table(branch.changes, amplitude ? "Y" : "omega", amplitude ? unit : "rad/s"));
   if (!branch.changes.empty() && branch.changes.back().kind == sim::ChangeKind::end)

@@ -135,18 +135,19 @@ Fields diagnostics() {
 }
 
 Fields branch(const ResultField& parameter) {
-  return {{"points[]." + parameter.path, parameter.unit, parameter.meaning},
-          {"points[].x", "m", "output amplitude (peak - trough)/2"},
-          {"points[].peak", "m", "max x"},
-          {"points[].trough", "m", "min x"},
-          {"points[].stops", "1", "times a period the mass comes to rest and stays"},
-          {"points[].sticks", "1", "rests a period"},
-          {"points[].stable", "", "no multiplier outside the unit circle"},
-          {"changes[].kind", "", "sequence, sticking, stops, fold, stability, end"},
-          {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
-          {"changes[].x", "m", "output amplitude there"},
-          {"changes[].stops_before", "1", "stops before"},
-          {"changes[].stops_after", "1", "stops behind"}};
+  return joined({{"points[]." + parameter.path, parameter.unit, parameter.meaning},
+                 {"points[].x", "m", "output amplitude (peak - trough)/2"},
+                 {"points[].peak", "m", "max x"},
+                 {"points[].trough", "m", "min x"},
+                 {"points[].stops", "1", "times a period the mass comes to rest and stays"},
+                 {"points[].sticks", "1", "rests a period"},
+                 {"points[].stable", "", "no multiplier outside the unit circle"},
+                 {"changes[].kind", "", "sequence, sticking, stops, fold, stability, end"},
+                 {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
+                 {"changes[].x", "m", "output amplitude there"},
+                 {"changes[].stops_before", "1", "stops before"},
+                 {"changes[].stops_after", "1", "stops behind"}},
+                certificate());
 }
 
 Fields identify() {

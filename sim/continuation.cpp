@@ -50,6 +50,18 @@ struct Node {
   VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
 };
 
+/// A period map whose searches count for a branch.
+class CountedMap : public PeriodMap {
+ public:
+  CountedMap(const Model& model, core::SearchCount& total) : PeriodMap(model), total_(total) {}
+  ~CountedMap() { total_ += engine().count(); }
+  CountedMap(const CountedMap&) = delete;
+  CountedMap& operator=(const CountedMap&) = delete;
+
+ private:
+  core::SearchCount& total_;
+};
+
 class Follower {
  public:
   Follower(const Model& model, BranchParameter parameter, double from, double to, const BranchOptions& options)
@@ -61,6 +73,7 @@ class Follower {
         range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {}
 
   Branch follow();
+  [[nodiscard]] const core::SearchCount& count() const { return count_; }
 
  private:
   [[nodiscard]] Model at(double parameter) const;
@@ -87,6 +100,7 @@ class Follower {
   double to_;
   double range_;
   Branch branch_;
+  mutable core::SearchCount count_;  ///< of all maps, those of attempts included
 };
 
 Model Follower::at(double parameter) const {
@@ -98,7 +112,7 @@ Model Follower::at(double parameter) const {
 double Follower::omega(double parameter) const { return at(parameter).excitation.frequency; }
 
 Passage Follower::passage(double parameter, const State& start) const {
-  PeriodMap map(at(parameter));
+  CountedMap map(at(parameter), count_);
   return map.from(start, Derivative::with);
 }
 
@@ -115,7 +129,7 @@ VectorXd Follower::scale(const Node& node) const {
 /// d(end)/d(parameter), by a difference; none where the nudge meets another mode.
 std::optional<VectorXd> Follower::by_parameter(const Node& node) const {
   for (const double step : {nudge * node.parameter, -nudge * node.parameter}) {
-    PeriodMap map(at(node.parameter + step));
+    CountedMap map(at(node.parameter + step), count_);
     const Passage moved = map.from(node.passage.begin, Derivative::without);
     if (map.outcome().ok() && same_mode(moved.end, node.passage.end))
       return (coordinates(moved.end) - coordinates(node.passage.end)) / step;
@@ -140,7 +154,7 @@ std::optional<VectorXd> Follower::tangent(const Node& node, const VectorXd& alon
 
 /// The orbit at a fixed parameter nearest to `guess`.
 std::optional<Node> Follower::orbit(double parameter, const State& guess) const {
-  PeriodMap map(at(parameter));
+  CountedMap map(at(parameter), count_);
   Passage trial = map.from(guess, Derivative::with);
   for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
     if (trial.closure(omega(parameter)) <= options_.tolerance) return Node{parameter, std::move(trial), {}};
@@ -189,7 +203,7 @@ std::optional<Node> Follower::cross_modes(const Node& from, double step) const {
   const VectorXd predicted = step * from.tangent.cwiseProduct(size);
   const double parameter = from.parameter + predicted[n];
   if (!(parameter > 0.0)) return std::nullopt;
-  PeriodMap map(at(parameter));
+  CountedMap map(at(parameter), count_);
   Passage trial = map.from(displaced(from.passage.begin, predicted.head(n)), Derivative::without);
   for (int i = 1; i < settling_periods && map.outcome().ok(); ++i) trial = map.next(Derivative::without);
   std::optional<Node> node = map.outcome().ok() ? orbit(parameter, trial.end) : std::nullopt;
@@ -222,7 +236,7 @@ std::optional<Node> Follower::advance(const Node& from, double& step) const {
 BranchPoint Follower::describe(const Node& node) const {
   BranchPoint point{node.parameter, {}};
   const Model model = at(node.parameter);
-  PeriodMap map(model);
+  CountedMap map(model, count_);
   point.state.period = 2.0 * std::numbers::pi / model.excitation.frequency;
   point.state.start = node.passage.begin;
   point.state.multipliers = node.passage.multipliers();
@@ -304,6 +318,7 @@ Branch Follower::follow() {
   const Model first = at(from_);
   const SteadyState start = steady_state(first, {.tolerance = options_.tolerance, .full_account = false});
   branch_.outcome = start.outcome;
+  count_ += start.certificate;
   if (!start.outcome.ok()) return std::move(branch_);
   Node node{from_, passage(from_, start.start), {}};
   branch_.points.push_back(describe(node));
@@ -356,7 +371,10 @@ std::string_view name(ChangeKind kind) {
 
 Branch follow_branch(const Model& model, BranchParameter parameter, double from, double to,
                      const BranchOptions& options) {
-  return Follower(model, parameter, from, to, options).follow();
+  Follower follower(model, parameter, from, to, options);
+  Branch branch = follower.follow();
+  branch.certificate = follower.count();
+  return branch;
 }
 
 }  // namespace dualdamp::sim

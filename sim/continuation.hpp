@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/first_crossing.hpp"
 #include "core/outcome.hpp"
 #include "sim/steady_state.hpp"
 
@@ -49,6 +50,7 @@ struct Branch {
   core::Outcome outcome;              ///< not ok(): there is no orbit at the first value
   std::vector<BranchPoint> points;    ///< in order along the branch
   std::vector<BranchChange> changes;  ///< likewise
+  core::SearchCount certificate;      ///< of all searches for events on the way along the branch
 };
 
 struct BranchOptions {

@@ -53,7 +53,7 @@ class OrbitFinder {
   bool newton(Passage& passage, SteadyState& result);
   bool follow_to_orbit(Passage& passage, SteadyState& result);
   bool follow(Passage& passage, double closure, int periods, SteadyState& result);
-  [[nodiscard]] core::Outcome failure(const Passage& passage, const SteadyState& result) const;
+  [[nodiscard]] core::Outcome failure(const Passage& passage) const;
 
   const Model& model_;
   SteadyStateOptions options_;
@@ -103,12 +103,12 @@ bool OrbitFinder::newton(Passage& passage, SteadyState& result) {
   return false;
 }
 
-/// Why following the motion found no orbit.
-core::Outcome OrbitFinder::failure(const Passage& passage, const SteadyState& result) const {
-  const std::string after = " after " + std::to_string(result.transient_periods) + " forcing periods";
+/// Why following the motion found no orbit. Without numbers of one point, so that many can share a reason.
+core::Outcome OrbitFinder::failure(const Passage& passage) const {
+  const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
   if (second_half_ > 1.5 * first_half_ || passage.size > 1.5 * first_half_) {
     return {core::OutcomeKind::no_steady_state,
-            "no steady state: the amplitude still grows" + after + "; damping does not limit the motion"};
+            "no steady state: the amplitude still grows; damping does not limit the motion"};
   }
   if (passage.closure(omega_) < creeping) {
     return {
@@ -156,7 +156,7 @@ void OrbitFinder::find(SteadyState& result) {
   if (!map_.outcome().ok()) {
     result.outcome = map_.outcome();
   } else if (!found) {
-    result.outcome = failure(passage, result);
+    result.outcome = failure(passage);
   }
   result.start = passage.begin;
   if (found) result.multipliers = passage.multipliers();

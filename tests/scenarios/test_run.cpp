@@ -91,6 +91,7 @@ TEST_CASE("run: the keys of the results are those of the contract", "[scenarios]
         std::vector<std::string>{"Y", "peak", "stable", "sticks", "stops", "trough", "x"});
   CHECK(branch.at("points").back().at("Y") == 0.03);
   CHECK(branch.at("changes").at(0).at("kind") == "sticking");
+  CHECK(branch.at("certificate").at("searches") > 0);
   const json history = result_of(scenarios::run(scenario_of("{type: simulate, cycles: 2}")));
   for (const char* key : {"events", "final", "energy"}) CHECK(history.contains(key));
   CHECK(keys(history.at("events").at(0)) == std::vector<std::string>{"kind", "t", "v", "x"});
@@ -147,6 +148,18 @@ TEST_CASE("run: the regimes of a map count its points, and the boundary stands b
       if (other.at("omega") == point.at("omega"))
         CHECK((other.at("Y") > point.at("Y")) == (other.at("sticks") == 0));
   }
+}
+
+TEST_CASE("run: what is said of many points is said once, with their number and the first place",
+          "[scenarios][run]") {
+  const std::string never = "the mass never moves: any rest position that friction can hold is steady too";
+  CHECK(scenarios::run(scenario_of("{type: xy_curve, amplitudes: [0.1, 0.01, 0.015]}")).warnings ==
+        std::vector<std::string>{never + " (2 points; first points[1], Y = 0.01 m)"});
+  CHECK(scenarios::run(scenario_of("{type: xy_curve, amplitudes: [0.01, 0.1]}")).warnings ==
+        std::vector<std::string>{never + " (points[0], Y = 0.01 m)"});
+  CHECK(scenarios::run(scenario_of("{type: regime_map, frequencies: [2 rad/s, 5 rad/s], amplitudes: [0.1, 0.01]}"))
+            .warnings ==
+        std::vector<std::string>{never + " (2 points; first points[1], omega = 2 rad/s, Y = 0.01 m)"});
 }
 
 TEST_CASE("run: an expected value that is off ends with status 1 and says by how much", "[scenarios][run]") {

@@ -68,6 +68,9 @@ TEST_CASE("a branch in amplitude passes through the steady states found one by o
   }
   // Both close to 1e-13, and the slowest multiplier is about 0.5.
   CHECK(worst < 1e-11);
+  // Each orbit is walked at least twice, to close it and to describe it: two reversals and the end of the period.
+  CHECK(branch.certificate.searches >= 6 * static_cast<long>(branch.points.size()));
+  CHECK(branch.certificate.panels >= branch.certificate.searches);
 }
 
 TEST_CASE("sticking sets in where Den Hartog's boundary says") {
