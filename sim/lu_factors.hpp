@@ -1,7 +1,6 @@
 #pragma once
-/// LU factors with partial pivoting, for the matrices of the implicit stepper: most have two to four rows, and then
-/// the compiler unrolls all of it. Eigen's factors are made for large matrices: they take longer here, and several
-/// times longer to compile.
+/// LU factors with partial pivoting for the matrices of the implicit stepper. Most have two to four rows: their
+/// size is known to the compiler (docs/decisions/016-radau-with-five-stages.md).
 
 #include <array>
 #include <complex>
