@@ -36,12 +36,13 @@ void add_rows(Rows& rows, const std::vector<friction::Parameter>& table, const s
 
 /// What the registry says about a law beside its equation and parameters.
 std::string facts_of(const friction::LawEntry& law) {
-  const Rows rows = {{"engine", engine_name(law.engine)},
-                     {"remembers", law.states.empty() ? "nothing" : std::string(law.states)},
-                     {"random", law.is_random ? "yes" : "no"},
-                     {"passive", law.is_passive ? "yes" : "no: it may give out more work than it took in"},
-                     {"sources", std::string(law.sources) + " in docs/refs.bib"},
-                     {"page", "docs/laws/" + std::string(law.name) + ".md"}};
+  Rows rows = {{"engine", engine_name(law.engine)},
+               {"remembers", law.states.empty() ? "nothing" : std::string(law.states)},
+               {"random", law.is_random ? "yes" : "no"},
+               {"passive", law.is_passive ? "yes" : "no: it may give out more work than it took in"}};
+  if (!law.caution.empty()) rows.push_back({"caution", std::string(law.caution)});
+  rows.push_back({"sources", std::string(law.sources) + " in docs/refs.bib"});
+  rows.push_back({"page", "docs/laws/" + std::string(law.name) + ".md"});
   return columns(rows);
 }
 

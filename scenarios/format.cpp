@@ -59,6 +59,7 @@ Section system_section() {
            quantity("stiffness", {"N/m"}, "spring k between mass and base").required().above(0),
            quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
            quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
+           quantity("cubic_stiffness", {"N/m^3"}, "of the spring's elongation cubed; any sign").with_fallback(0.0),
            words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
            std::move(friction)},
           {{{"damping", "damping_ratio"}, false}}};
@@ -179,10 +180,15 @@ Section make_format() {
        section_list("expect", expect_section(), "checks of the result; one that is off ends the run with status 1")
            .items(1, 10'000),
        section("numerics",
-               {{quantity("tolerance", {"1"}, "closure of a steady state relative to its size")
-                     .with_fallback(sim::SteadyStateOptions{}.tolerance)
+               {{quantity("tolerance", {"1"},
+                          "closure of a steady state relative to its size, and error of a step where friction is "
+                          "not piecewise linear; default: 1e-14, or 1e-11 in that case")
                      .at_least(1e-15)
-                     .at_most(1e-3)}},
+                     .at_most(1e-3),
+                 words("solver", {"automatic", "explicit", "implicit"},
+                       "steps of the smooth engine; automatic: the exact engine where every law allows it, else "
+                       "explicit steps until the motion is stiff")
+                     .with_fallback("automatic")}},
                "settings of the numerics")}};
 }
 

@@ -172,7 +172,8 @@ RunResult run(const Scenario& scenario) {
   Answer answer = std::visit(Runner(scenario), scenario.analysis);
   result.provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  result.warnings = std::move(answer.warnings);
+  result.warnings = scenario.warnings;
+  result.warnings.insert(result.warnings.end(), answer.warnings.begin(), answer.warnings.end());
   if (answer.result.is_null()) {
     result.status = core::ExitStatus::numerical_failure;
     result.failure = std::move(answer.failure);

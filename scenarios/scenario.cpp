@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 
 #include "core/numbers.hpp"
@@ -14,6 +15,7 @@
 #include "scenarios/formulas.hpp"
 #include "scenarios/law_values.hpp"
 #include "scenarios/reader.hpp"
+#include "sim/engine.hpp"
 #include "sim/steady_state.hpp"
 
 namespace dualdamp::scenarios {
@@ -63,7 +65,8 @@ std::vector<double> grid_values(const Json& grid) {
 
 sim::Oscillator oscillator(const Json& system) {
   return {number(system.at("mass")), number(system.at("stiffness")), number_or(system, "damping", 0.0),
-          system.at("damper_to") == "base" ? sim::DamperTo::base : sim::DamperTo::ground};
+          system.at("damper_to") == "base" ? sim::DamperTo::base : sim::DamperTo::ground,
+          number_or(system, "cubic_stiffness", 0.0)};
 }
 
 sim::Excitation excitation(const Json& section) {
@@ -101,6 +104,32 @@ std::vector<friction::Law> friction_of(const Json& section) {
   return result;
 }
 
+/// What the laws warn of.
+std::vector<std::string> law_warnings(const Json& section) {
+  std::vector<std::string> result;
+  for (const Json& item : section.is_array() ? section : Json::array({section})) {
+    const friction::LawEntry* entry = friction::find_law(item.at("law").get<std::string>());
+    if (entry->warnings == nullptr) continue;
+    for (const std::string& warning : entry->warnings(law_values(entry->parameters, item)))
+      result.push_back(std::string(entry->name) + ": " + warning);
+  }
+  return result;
+}
+
+sim::Solver solver(const Json& numerics) {
+  static const std::map<std::string, sim::SolverKind> kinds = {{"automatic", sim::SolverKind::automatic},
+                                                               {"explicit", sim::SolverKind::explicit_steps},
+                                                               {"implicit", sim::SolverKind::implicit_steps}};
+  return {kinds.at(numerics.at("solver").get<std::string>()),
+          number_or(numerics, "tolerance", sim::Solver{}.tolerance)};
+}
+
+/// Closure of steady states: that of the engine's own accuracy.
+double tolerance_of(const Json& values, const sim::Model& model) {
+  const double usual = sim::is_exact(model) ? sim::SteadyStateOptions{}.tolerance : model.solver.tolerance;
+  return values.contains("numerics") ? number_or(values.at("numerics"), "tolerance", usual) : usual;
+}
+
 sim::Model model(const Json& values) {
   sim::Model result;
   const Json& system = values.at("system");
@@ -109,6 +138,7 @@ sim::Model model(const Json& values) {
   if (system.contains("friction")) result.friction = friction_of(system.at("friction"));
   if (values.contains("initial"))
     result.initial = {number(values.at("initial").at("position")), number(values.at("initial").at("velocity"))};
+  if (values.contains("numerics")) result.solver = solver(values.at("numerics"));
   return result;
 }
 
@@ -218,8 +248,9 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   for (const Override& item : options.set) scenario.overrides.push_back(item.assignment);
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
   if (values.contains("system")) scenario.model = model(values);
-  scenario.tolerance = values.contains("numerics") ? number(values.at("numerics").at("tolerance"))
-                                                   : sim::SteadyStateOptions{}.tolerance;
+  if (values.contains("system") && values.at("system").contains("friction"))
+    scenario.warnings = law_warnings(values.at("system").at("friction"));
+  scenario.tolerance = tolerance_of(values, scenario.model);
   scenario.analysis_name = values.at("analysis").at("type").get<std::string>();
   scenario.analysis = analysis(values.at("analysis"), scenario.model, std::move(data));
   scenario.expect = expectations(values, document, reading);

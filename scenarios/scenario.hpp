@@ -85,6 +85,7 @@ struct Scenario {
   Analysis analysis;
   std::vector<Expectation> expect;
   double tolerance = 0.0;
+  std::vector<std::string> warnings;  ///< of the laws, about their parameters
 
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario
   std::string file_sha256;  ///< of the bytes of the file

@@ -125,17 +125,8 @@ void ExactEngine::PhaseInterval::form() const {
   core::accumulate(basis, force.velocity, form_.v, form_.force);
 }
 
-ExactEngine::ExactEngine(const Model& model)
-    : model_(model), drive_(model.oscillator, model.excitation), interval_(std::make_unique<PhaseInterval>(*this)) {
-  for (const friction::Law& law : model_.friction) {
-    assert(law.is_affine());
-    holds_mass_.push_back(law.holds_mass());
-    modal_.push_back(law.is_modal());
-    can_rest_ = can_rest_ || law.holds_mass();
-    some_modal_ = some_modal_ || law.is_modal();
-    const friction::Memory memory = law.start({.x = model.initial.position, .v = model.initial.velocity});
-    scheduled_ = scheduled_ || std::isfinite(law.next_change(memory));
-  }
+ExactEngine::ExactEngine(const Model& model) : Engine(model), interval_(std::make_unique<PhaseInterval>(*this)) {
+  assert(std::ranges::all_of(model_.friction, [](const friction::Law& law) { return law.is_affine(); }));
   law_guard_counts_.resize(model_.friction.size());
   forcing_.phasors.resize(drive_.frequencies().size());
   start(model.initial.position, model.initial.velocity);
@@ -143,58 +134,10 @@ ExactEngine::ExactEngine(const Model& model)
 
 ExactEngine::~ExactEngine() = default;
 
-void ExactEngine::start(double x, double v) {
-  local_time_ = 0.0;
-  cycle_ = 0;
-  x_ = x;
-  v_ = v;
-  memories_.clear();
-  for (const friction::Law& law : model_.friction) memories_.push_back(law.start(now()));
-  place(x, v);
-}
-
-void ExactEngine::restart(double x, double v) {
-  local_time_ = 0.0;
-  cycle_ = 0;
-  place(x, v);
-}
-
-void ExactEngine::restart(const State& state) {
-  local_time_ = 0.0;
-  cycle_ = 0;
-  x_ = state.x;
-  v_ = state.v;
-  direction_ = state.direction;
-  memories_ = state.memories;
-  begin_motion();
-}
-
-void ExactEngine::place(double x, double v) {
-  x_ = x;
-  v_ = v;
-  begin_motion();
-  if (v_ != 0.0) {
-    change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
-  } else {
-    settle();
-  }
-}
-
 void ExactEngine::begin_motion() {
   drive_.reset(0.0);
-  repeats_ = 0;
   instant_scale_ = 0.0;
-  outcome_ = {};
   if (tracking_) reset_sensitivity();
-}
-
-void ExactEngine::track_sensitivity(bool track) {
-  tracking_ = track;
-  if (tracking_) reset_sensitivity();
-}
-
-double ExactEngine::time() const {
-  return cycle_ == 0 ? local_time_ : static_cast<double>(cycle_) * drive_.period() + local_time_;
 }
 
 /// Decides what happens at v = 0: rest, or slip in the direction of the pull.
@@ -228,17 +171,7 @@ Direction ExactEngine::settle_closely(double tolerance) {
   return direction;
 }
 
-void ExactEngine::change_direction(Direction direction) {
-  direction_ = direction;
-  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (modal_[i]) jump(i, {});
-  }
-}
-
-void ExactEngine::jump(std::size_t law, friction::Trigger trigger) {
-  if (!tracking_) return model_.friction[law].jump(memories_[law], trigger, now(), direction_);
-  const friction::Memory before = memories_[law];
-  model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+void ExactEngine::jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) {
   sensitivity_.jump(model_.friction[law], law, before, memories_[law], trigger, now(), direction_);
 }
 
@@ -261,7 +194,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
   if (direction_ != Direction::rest) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
     const bool turns =
-        crossing_.found && owners_[static_cast<std::size_t>(crossing_.guard)].kind == Owner::Kind::velocity;
+        crossing_.found && watches_[static_cast<std::size_t>(crossing_.guard)].owner.kind == Owner::Kind::velocity;
     v_ = turns ? 0.0 : friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
   }
   local_time_ += s;
@@ -279,38 +212,6 @@ void ExactEngine::advance(double s, bool to_period_end) {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (modal_[i]) model_.friction[i].advance(memories_[i], before, now(), s, direction_);
   }
-}
-
-EventKind ExactEngine::act(const Owner& owner) {
-  switch (owner.kind) {
-    case Owner::Kind::velocity:
-      settle();
-      return direction_ == Direction::rest ? EventKind::stop : EventKind::reversal;
-    case Owner::Kind::limit:
-      change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
-      return EventKind::release;
-    case Owner::Kind::law:
-      break;
-  }
-  jump(static_cast<std::size_t>(owner.law), {owner.guard});
-  return EventKind::switching;
-}
-
-/// The time at which some law changes its mode whatever the motion does [s].
-double ExactEngine::next_schedule() const {
-  double next = std::numeric_limits<double>::infinity();
-  if (!scheduled_) return next;
-  for (std::size_t i = 0; i < model_.friction.size(); ++i)
-    next = std::min(next, model_.friction[i].next_change(memories_[i]));
-  return next;
-}
-
-/// Every law whose time has come; a mass at rest is then weighed anew.
-void ExactEngine::act_on_schedule(double due) {
-  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});
-  }
-  if (direction_ == Direction::rest) settle();
 }
 
 double ExactEngine::start_acceleration() const {
@@ -337,7 +238,7 @@ void ExactEngine::track_motion(const friction::Instant& begin, double s) {
     sensitivity_.slip(mode_->propagator(crossing_.values), responses_);
   }
   if (!crossing_.found || sensitivity_.at_crossing()) return;
-  const Owner& owner = owners_[static_cast<std::size_t>(crossing_.guard)];
+  const Owner& owner = watches_[static_cast<std::size_t>(crossing_.guard)].owner;
   if (owner.kind == Owner::Kind::limit) sensitivity_.perturb_limit(-owner.law, total_->decays, s);
   if (owner.kind == Owner::Kind::law) {
     sensitivity_.perturb_guard(model_.friction, memories_, begin, direction_, static_cast<std::size_t>(owner.law),
@@ -360,23 +261,18 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
               ? 0.0
               : friction::sign(direction_) * core::evaluate(mode_->basis(), speed_rate(), crossing_.values)};
   if (crossing_.found) {
-    const Owner& owner = owners_[static_cast<std::size_t>(crossing_.guard)];
+    const Watch& watch = watches_[static_cast<std::size_t>(crossing_.guard)];
     const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
-    crossing.by_position = owner.by_position;
-    crossing.by_velocity = owner.by_velocity;
-    crossing.slope = core::evaluate(mode_->basis(), guard.slope, crossing_.values);
+    crossing.by_position = watch.by_position;
+    crossing.by_velocity = watch.by_velocity;
+    // A guard that was violated from the start was not crossed: no perturbation delays it.
+    const bool forced =
+        crossing_.s == 0.0 && core::at_start(mode_->basis(), guard.value) < -clearly * guard.amplitude;
+    crossing.slope = forced ? 0.0 : core::evaluate(mode_->basis(), guard.slope, crossing_.values);
   }
   sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);
 }
 
-const Interval* ExactEngine::next(double horizon) {
-  const double begin = cycle_ == 0 ? 0.0 : static_cast<double>(cycle_) * drive_.period();
-  return step(std::min((horizon - begin) - local_time_, drive_.period()), false);
-}
-
-const Interval* ExactEngine::next_in_period() { return step(drive_.period() - local_time_, true); }
-
-/// One phase, at most `left` long; `to_period_end`: `left` ends exactly at a period boundary.
 const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (!outcome_.ok() || !(left > 0.0)) return nullptr;
   const friction::Instant begin = now();
@@ -391,12 +287,8 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
     core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, left, crossing_, grazings_, count_);
   }
   const core::Crossing& end = crossing_;
-  repeats_ = at_once || left == 0.0 ? repeats_ + 1 : 0;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
-  if (repeats_ > max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) {
-    outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
-    return nullptr;
-  }
+  if (!comes_to_an_end(at_once || left == 0.0)) return nullptr;
   describe_phase(begin.t);
   const bool ends = end.found || by_schedule;
   if (tracking_) track_motion(begin, end.s);
@@ -407,7 +299,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
     return nullptr;
   }
   if (end.found) {
-    interval_->ending = act(owners_[static_cast<std::size_t>(end.guard)]);
+    interval_->ending = act(watches_[static_cast<std::size_t>(end.guard)].owner);
   } else if (by_schedule) {
     act_on_schedule(due);
     interval_->ending = EventKind::switching;

@@ -135,12 +135,12 @@ double ExactEngine::pull_now() const {
   return pull;
 }
 
-core::Guard& ExactEngine::new_guard(const Owner& owner) {
+core::Guard& ExactEngine::new_guard(const Watch& watch) {
   if (guard_count_ == guards_.size()) {
     guards_.emplace_back();
-    owners_.emplace_back();
+    watches_.emplace_back();
   }
-  owners_[guard_count_] = owner;
+  watches_[guard_count_] = watch;
   guards_[guard_count_].known_zeros = 0;
   return guards_[guard_count_++];
 }
@@ -155,8 +155,7 @@ void ExactEngine::lay_rest() {
   if (!can_rest_) return;
   const double stiffness = model_.oscillator.stiffness + total_->force.position;
   for (const int direction : {1, -1}) {
-    core::Guard& guard = new_guard({.kind = Owner::Kind::limit,
-                                    .law = direction,
+    core::Guard& guard = new_guard({.owner = {.kind = Owner::Kind::limit, .law = direction},
                                     .by_position = direction * stiffness,
                                     .tolerance = rounding * force_scale_});
     limit_guard(pull, direction, guard.value);
@@ -181,7 +180,7 @@ void ExactEngine::lay_slip() {
   force_scale_ = force_scale();
   const double sign = friction::sign(direction_);
   core::Guard& guard =
-      new_guard({.kind = Owner::Kind::velocity, .by_velocity = sign, .tolerance = velocity_rounding()});
+      new_guard({.owner = {.kind = Owner::Kind::velocity}, .by_velocity = sign, .tolerance = velocity_rounding()});
   core::differentiate(basis, motion_, guard.value);
   if (sign < 0.0) core::assign(basis, -1.0, guard.value, guard.value);
   core::differentiate(basis, guard.value, guard.slope);
@@ -194,15 +193,14 @@ void ExactEngine::add_law_guards() {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     for (std::size_t j = 0; j < law_guard_counts_[i]; ++j) {
       const Affine& g = law_guards_[next++];
-      core::Guard& guard = new_guard({.kind = Owner::Kind::law,
-                                      .law = static_cast<int>(i),
-                                      .guard = static_cast<int>(j),
-                                      .by_position = g.position,
-                                      .by_velocity = g.velocity,
-                                      .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
-                                                               std::abs(g.velocity * v_) + g.cancelled)});
+      core::Guard& guard =
+          new_guard({.owner = {.kind = Owner::Kind::law, .law = static_cast<int>(i), .guard = static_cast<int>(j)},
+                     .by_position = g.position,
+                     .by_velocity = g.velocity,
+                     .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
+                                              std::abs(g.velocity * v_) + g.cancelled)});
       if (direction_ != Direction::rest) {
-        owners_[guard_count_ - 1].tolerance +=
+        watches_[guard_count_ - 1].tolerance +=
             velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
       }
       ModeForcing own{
@@ -246,11 +244,11 @@ bool ExactEngine::find_violated() {
   std::size_t i = 0;
   while (i < guard_count_) {
     core::Guard& guard = guards_[i];
-    const Owner& owner = owners_[i++];
+    const Watch& watch = watches_[i++];
     const double tolerance =
-        owner.tolerance + std::abs(owner.by_position) * x_rounding_ + std::abs(owner.by_velocity) * v_rounding_;
+        watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
-    const bool from_rest = owner.kind == Owner::Kind::velocity && v_ == 0.0;
+    const bool from_rest = watch.owner.kind == Owner::Kind::velocity && v_ == 0.0;
     const core::Germ germ = from_rest ? slip_germ(guard, tolerance) : core::germ(basis, guard, tolerance);
     if (germ.sign < 0) {
       crossing_.found = true;
@@ -270,7 +268,7 @@ bool ExactEngine::find_violated() {
 void ExactEngine::drop_guard(std::size_t i) {
   --guard_count_;
   std::swap(guards_[i], guards_[guard_count_]);
-  std::swap(owners_[i], owners_[guard_count_]);
+  std::swap(watches_[i], watches_[guard_count_]);
 }
 
 }  // namespace dualdamp::sim

@@ -14,11 +14,25 @@ struct InitialState {
   double velocity = 0.0;  ///< m/s
 };
 
+/// Who integrates the equation of motion.
+enum class SolverKind {
+  automatic,  ///< the exact engine where every law is affine; else explicit steps, implicit ones once it is stiff
+  explicit_steps,
+  implicit_steps,
+};
+
+struct Solver {
+  SolverKind kind = SolverKind::automatic;
+  /// Local error of the smooth engine's steps, relative to the size of the motion.
+  double tolerance = 1e-11;
+};
+
 struct Model {
   Oscillator oscillator;
   Excitation excitation;
   std::vector<friction::Law> friction;  ///< forces add
   InitialState initial;
+  Solver solver{};
 };
 
 }  // namespace dualdamp::sim

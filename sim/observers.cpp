@@ -179,7 +179,8 @@ void Extremes::observe(const Interval& interval) {
 
 double EnergyAudit::stored(const Sample& sample) const {
   const double stretch = sample.y - sample.x;
-  return 0.5 * (oscillator_.mass * sample.v * sample.v + oscillator_.stiffness * stretch * stretch);
+  const double hardening = 0.5 * oscillator_.cubic_stiffness * stretch * stretch;
+  return 0.5 * (oscillator_.mass * sample.v * sample.v + (oscillator_.stiffness + hardening) * stretch * stretch);
 }
 
 void EnergyAudit::observe(const Interval& interval) {
@@ -198,8 +199,9 @@ void EnergyAudit::add_by_quadrature(const Interval& interval) {
   const bool damper_moves = oscillator_.damper_to == DamperTo::base;
   quadrature(interval, [&](const Sample& s, double weight) {
     const double damper_speed = damper_moves ? s.v - s.y_rate : s.v;
-    const double base_force =
-        oscillator_.stiffness * (s.y - s.x) - (damper_moves ? oscillator_.damping * damper_speed : 0.0);
+    const double stretch = s.y - s.x;
+    const double base_force = (oscillator_.stiffness + oscillator_.cubic_stiffness * stretch * stretch) * stretch -
+                              (damper_moves ? oscillator_.damping * damper_speed : 0.0);
     input_.add(weight * (base_force * s.y_rate + s.external * s.v));
     friction_.add(weight * s.force * s.v);
     viscous_.add(weight * oscillator_.damping * damper_speed * damper_speed);

@@ -31,7 +31,7 @@ void join_across_boundary(std::vector<Stick>& sticks) {
 }  // namespace
 
 void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result) {
-  ExactEngine& engine = map.engine();
+  Engine& engine = map.engine();
   engine.track_sensitivity(false);
   engine.restart(result.start);
   Extremes extremes;

@@ -48,28 +48,28 @@ double Passage::free_radius() const {
 
 Passage PeriodMap::pass(Derivative derivative) {
   Passage passage;
-  passage.begin = engine_.state();
-  passage.size = std::abs(engine_.position());
-  engine_.track_sensitivity(derivative == Derivative::with);
-  const long cycle = engine_.cycle();
-  while (engine_.cycle() == cycle) {
-    const Interval* interval = engine_.next_in_period();
+  passage.begin = engine_->state();
+  passage.size = std::abs(engine_->position());
+  engine_->track_sensitivity(derivative == Derivative::with);
+  const long cycle = engine_->cycle();
+  while (engine_->cycle() == cycle) {
+    const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
     passage.moves = passage.moves || interval->direction != Direction::rest;
-    passage.size = std::max(passage.size, std::abs(engine_.position()));
+    passage.size = std::max(passage.size, std::abs(engine_->position()));
   }
-  passage.end = engine_.state();
-  if (derivative == Derivative::with) passage.derivative = engine_.sensitivity();
+  passage.end = engine_->state();
+  if (derivative == Derivative::with) passage.derivative = engine_->sensitivity();
   return passage;
 }
 
 Passage PeriodMap::from_start(double x, double v, Derivative derivative) {
-  engine_.start(x, v);
+  engine_->start(x, v);
   return pass(derivative);
 }
 
 Passage PeriodMap::from(const State& state, Derivative derivative) {
-  engine_.restart(state);
+  engine_->restart(state);
   return pass(derivative);
 }
 

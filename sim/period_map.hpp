@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/outcome.hpp"
-#include "sim/exact_engine.hpp"
+#include "sim/engine.hpp"
 #include "sim/model.hpp"
 #include "sim/state.hpp"
 
@@ -41,7 +41,7 @@ enum class Derivative { without, with };
 
 class PeriodMap {
  public:
-  explicit PeriodMap(const Model& model) : engine_(model) {}
+  explicit PeriodMap(const Model& model) : engine_(make_engine(model)) {}
 
   /// From the model's initial state, laws at their start.
   [[nodiscard]] Passage from_start(double x, double v, Derivative derivative);
@@ -49,13 +49,13 @@ class PeriodMap {
   /// From where the last one ended.
   [[nodiscard]] Passage next(Derivative derivative);
 
-  [[nodiscard]] const core::Outcome& outcome() const { return engine_.outcome(); }
-  [[nodiscard]] ExactEngine& engine() { return engine_; }
+  [[nodiscard]] const core::Outcome& outcome() const { return engine_->outcome(); }
+  [[nodiscard]] Engine& engine() { return *engine_; }
 
  private:
   Passage pass(Derivative derivative);
 
-  ExactEngine engine_;
+  std::unique_ptr<Engine> engine_;
 };
 
 [[nodiscard]] Eigen::VectorXd coordinates(const State& state);

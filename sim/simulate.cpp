@@ -3,14 +3,15 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/exact_engine.hpp"
+#include "sim/engine.hpp"
 #include "sim/observers.hpp"
 
 namespace dualdamp::sim {
 
 History simulate(const Model& model, const SimulateOptions& options) {
   History history;
-  ExactEngine engine(model);
+  const std::unique_ptr<Engine> owned = make_engine(model);
+  Engine& engine = *owned;
   Sampler sampler(options.sample_rate);
   EnergyAudit energy(model.oscillator);
   while (const Interval* interval = engine.next(options.duration)) {
@@ -40,17 +41,21 @@ History simulate(const Model& model, const SimulateOptions& options) {
 
 FreeDecay free_decay(const Model& model, int peaks) {
   FreeDecay decay;
-  ExactEngine engine(model);
+  const std::unique_ptr<Engine> owned = make_engine(model);
+  Engine& engine = *owned;
   if (engine.velocity() == 0.0) decay.peaks.push_back({0.0, engine.position()});
   // A motion that creeps without turning (strong damping) has no further extreme; this many natural periods tell.
   const double patience = 1e4 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
+  double deadline = patience;
   while (static_cast<int>(decay.peaks.size()) < peaks) {
     if (engine.direction() == friction::Direction::rest) {
       decay.came_to_rest = true;
       break;
     }
-    const Interval* interval = engine.next(engine.time() + patience);
-    if (interval == nullptr || !interval->ending) break;
+    const Interval* interval = engine.next(deadline);
+    if (interval == nullptr) break;
+    if (!interval->ending) continue;
+    deadline = interval->end() + patience;
     if (interval->ending == EventKind::reversal || interval->ending == EventKind::stop) {
       decay.peaks.push_back({interval->end(), engine.position()});
     }

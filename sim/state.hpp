@@ -1,17 +1,22 @@
 #pragma once
 /// All that the motion after an instant depends on, apart from the phase of the excitation.
 
+#include <memory>
 #include <vector>
 
 #include "friction_models/law.hpp"
 
 namespace dualdamp::sim {
 
+class VelocityHistory;
+
 struct State {
   double x = 0.0;  ///< m
   double v = 0.0;  ///< m/s
   friction::Direction direction = friction::Direction::rest;
   std::vector<friction::Memory> memories{};  ///< of each law
+  /// The velocity before, where a law sees it; else none.
+  std::shared_ptr<const VelocityHistory> past{};
 };
 
 /// Both lie in the same mode, so that their difference is one of continuous states.

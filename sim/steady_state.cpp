@@ -38,6 +38,9 @@ class OrbitFinder {
  public:
   OrbitFinder(const Model& model, const SteadyStateOptions& options)
       : model_(model), options_(options), omega_(model.excitation.frequency), map_(model) {
+    const double accuracy = map_.engine().accuracy();
+    options_.tolerance = std::max(options_.tolerance, accuracy);
+    rounding_closure_ = std::max(rounding_closure, 10.0 * accuracy);
     for (const friction::Law& law : model.friction) {
       const friction::Memory memory = law.start({});
       const double slipping = std::abs(law.force(memory, {}, Direction::forward));
@@ -59,6 +62,7 @@ class OrbitFinder {
   SteadyStateOptions options_;
   double omega_;
   PeriodMap map_;
+  double rounding_closure_ = 0.0;
   double first_half_ = 0.0;  ///< largest |x| in either half of the periods followed [m]
   double second_half_ = 0.0;
   bool may_coexist_ = false;  ///< static above kinetic, or laws that remember: more than one orbit may attract
@@ -96,7 +100,7 @@ bool OrbitFinder::newton(Passage& passage, SteadyState& result) {
         continue;
       }
     }
-    if (closure <= rounding_closure) return true;
+    if (closure <= rounding_closure_) return true;
     passage = map_.from(fallback, Derivative::with);
     ++result.transient_periods;
   }
@@ -143,8 +147,11 @@ void OrbitFinder::find(SteadyState& result) {
   result.transient_periods = 2;
   // Where orbits may coexist Newton could land on another one than the motion approaches.
   if (may_coexist_) follow(passage, near_orbit, periods_to_near_orbit, result);
-  bool found = newton(passage, result);
-  const bool attracting = found && passage.radius() < 1.0 - neutral_margin;
+  // A motion that depends on its past has no state that Newton's method could change: it is followed.
+  const bool has_past = map_.engine().has_past();
+  bool found =
+      has_past ? follow(passage, options_.tolerance, options_.max_periods, result) : newton(passage, result);
+  const bool attracting = found && (has_past || passage.radius() < 1.0 - neutral_margin);
   if (!attracting && map_.outcome().ok()) {
     found = follow_to_orbit(passage, result);
     if (found && passage.moves && passage.radius() >= 1.0 - neutral_margin) {
@@ -159,7 +166,7 @@ void OrbitFinder::find(SteadyState& result) {
     result.outcome = failure(passage);
   }
   result.start = passage.begin;
-  if (found) result.multipliers = passage.multipliers();
+  if (found && !has_past) result.multipliers = passage.multipliers();
 }
 
 }  // namespace

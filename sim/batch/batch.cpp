@@ -258,6 +258,7 @@ std::optional<Levels> coulomb_levels(const friction::Law& law) {
 
 std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
   const Excitation& drive = model.excitation;
+  if (!is_exact(model)) return std::nullopt;
   if (!drive.is_harmonic() || !drive.harmonics.empty() || drive.offset != 0.0) return std::nullopt;
   Levels sum;
   for (const friction::Law& law : model.friction) {
