@@ -1,28 +1,14 @@
 #pragma once
 /// Loops over many independent items on several threads.
 
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
 #include <cstddef>
+#include <functional>
 
 namespace dualdamp::sim {
 
 /// Calls work(first, count) for parts of `grain` items, the last one shorter, that cover `size` items; `threads` at
 /// most, 0: all cores.
-template <class Work>
-void in_parts(std::size_t size, std::size_t grain, int threads, const Work& work) {
-  namespace tbb = oneapi::tbb;
-  const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, (size + grain - 1) / grain, [&](std::size_t part) {
-      const std::size_t first = part * grain;
-      work(first, std::min(grain, size - first));
-    });
-  });
-}
+void in_parts(std::size_t size, std::size_t grain, int threads,
+              const std::function<void(std::size_t first, std::size_t count)>& work);
 
 }  // namespace dualdamp::sim

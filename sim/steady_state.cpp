@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "sim/batch/batch.hpp"
 #include "sim/orbit_account.hpp"
 #include "sim/period_map.hpp"
 
@@ -49,10 +51,14 @@ class OrbitFinder {
   }
 
   void find(SteadyState& result);
-  [[nodiscard]] const core::SearchCount& count() { return map_.engine().count(); }
+  [[nodiscard]] core::SearchCount count() {
+    core::SearchCount sum = searched_;
+    return sum += map_.engine().count();
+  }
   void describe(SteadyState& result) { account_for_orbit(model_, map_, options_.full_account, result); }
 
  private:
+  bool begin_on_sliding_orbit(Passage& passage);
   bool newton(Passage& passage, SteadyState& result);
   bool follow_to_orbit(Passage& passage, SteadyState& result);
   bool follow(Passage& passage, double closure, int periods, SteadyState& result);
@@ -62,6 +68,7 @@ class OrbitFinder {
   SteadyStateOptions options_;
   double omega_;
   PeriodMap map_;
+  core::SearchCount searched_;  ///< beside those of the engine
   double rounding_closure_ = 0.0;
   double first_half_ = 0.0;  ///< largest |x| in either half of the periods followed [m]
   double second_half_ = 0.0;
@@ -141,12 +148,29 @@ bool OrbitFinder::follow_to_orbit(Passage& passage, SteadyState& result) {
   return found;
 }
 
+/// An orbit without sticking that attracts every motion is found without following any; Newton's method then has
+/// nothing left to do.
+bool OrbitFinder::begin_on_sliding_orbit(Passage& passage) {
+  const std::optional<OscillatorBatch> batch = may_coexist_ ? std::nullopt : batch_of(model_, 1);
+  if (!batch) return false;
+  const std::optional<SlidingOrbit> orbit = sliding_orbits(*batch).front();
+  if (!orbit) return false;
+  const std::optional<State> start = start_of(*orbit, model_);
+  if (!start) return false;
+  passage.begin = *start;
+  searched_ += orbit->certificate;
+  return true;
+}
+
 void OrbitFinder::find(SteadyState& result) {
-  Passage passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
-  passage = map_.next(Derivative::without);
-  result.transient_periods = 2;
-  // Where orbits may coexist Newton could land on another one than the motion approaches.
-  if (may_coexist_) follow(passage, near_orbit, periods_to_near_orbit, result);
+  Passage passage;
+  if (!begin_on_sliding_orbit(passage)) {
+    passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
+    passage = map_.next(Derivative::without);
+    result.transient_periods = 2;
+    // Where orbits may coexist Newton could land on another one than the motion approaches.
+    if (may_coexist_) follow(passage, near_orbit, periods_to_near_orbit, result);
+  }
   // A motion that depends on its past has no state that Newton's method could change: it is followed.
   const bool has_past = map_.engine().has_past();
   bool found =

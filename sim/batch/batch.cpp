@@ -5,11 +5,14 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <span>
 
 #include "friction_models/coulomb.hpp"
 #include "sim/batch/kernels.hpp"
+#include "sim/drive.hpp"
 #include "sim/exact_engine.hpp"
+#include "sim/linear_mode.hpp"
 #include "sim/parallel.hpp"
 #include "sim/steady_state.hpp"
 
@@ -136,6 +139,8 @@ class OrbitColumns {
   [[nodiscard]] batch::Orbits all() {
     return {.peak = peak_.data(),
             .lag = lag_.data(),
+            .turned_re = turned_re_.data(),
+            .turned_im = turned_im_.data(),
             .radius = radius_.data(),
             .searches = searches_.data(),
             .panels = panels_.data(),
@@ -147,13 +152,14 @@ class OrbitColumns {
     return SlidingOrbit{.peak = peak_[i],
                         .lag = lag_[i],
                         .radius = radius_[i],
+                        .drive_at_peak = {turned_re_[i], turned_im_[i]},
                         .certificate = {.searches = std::lround(searches_[i]),
                                         .panels = std::lround(panels_[i]),
                                         .splits = std::lround(splits_[i])}};
   }
 
  private:
-  std::array<double, chunk> peak_, lag_, radius_, searches_, panels_, splits_, certified_;
+  std::array<double, chunk> peak_, lag_, turned_re_, turned_im_, radius_, searches_, panels_, splits_, certified_;
 };
 
 /// Of the oscillators from `first` on, at most a chunk of them.
@@ -276,6 +282,36 @@ std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
                          .static_level = column(sum.static_level),
                          .amplitude = column(drive.amplitude),
                          .frequency = column(drive.frequency)};
+}
+
+std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model) {
+  Excitation from_peak = model.excitation;
+  from_peak.phase = std::arg(orbit.drive_at_peak);
+  const double turn = 2.0 * std::numbers::pi;
+  const double angle = model.excitation.phase - from_peak.phase;
+  // The half cycle from the trough on is the mirror image of that from the peak on.
+  const double after_peak = angle - turn * std::floor(angle / turn);
+  const double mirror = after_peak < std::numbers::pi ? 1.0 : -1.0;
+  const double s = (after_peak - (mirror > 0.0 ? 0.0 : std::numbers::pi)) / model.excitation.frequency;
+
+  const Oscillator& o = model.oscillator;
+  const Drive drive(o, from_peak);
+  const LinearMode mode(o.mass, o.damping, o.stiffness, drive.frequencies(), false);
+  ModeForcing forcing{.phasors = {drive.force_phasor(0)}};
+  for (const friction::Law& law : model.friction)
+    forcing.constant -= law.affine_force({}, {}, friction::Direction::backward).constant;
+  core::ModeFunction x;
+  core::ModeFunction v;
+  mode.solve(forcing, orbit.peak, 0.0, x);
+  core::differentiate(mode.basis(), x, v);
+  core::ExponentialBasis::Values values;
+  mode.basis().evaluate(s, values);
+  const double speed = -core::evaluate(mode.basis(), v, values);
+  if (!(speed > 0.0)) return std::nullopt;
+  return State{.x = mirror * core::evaluate(mode.basis(), x, values),
+               .v = -mirror * speed,
+               .direction = mirror > 0.0 ? friction::Direction::backward : friction::Direction::forward,
+               .memories = std::vector<friction::Memory>(model.friction.size())};
 }
 
 std::vector<int> batch_widths() {

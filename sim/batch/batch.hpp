@@ -17,6 +17,7 @@
 /// Cost on one core with AVX-512: about 0.08 us for a forcing period, 0.1 us for a steady state; tens of us where
 /// the exact engine takes over.
 
+#include <complex>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -26,6 +27,7 @@
 #include "sim/excitation.hpp"
 #include "sim/model.hpp"
 #include "sim/oscillator.hpp"
+#include "sim/state.hpp"
 
 namespace dualdamp::sim {
 
@@ -58,10 +60,11 @@ struct BatchOptions {
 
 /// A symmetric periodic orbit without sticking that attracts every motion.
 struct SlidingOrbit {
-  double peak = 0.0;              ///< max x, -min x [m]
-  double lag = 0.0;               ///< of x's fundamental behind the drive [rad], in [0, 2 pi)
-  double radius = 0.0;            ///< largest modulus of a Floquet multiplier of the full period
-  core::SearchCount certificate;  ///< of the half cycles on the way to the orbit and on it
+  double peak = 0.0;                         ///< max x, -min x [m]
+  double lag = 0.0;                          ///< of x's fundamental behind the drive [rad], in [0, 2 pi)
+  double radius = 0.0;                       ///< largest modulus of a Floquet multiplier of the full period
+  std::complex<double> drive_at_peak = 1.0;  ///< e^{i angle of the drive} when x is largest
+  core::SearchCount certificate;             ///< of the half cycles on the way to the orbit and on it
 };
 
 /// Relative closure of a SlidingOrbit.
@@ -70,6 +73,9 @@ inline constexpr double sliding_closure = 1e-14;
 /// The orbits that packs find, on this thread and without the exact engine: each by Newton's method on the
 /// half-period map and certified by that map (`sim/batch/find_orbits.hpp`). `width` as in BatchOptions.
 [[nodiscard]] std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width = 0);
+
+/// Where the orbit of this model is at t = 0; nothing where it turns just then.
+[[nodiscard]] std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model);
 
 /// Steady states, one entry for each oscillator; where the outcome is not `done` its numbers mean nothing.
 struct BatchSteadyStates {

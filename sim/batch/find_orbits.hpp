@@ -180,12 +180,16 @@ void find_orbits(const Oscillators& all, const Orbits& orbits) {
     Vector peak = splat<P>(0.0);
     Vector lag = peak;
     Vector radius = peak;
+    Vector turned_re = peak;
+    Vector turned_im = peak;
     Mask closed = orbit.alive & !orbit.alive;
     for (int i = 0; i < most_newton_steps && P::any(orbit.alive); ++i) {
       orbit.apply_map(oscillation);
       const Mask now = orbit.closes();
       update<P>(peak, now, orbit.peak);
       update<P>(radius, now, orbit.radius());
+      update<P>(turned_re, now, orbit.turned.re);
+      update<P>(turned_im, now, orbit.turned.im);
       if (P::any(now)) update<P>(lag, now, fundamental_lag<P>(oscillation, orbit));
       closed = closed | now;
       orbit.alive = orbit.alive & !now;
@@ -194,6 +198,8 @@ void find_orbits(const Oscillators& all, const Orbits& orbits) {
     P::store(peak, orbits.peak + first);
     P::store(lag, orbits.lag + first);
     P::store(radius, orbits.radius + first);
+    P::store(turned_re, orbits.turned_re + first);
+    P::store(turned_im, orbits.turned_im + first);
     P::store(orbit.searches, orbits.searches + first);
     P::store(orbit.panels, orbits.panels + first);
     P::store(orbit.splits, orbits.splits + first);

@@ -31,6 +31,8 @@ struct Oscillators {
 struct Orbits {
   double* peak = nullptr;
   double* lag = nullptr;
+  double* turned_re = nullptr;  ///< e^{i angle of the drive at the peak}
+  double* turned_im = nullptr;
   double* radius = nullptr;
   double* searches = nullptr;  ///< core::SearchCount, of the half cycles tried
   double* panels = nullptr;
