@@ -15,6 +15,8 @@
 #include "friction_models/modifiers.hpp"
 #include "friction_models/reset_integrator.hpp"
 #include "friction_models/stribeck.hpp"
+#include "friction_models/viscous_power.hpp"
+#include "friction_models/viscous_saturating.hpp"
 
 namespace dualdamp::friction {
 
@@ -182,6 +184,28 @@ std::vector<LawEntry> make_list() {
          return {modified(Law(Stribeck(StribeckCurve(p))), p, {p.number("kinetic"), p.number("static")})};
        },
        .check = StribeckCurve::check_shape},
+      {.name = "viscous_power",
+       .summary = "force against the motion that goes with a power of speed: drag, films that thin under shear",
+       .equation = "F = coefficient (|v|/reference_velocity)^exponent sgn v",
+       .engine = EngineKind::smooth,
+       .sources = "ostwald1925, jacobsen1930",
+       .modifiers = {"drift", "fluctuation"},
+       .parameters = ViscousPower::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         const Law law(ViscousPower(p.number("coefficient"), p.number("reference_velocity"), p.number("exponent")));
+         return {modified(law, p)};
+       }},
+      {.name = "viscous_saturating",
+       .summary = "viscous friction that levels off with speed",
+       .equation = "F = coefficient v/(1 + |v|/saturation_velocity)",
+       .engine = EngineKind::smooth,
+       .sources = "cross1965",
+       .modifiers = {"drift", "fluctuation"},
+       .parameters = ViscousSaturating::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> {
+         const Law law(ViscousSaturating(p.number("coefficient"), p.number("saturation_velocity")));
+         return {modified(law, p)};
+       }},
   };
 }
 

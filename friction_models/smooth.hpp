@@ -17,6 +17,9 @@ namespace dualdamp::friction {
   return base < 0.0 && !is_even ? -modulus : modulus;
 }
 
+/// r/(1 + r) for r >= 0. Below zero the same formula, ended by its tangent at -1/2 before the pole at -1.
+[[nodiscard]] inline double saturated(double r) { return r > -0.5 ? r / (1.0 + r) : 4.0 * r + 1.0; }
+
 /// A force level to divide by: modifiers may take it to zero, where the rate must stay a number.
 [[nodiscard]] inline double divisor(double level, double nominal) { return std::max(level, 1e-9 * nominal); }
 
