@@ -27,11 +27,23 @@ double Passage::closure(double omega) const {
 }
 
 std::vector<std::complex<double>> Passage::multipliers() const {
+  if (derivative.rows() == 2 && derivative.cols() == 2) {
+    // Without law states there are two: a quadratic equation, without the cost of a general solver.
+    const double half_trace = 0.5 * (derivative(0, 0) + derivative(1, 1));
+    const double half_gap = 0.5 * (derivative(0, 0) - derivative(1, 1));
+    const std::complex<double> root =
+        std::sqrt(std::complex<double>(half_gap * half_gap + derivative(0, 1) * derivative(1, 0)));
+    return {half_trace + root, half_trace - root};
+  }
   const Eigen::VectorXcd values = derivative.eigenvalues();
   return {values.begin(), values.end()};
 }
 
-double Passage::radius() const { return derivative.eigenvalues().cwiseAbs().maxCoeff(); }
+double Passage::radius() const {
+  double largest = 0.0;
+  for (const std::complex<double>& value : multipliers()) largest = std::max(largest, std::abs(value));
+  return largest;
+}
 
 bool Passage::holds(Eigen::Index row) const {
   if (row < 2 || derivative.rows() != derivative.cols()) return false;
