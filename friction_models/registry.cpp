@@ -8,11 +8,14 @@
 #include "friction_models/coulomb.hpp"
 #include "friction_models/dahl.hpp"
 #include "friction_models/elasto_plastic.hpp"
+#include "friction_models/friction_lag.hpp"
 #include "friction_models/generalized_maxwell_slip.hpp"
 #include "friction_models/iwan.hpp"
 #include "friction_models/lugre.hpp"
 #include "friction_models/modified.hpp"
 #include "friction_models/modifiers.hpp"
+#include "friction_models/normal_vibration.hpp"
+#include "friction_models/rate_state.hpp"
 #include "friction_models/reset_integrator.hpp"
 #include "friction_models/stribeck.hpp"
 #include "friction_models/viscous_power.hpp"
@@ -31,6 +34,13 @@ std::vector<Law> make_iwan(const Values& p) {
   for (const auto& [stiffness, limit] : Iwan::elements(p))
     laws.push_back(modified(Law(ContactCompliance(limit, limit, stiffness, 0.0)), p));
   return laws;
+}
+
+std::vector<Law> make_friction_lag(const Values& p) {
+  const StribeckCurve curve(p);
+  const double lag = p.number("lag");
+  const Law law = p.flag("delay") ? Law(DelayedFriction(curve, lag)) : Law(FrictionLag(curve, lag));
+  return {modified(law, p, {p.number("kinetic"), p.number("static")})};
 }
 
 std::vector<LawEntry> make_list() {
@@ -120,6 +130,18 @@ std::vector<LawEntry> make_list() {
        },
        .check = ElastoPlastic::check,
        .warnings = Lugre::warnings},
+      {.name = "friction_lag",
+       .summary = "force against the motion at a level that follows the speed late",
+       .equation =
+           "slip: F = level sgn v;  rest: F = pull while |pull| <= level, level = g(|w|), w' = (v - w)/lag, or "
+           "with delay g(|v(t - lag)|), g as the level of stribeck",
+       .engine = EngineKind::smooth,
+       .states = "late velocity w; with delay the velocities of the last lag",
+       .sources = "rice1983, hess1990",
+       .modifiers = all_modifiers,
+       .parameters = FrictionLag::parameters(),
+       .make = make_friction_lag,
+       .check = StribeckCurve::check_shape},
       {.name = "generalized_maxwell_slip",
        .summary = "springs in parallel that slip one after the other at a level that falls with speed",
        .equation =
@@ -159,6 +181,28 @@ std::vector<LawEntry> make_list() {
          return {modified(Law(Lugre(p)), p, {p.number("kinetic"), p.number("static")})};
        },
        .warnings = Lugre::warnings},
+      {.name = "normal_vibration",
+       .summary = "Coulomb friction under a normal load that vibrates, lifted by slip",
+       .equation =
+           "F = mu N sgn v, N = weight (1 - y/h0)^2 while y < h0;  normal_mass y'' + d y' = N - weight + lift "
+           "|v|/(1 + |v|/lift_velocity);  rest: F = pull while |pull| <= mu_static N",
+       .engine = EngineKind::smooth,
+       .states = "separation y and its rate, and whether the contact is open",
+       .sources = "tolstoi1967, oden1985",
+       .modifiers = {"drift", "fluctuation"},
+       .parameters = NormalVibration::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> { return {modified(Law(NormalVibration(p)), p)}; },
+       .warnings = NormalVibration::warnings},
+      {.name = "rate_state",
+       .summary = "friction that grows with ln of speed at once and falls with it over a distance of slip",
+       .equation = "F = a normal_force asinh(v/(2 V0) exp((mu0 + b psi)/a));  aging: psi' = (V0/Dc) (exp(-psi) - "
+                   "|v|/V0);  slip: psi' = -(|v|/Dc) (ln(|v|/V0) + psi)",
+       .engine = EngineKind::smooth,
+       .states = "age psi of the contacts, ln",
+       .sources = "dieterich1979, ruina1983, rice1983, rice2001",
+       .modifiers = {"drift", "fluctuation"},
+       .parameters = RateState::parameters(),
+       .make = [](const Values& p) -> std::vector<Law> { return {modified(Law(RateState(p)), p)}; }},
       {.name = "reset_integrator",
        .summary = "bond that stretches, breaks and is dragged along (Haessig and Friedland)",
        .equation = "stick: z' = v, F = (1 + static_gain) stiffness z + damping v, |z| < z0 = kinetic/stiffness;  "

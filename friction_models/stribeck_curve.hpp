@@ -49,6 +49,8 @@ class StribeckCurve {
   [[nodiscard]] double static_level(const Instant& now) const { return now.limit_now(static_); }
   /// Nominal [N].
   [[nodiscard]] double kinetic() const { return kinetic_; }
+  /// m/s
+  [[nodiscard]] double velocity() const { return velocity_; }
 
  private:
   /// h(r)

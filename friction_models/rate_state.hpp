@@ -1,0 +1,57 @@
+#pragma once
+/// Rate and state: friction that answers a change of speed at once and, over a distance of slip, the other way.
+///
+///   F = a N asinh(v/(2 V0) exp((mu0 + b psi)/a))   [N]
+///   psi' = (V0/Dc) (exp(-psi) - |v|/V0)            aging: contacts grow with time, at rest too
+///   psi' = -(|v|/Dc) (ln(|v|/V0) + psi)            slip: they change with slip only
+///
+/// N = normal_force, Dc = slip_distance, V0 = reference_velocity; psi = ln(V0 theta/Dc) for the state theta of the
+/// papers, 0 at first: steady sliding at V0. asinh makes the logarithm odd and finite at v = 0; for v >> V0
+/// exp(-mu0/a), F = N (mu0 + a ln(v/V0) + b psi). Steady sliding, psi = -ln(|v|/V0): F = N (mu0 + (a - b)
+/// ln(v/V0)). With b > a friction falls with speed in the end, and slip driven at V through a spring becomes
+/// stick-slip below the stiffness N (b - a)/Dc (1 + m V^2/(N a Dc)), where a mass at rest creeps instead.
+///
+/// It never holds the mass: at rest it is a dashpot of a N/(2 V0) exp((mu0 + b psi)/a), which for a << mu0 is
+/// beyond all bounds. Measured for |v| far from 0; a motion that turns sees the regularisation.
+///
+/// Source: dieterich1979 (aging), ruina1983 (slip), rice1983 (stability), rice2001 (asinh) in `docs/refs.bib`.
+/// Smooth engine, implicit steps. Cost: an exponential, a logarithm and a root a call.
+
+#include <span>
+#include <vector>
+
+#include "friction_models/law.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+class RateState {
+ public:
+  enum class Evolution { aging, slip };
+
+  struct Contact {
+    double normal_force = 0.0;        ///< N >= 0
+    double mu0 = 0.0;                 ///< > 0
+    double a = 0.0;                   ///< > 0
+    double b = 0.0;                   ///< >= 0
+    double slip_distance = 0.0;       ///< m > 0
+    double reference_velocity = 0.0;  ///< m/s > 0
+    Evolution evolution = Evolution::aging;
+  };
+
+  static const std::vector<Parameter>& parameters();
+
+  explicit RateState(const Contact& contact) : contact_(contact) {}
+  /// From the parameters.
+  explicit RateState(const ParameterValues& values);
+
+  [[nodiscard]] Memory start(const Instant&) const { return {.state = {0.0}}; }
+  [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
+                               std::span<double> rates) const;
+  void scales(const Memory&, std::span<double> scales) const { scales[0] = 1.0; }
+
+ private:
+  Contact contact_;
+};
+
+}  // namespace dualdamp::friction
