@@ -67,7 +67,9 @@ Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now)
 void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, Direction direction,
                                       std::vector<Affine>& guards) const {
   if (std::abs(memory.mode) != slipping) {
-    const Affine force = affine_force(memory, now, direction);
+    Affine force = affine_force(memory, now, direction);
+    // Minus a limit of nearly its own slope over position little of it is left, but all of its rounding.
+    force.cancelled = std::abs(force.constant);
     guards.push_back(break_away(memory, now, 1) - force);
     guards.push_back(break_away(memory, now, -1) + force);
   } else if (slider_stops_by_itself(now) || is_left_behind(memory.mode, direction)) {

@@ -201,6 +201,16 @@ class ModifiedLaw final : public LawModel {
     return guards;
   }
 
+  /// How many limits a step leaves at zero; the others go there at a guard.
+  [[nodiscard]] int vanished_limits(const Course& course, const Instant& now) const {
+    if (modifiers_.slope >= 0.0) return course.vanished;
+    Course all = course;
+    all.vanished = 0;
+    const Instant unclamped = modify(all, now);
+    return static_cast<int>(
+        std::ranges::count_if(limits_, [&](double limit) { return unclamped.limit_now(limit) <= 0.0; }));
+  }
+
   void settle(Memory& inner, const Instant& now, Direction direction) const;
   void pass_kink(Memory& inner, Course& course, int guard, const Instant& now, Direction direction) const;
   void change_step(Memory& inner, Course& course, const Instant& now, Direction direction) const;
@@ -236,8 +246,10 @@ void ModifiedLaw::change_step(Memory& inner, Course& course, const Instant& now,
     const double draw = draws_.normal(static_cast<std::uint64_t>(++next.cell));
     next.level = correlation * course.level + std::sqrt(1.0 - correlation * correlation) * draw;
   }
+  next.vanished = vanished_limits(next, now);
   // What slides goes on sliding under a limit that falls.
-  if (fluctuation(next) > fluctuation(course)) law_.jump(inner, {Trigger::limit_change}, old, direction);
+  const bool looks_again = fluctuation(next) > fluctuation(course) || next.vanished != course.vanished;
+  if (looks_again) law_.jump(inner, {Trigger::limit_change}, old, direction);
   course = next;
   if (!is_gone(course)) settle(inner, modify(course, now), direction);
 }

@@ -1,5 +1,7 @@
 #include "friction_models/reset_integrator.hpp"
 
+#include <cmath>
+
 #include "friction_models/slider.hpp"
 
 namespace dualdamp::friction {
@@ -35,7 +37,9 @@ void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Di
                                     std::vector<Affine>& guards) const {
   const Affine limit = now.limit(kinetic_);
   if (memory.mode == 0) {
-    const Affine stretched{.constant = -stiffness_ * memory.state[0], .position = stiffness_};
+    // Minus a limit of nearly its own slope over position little of it is left, but all of its rounding.
+    const double held = stiffness_ * memory.state[0];
+    const Affine stretched{.constant = -held, .position = stiffness_, .cancelled = std::abs(held)};
     guards.push_back(limit - stretched);
     guards.push_back(limit + stretched);
   } else if (stops_by_itself(limit, stiffness_) || is_left_behind(memory.mode, direction)) {

@@ -176,14 +176,27 @@ void ExactEngine::jumped(std::size_t law, const friction::Memory& before, fricti
 }
 
 /// How far x and v may be off at the end of a phase: as the search has it (core/first_crossing.hpp), of amplitudes
-/// that may be far larger than those of the phase to come.
+/// that may be far larger than those of the phase to come; and when its guard reached zero.
 void ExactEngine::keep_rounding(double s) {
-  x_rounding_ = v_rounding_ = 0.0;
-  if (direction_ == Direction::rest) return;
+  x_rounding_ = v_rounding_ = time_rounding_ = 0.0;
   const core::ExponentialBasis& basis = mode_->basis();
   const double part = rounding + std::numeric_limits<double>::epsilon() * basis.turning() * s;
+  if (crossing_.found) {
+    const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
+    keep_time_rounding(part * core::bound(basis, guard.value, crossing_.values, s, 0.0),
+                       core::evaluate(basis, guard.slope, crossing_.values),
+                       core::evaluate(basis, guard.curvature, crossing_.values));
+  }
+  if (direction_ == Direction::rest) return;
   x_rounding_ = part * core::bound(basis, motion_, crossing_.values, s, 0.0);
   v_rounding_ = part * core::bound(basis, speed(), crossing_.values, s, 0.0);
+}
+
+/// A guard known to `error` falls through zero: the time that its tangent parabola needs to fall by as much.
+void ExactEngine::keep_time_rounding(double error, double slope, double curvature) {
+  const double fall = std::max(0.0, -slope);
+  const double speed = fall + std::sqrt(fall * fall + 2.0 * std::max(0.0, -curvature) * error);
+  if (speed > 0.0) time_rounding_ = std::max(time_rounding_, 2.0 * error / speed);
 }
 
 /// Ends the phase after s: position, velocity, drive and the laws' own states.
@@ -191,12 +204,12 @@ void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
   if (some_modal_ && s > 0.0) keep_rounding(s);
   const friction::Instant before = now();
-  if (direction_ != Direction::rest) {
+  if (direction_ != Direction::rest && s > 0.0) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
-    const bool turns =
-        crossing_.found && watches_[static_cast<std::size_t>(crossing_.guard)].owner.kind == Owner::Kind::velocity;
-    v_ = turns ? 0.0 : friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
+    v_ = friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
   }
+  if (crossing_.found && watches_[static_cast<std::size_t>(crossing_.guard)].owner.kind == Owner::Kind::velocity)
+    v_ = 0.0;
   local_time_ += s;
   if (to_period_end || local_time_ >= drive_.period()) {
     local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();

@@ -48,6 +48,8 @@ class ExactEngine final : public Engine {
   static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   /// Values farther than this (relative) from a limit are decided by their sign; closer ones by their Taylor germ.
   static constexpr double clearly = 1e-9;
+  /// Up to this angle of its fastest element a guard is its tangent parabola, well enough for its rounding.
+  static constexpr double parabolic = 0.1;
 
   /// A guard of the present phase: what it belongs to, and how it depends on the motion.
   struct Watch {
@@ -85,6 +87,8 @@ class ExactEngine final : public Engine {
   void add_law_guards();
   core::Guard& new_guard(const Watch& watch);
   [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
+  [[nodiscard]] bool rises_in_time(const core::Guard& guard, double tolerance) const;
+  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, const Owner& owner, double tolerance) const;
   bool find_violated();
   void drop_guard(std::size_t i);
   void settle() override;
@@ -98,6 +102,7 @@ class ExactEngine final : public Engine {
   void begin_motion() override;
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
   void keep_rounding(double s);
+  void keep_time_rounding(double error, double slope, double curvature);
   void advance(double s, bool to_period_end);
   [[nodiscard]] double force_scale() const;
   [[nodiscard]] double force_rounding() const;
@@ -105,6 +110,7 @@ class ExactEngine final : public Engine {
 
   double x_rounding_ = 0.0;  ///< of x_ and v_ from the phase before
   double v_rounding_ = 0.0;
+  double time_rounding_ = 0.0;  ///< of the events at this instant [s]
   std::map<ModeKey, LinearMode> modes_;
   ModeKey key_;
   const LinearMode* mode_ = nullptr;  ///< of the present phase

@@ -238,6 +238,26 @@ core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) co
   return core::germ(mode_->basis(), guard, tolerance, 2);
 }
 
+/// Whether a guard below zero rises above it before the events of this instant are over for sure.
+bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) const {
+  const core::ExponentialBasis& basis = mode_->basis();
+  const double value = core::at_start(basis, guard.value);
+  const double slope = core::at_start(basis, guard.slope);
+  const double late = std::min(time_rounding_, parabolic / basis.fastest());
+  const double rise = late * (slope + 0.5 * late * core::at_start(basis, guard.curvature));
+  return value > -clearly * guard.amplitude - tolerance && value + tolerance + rise > 0.0;
+}
+
+/// Two modes of a law may have the same zero by different formulas, each with its own rounding, and both could then
+/// send the law to the other one. The event is known to a time: what rises through zero within it begins at zero.
+core::Germ ExactEngine::start_germ(const core::Guard& guard, const Owner& owner, double tolerance) const {
+  if (owner.kind == Owner::Kind::velocity && v_ == 0.0) return slip_germ(guard, tolerance);
+  const core::Germ germ = core::germ(mode_->basis(), guard, tolerance);
+  if (germ.sign >= 0 || germ.zeros > 0 || !rises_in_time(guard, tolerance)) return germ;
+  const core::Germ from_zero = core::germ(mode_->basis(), guard, tolerance, 1);
+  return from_zero.sign > 0 ? from_zero : germ;
+}
+
 /// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
 bool ExactEngine::find_violated() {
   const core::ExponentialBasis& basis = mode_->basis();
@@ -248,9 +268,12 @@ bool ExactEngine::find_violated() {
     const double tolerance =
         watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
-    const bool from_rest = watch.owner.kind == Owner::Kind::velocity && v_ == 0.0;
-    const core::Germ germ = from_rest ? slip_germ(guard, tolerance) : core::germ(basis, guard, tolerance);
+    const core::Germ germ = start_germ(guard, watch.owner, tolerance);
     if (germ.sign < 0) {
+      if (germ.zeros > 0) {
+        keep_time_rounding(tolerance + std::abs(core::at_start(basis, guard.value)),
+                           core::at_start(basis, guard.slope), core::at_start(basis, guard.curvature));
+      }
       crossing_.found = true;
       crossing_.guard = static_cast<int>(i) - 1;
       crossing_.s = 0.0;

@@ -278,6 +278,28 @@ TEST_CASE("a contact whose limit vanishes begins anew, unstretched, where it ret
   }
 }
 
+TEST_CASE("fluctuation: a step that leaves a sloping limit below zero leaves none", "[friction][modified]") {
+  // f 2 N - 200 N/m 5 mm and f 3 N - 1 N: by the factor f none, one or both of them are gone.
+  const Law law = coulomb(2.0, 3.0, plus(fluctuation(0.8, 1.0, 3.0), {{"position_slope", -200.0}}));
+  const std::vector<double> factor = factors(coulomb(1.0, 1.0, fluctuation(0.8, 1.0, 3.0)), 400);
+  Instant now{.x = 0.005};
+  Memory memory = law.start({});
+  int steps[3] = {};
+  for (std::size_t i = 1; i < factor.size(); ++i) {
+    now.t = law.next_change(memory);
+    law.jump(memory, {friction::Trigger::scheduled}, now, Direction::rest);
+    CAPTURE(i, factor[i]);
+    CHECK(law.force(memory, now, Direction::forward) ==
+          Approx(std::max(0.0, 2.0 * factor[i] - 1.0)).epsilon(1e-12));
+    CHECK(law.static_limit(memory, now) == Approx(std::max(0.0, 3.0 * factor[i] - 1.0)).epsilon(1e-12));
+    std::vector<double> guards;
+    law.guards(memory, now, Direction::forward, guards);
+    CHECK(*std::ranges::min_element(guards) >= 0.0);
+    ++steps[(2.0 * factor[i] > 1.0 ? 1 : 0) + (3.0 * factor[i] > 1.0 ? 1 : 0)];
+  }
+  CHECK(*std::ranges::min_element(steps) > 10);
+}
+
 TEST_CASE("position_slope: loops of a rigid and of a compliant contact", "[friction][modified]") {
   const double F = 2.0;
   const double c = 30.0;
