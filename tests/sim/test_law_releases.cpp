@@ -129,7 +129,7 @@ bool Walk::compare(const NextEvent& expected, const Found& found, const PlainPha
     }
   }
   plain_.relax(expected.s);
-  mass_ = {found.t, engine_.position(), engine_.velocity(), mass_.direction};
+  mass_ = {found.t, engine_.position(), engine_.velocity(), mass_.direction, phase.velocity_error()};
   released_ = is_release(expected);
   const EventKind kind = take_place(o_.model, expected, plain_, mass_);
   released_ = released_ && kind != EventKind::stop;
@@ -202,4 +202,8 @@ TEST_CASE("bristle: after every release the next event", "[releases]") { check_r
 
 TEST_CASE("coulomb beside a contact: after every release the next event", "[releases]") {
   check_releases({LawKind::coulomb, LawKind::contact}, 67);
+}
+
+TEST_CASE("coulomb beside a damped contact: after every release the next event", "[releases]") {
+  check_releases({LawKind::coulomb, LawKind::contact_damped}, 68);
 }

@@ -72,7 +72,7 @@ PlainPhase::PlainPhase(const sim::Model& model, const PlainFriction& friction, c
   force_error_ += rounding * force_scale_;
   position_error_ = rounding * length;
   velocity_ = oracle::slip_velocity(problem_);
-  if (std::abs(from.v) <= velocity_error()) {
+  if (std::abs(from.v) <= start_velocity_error()) {
     from_.v = problem_.v0 = 0.0;
     velocity_ = oracle::slip_velocity(problem_);
   }
@@ -105,12 +105,14 @@ double PlainPhase::rate() const {
   return std::max(std::sqrt(problem_.stiffness / problem_.mass), std::abs(problem_.damping) / problem_.mass);
 }
 
-/// A velocity below this is rounding: of the forces, or of the parts that it is the sum of.
 double PlainPhase::velocity_error() const {
   Real parts = 0;
   for (const oracle::Exponential& e : velocity_) parts += std::abs(e.coefficient);
   return 4.0 * (force_error_ / problem_.mass / rate() + rounding * static_cast<double>(parts));
 }
+
+/// The larger of what the phase before has left and of what this one makes of it.
+double PlainPhase::start_velocity_error() const { return std::max(velocity_error(), from_.v_error); }
 
 bool PlainPhase::is_regular() const {
   if (from_.direction == 0) return true;
@@ -171,7 +173,7 @@ void PlainPhase::add_contact_guards(std::size_t index) {
                 .decay = c.decay(),
                 .error = rounding * (std::abs(from_.v) + parts)};
     const double speed = c.side * (from_.v + c.decay() * relaxing);
-    if (std::abs(speed) <= 4.0 * guard.error + velocity_error()) {
+    if (std::abs(speed) <= 4.0 * guard.error + start_velocity_error()) {
       // Beside a mass at rest a slider without speed stands, called sliding or stuck.
       if (from_.direction == 0) return;
       guard.zeros = std::max(1, guards_.front().zeros);
@@ -186,8 +188,9 @@ void PlainPhase::add_contact_guards(std::size_t index) {
                 .by_velocity = -side * c.damping,
                 .error = rounding * (c.static_level + c.stiffness * std::abs(c.foot))};
     const double spare = guard.constant + guard.by_position * from_.x + guard.by_velocity * from_.v;
-    const double parts = c.static_level + c.stiffness * (std::abs(c.foot) + std::abs(from_.x));
-    if (std::abs(spare) <= at_zero * parts) {
+    const double parts = guard.error + c.stiffness * (rounding * std::abs(from_.x) + position_error_) +
+                         c.damping * start_velocity_error();
+    if (std::abs(spare) <= 4.0 * parts) {
       if (from_.direction == 0) continue;
       guard.zeros = std::max(1, guards_.front().zeros);
     }
@@ -227,12 +230,17 @@ ExponentialSum PlainPhase::sum(const Guard& g) const {
 double PlainPhase::uncertainty(const Guard& g, const ExponentialSum& f, double s) const {
   const double growing = std::min(s, 1.0 / rate());
   const double velocity =
-      s > 0.0 ? rounding * std::abs(from_.v) + force_error_ / problem_.mass * growing : velocity_error();
+      s > 0.0 ? rounding * std::abs(from_.v) + force_error_ / problem_.mass * growing : start_velocity_error();
   const double position = position_error_ + velocity * growing;
   const double error = g.error + std::abs(g.by_position) * position + std::abs(g.by_velocity) * velocity +
                        static_cast<double>(f.rounding(static_cast<Real>(s)));
-  const auto slope = static_cast<double>(std::abs(f.jet(static_cast<Real>(s))[1]));
-  return slope > 0.0 ? error / slope : 0.0;
+  const ExponentialSum::Jet jet = f.jet(static_cast<Real>(s));
+  const auto slope = static_cast<double>(std::abs(jet[1]));
+  if (s > 0.0 && slope > 0.0) return error / slope;
+  // A guard that begins with a zero of higher order falls by its error in the time of the first term that can.
+  const auto bend = static_cast<double>(std::abs(jet[2]));
+  const auto twist = static_cast<double>(std::abs(jet[3]));
+  return std::min({error / slope, std::sqrt(2.0 * error / bend), std::cbrt(6.0 * error / twist)});
 }
 
 std::vector<NextEvent> PlainPhase::next_events(double horizon) const {
@@ -240,9 +248,13 @@ std::vector<NextEvent> PlainPhase::next_events(double horizon) const {
   std::vector<NextEvent> events;
   for (const Guard& guard : guards_) {
     sums.push_back(sum(guard));
-    if (sums.back().level(0) > 4) continue;
+    const Real level = sums.back().level(0);
+    // One that may begin at zero and rises from there holds.
+    const bool holds = guard.zeros == 0 && level >= -4 && sums.back().jet(0)[1] > 0;
+    if (level > 4 || holds) continue;
     events.push_back(guard.event);
-    events.back().uncertainty = std::min(8.0 * uncertainty(guard, sums.back(), 0.0), 1e-9 / rate());
+    events.back().uncertainty =
+        std::min(8.0 * uncertainty(guard, sums.back(), 0.0), 1e-5 / model_.excitation.frequency);
   }
   for (double end = std::min(horizon, 4.0 / rate()); events.empty(); end = std::min(horizon, 4.0 * end)) {
     for (std::size_t i = 0; i < guards_.size(); ++i) {

@@ -19,6 +19,7 @@ struct MassState {
   double x = 0.0;
   double v = 0.0;
   int direction = 0;
+  double v_error = 0.0;  ///< m/s, of v: what the phase before has left
 };
 
 /// What comes next.
@@ -46,6 +47,8 @@ class PlainPhase {
   [[nodiscard]] double position(double s) const;
   /// All forces on the mass at v = 0 now; at rest without those that hold it [N].
   [[nodiscard]] double net_force() const;
+  /// A velocity below this is rounding [m/s]: of the forces, or of the parts that it is the sum of.
+  [[nodiscard]] double velocity_error() const;
   /// Sum of the moduli of all forces [N].
   [[nodiscard]] double force_scale() const { return force_scale_; }
   /// Some guard begins with a double root.
@@ -73,7 +76,7 @@ class PlainPhase {
   [[nodiscard]] oracle::ExponentialSum sum(const Guard& guard) const;
   [[nodiscard]] double uncertainty(const Guard& guard, const oracle::ExponentialSum& f, double s) const;
   [[nodiscard]] double rate() const;
-  [[nodiscard]] double velocity_error() const;
+  [[nodiscard]] double start_velocity_error() const;
 
   const sim::Model& model_;
   const PlainFriction& friction_;
