@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/numbers.hpp"
+
 namespace dualdamp::friction {
 
 namespace {
@@ -48,6 +50,17 @@ const std::vector<Parameter>& RateState::parameters() {
        .meaning = "how contacts change: with time and slip, or with slip only"},
   };
   return table;
+}
+
+std::vector<std::string> RateState::warnings(const ParameterValues& values) {
+  // A speed of exp(-mu0/a) times one that the motion has is then near the rounding of that.
+  constexpr double largest = 25.0;
+  const double ratio = values.number("mu0") / values.number("a");
+  if (ratio <= largest) return {};
+  return {
+      "a motion that reverses may take very long to compute: at a reversal the force turns over within "
+      "exp(-mu0/a) = exp(-" +
+      core::format_number(ratio, 3) + ") of the reference velocity"};
 }
 
 RateState::RateState(const ParameterValues& values)

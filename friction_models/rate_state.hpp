@@ -18,6 +18,7 @@
 /// Smooth engine, implicit steps. Cost: an exponential, a logarithm and a root a call.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "friction_models/law.hpp"
@@ -40,6 +41,8 @@ class RateState {
   };
 
   static const std::vector<Parameter>& parameters();
+  /// That these values are not for motions that reverse.
+  static std::vector<std::string> warnings(const ParameterValues& values);
 
   explicit RateState(const Contact& contact) : contact_(contact) {}
   /// From the parameters.

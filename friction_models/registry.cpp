@@ -202,7 +202,8 @@ std::vector<LawEntry> make_list() {
        .sources = "dieterich1979, ruina1983, rice1983, rice2001",
        .modifiers = {"drift", "fluctuation"},
        .parameters = RateState::parameters(),
-       .make = [](const Values& p) -> std::vector<Law> { return {modified(Law(RateState(p)), p)}; }},
+       .make = [](const Values& p) -> std::vector<Law> { return {modified(Law(RateState(p)), p)}; },
+       .warnings = RateState::warnings},
       {.name = "reset_integrator",
        .summary = "bond that stretches, breaks and is dragged along (Haessig and Friedland)",
        .equation = "stick: z' = v, F = (1 + static_gain) stiffness z + damping v, |z| < z0 = kinetic/stiffness;  "
