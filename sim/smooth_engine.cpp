@@ -30,6 +30,9 @@ constexpr double small_motion = 1e-3;
 
 constexpr int max_rejections = 200;
 
+/// In one of the shortest periods: beyond that friction changes too fast to be integrated in reasonable time.
+constexpr long max_steps = 300'000;
+
 /// Kinks of a delayed velocity pass on this often, each time one derivative higher.
 constexpr int echoes = 4;
 
@@ -84,6 +87,7 @@ void SmoothEngine::begin_motion() {
   is_laid_ = false;
   h_ = 0.0;
   x_scale_ = 0.0;
+  counted_to_ = 0.0;
   if (tracking_) reset_sensitivity();
 }
 
@@ -132,10 +136,15 @@ double SmoothEngine::excess_error() const {
   return std::isfinite(largest) ? largest : infinity;
 }
 
-double SmoothEngine::longest_step() const {
+/// Of the oscillator and its drive [s].
+double SmoothEngine::shortest_period() const {
   double fastest = natural_frequency(model_.oscillator);
   for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
-  double longest = part_of_period * 2.0 * std::numbers::pi / fastest;
+  return 2.0 * std::numbers::pi / fastest;
+}
+
+double SmoothEngine::longest_step() const {
+  double longest = part_of_period * shortest_period();
   for (const friction::Law& law : model_.friction) {
     if (law.delay() > 0.0) longest = std::min(longest, law.delay());
   }
@@ -183,8 +192,22 @@ void SmoothEngine::notice_stiffness() {
   stiff_steps_ = stepper_->stiffness() > stability_limit ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
 }
 
+/// False, with an outcome, when the motion takes more steps than anybody waits for.
+bool SmoothEngine::makes_headway() {
+  if (time() >= counted_to_) {
+    counted_to_ = time() + shortest_period();
+    steps_ = 0;
+  }
+  if (++steps_ <= max_steps) return true;
+  outcome_ = {core::OutcomeKind::event_limit, "more than " + std::to_string(max_steps) +
+                                                  " steps in one period before t = " + std::to_string(time()) +
+                                                  " s: friction changes too fast there to be integrated"};
+  return false;
+}
+
 /// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
 bool SmoothEngine::advance(double left) {
+  if (!makes_headway()) return false;
   if (stiff_steps_ > stiff_enough && use_implicit_steps()) h_ = 0.0;
   if (h_ == 0.0) h_ = first_step();
   allow(X_);

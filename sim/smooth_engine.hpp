@@ -74,8 +74,10 @@ class SmoothEngine final : public Engine {
   void set_scales();
   void allow(std::span<const double> X);
   [[nodiscard]] double first_step();
+  [[nodiscard]] double shortest_period() const;
   [[nodiscard]] double longest_step() const;
   [[nodiscard]] double excess_error() const;
+  [[nodiscard]] bool makes_headway();
   [[nodiscard]] bool advance(double left);
   void notice_stiffness();
   [[nodiscard]] bool use_implicit_steps();
@@ -110,10 +112,12 @@ class SmoothEngine final : public Engine {
   std::unique_ptr<Stepper> displaced_stepper_;  ///< for derivatives: the dense output stays
   bool is_implicit_ = false;
   int stiff_steps_ = 0;
-  double reach_ = 0.0;          ///< longest delay of a law [s]
-  double x_scale_ = 0.0;        ///< m
-  bool is_laid_ = false;        ///< flow_ and watches_ are those of the present phase
-  double h_ = 0.0;              ///< proposed next step [s]; 0: none
+  double reach_ = 0.0;       ///< longest delay of a law [s]
+  double x_scale_ = 0.0;     ///< m
+  bool is_laid_ = false;     ///< flow_ and watches_ are those of the present phase
+  double h_ = 0.0;           ///< proposed next step [s]; 0: none
+  double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
+  long steps_ = 0;
   double taken_ = 0.0;          ///< length of the step taken last [s]
   std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]
   std::vector<double> X_;

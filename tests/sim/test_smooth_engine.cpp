@@ -183,6 +183,20 @@ TEST_CASE("smooth engine: the stick-slip example of the LuGre paper", "[sim][smo
   CHECK((rises[3] - rises[0]) / 3.0 == Approx(6.36272).margin(1e-5));
 }
 
+TEST_CASE("smooth engine: a motion too sharp to integrate is given up", "[sim][smooth]") {
+  // Near v = 0 the force of rock turns over within exp(-0.6/0.01) of the reference velocity.
+  sim::Model model = test::standard_system(law("rate_state", {{"normal_force", 5.0},
+                                                              {"mu0", 0.6},
+                                                              {"a", 0.01},
+                                                              {"b", 0.015},
+                                                              {"slip_distance", 1e-4},
+                                                              {"reference_velocity", 1e-3}}));
+  model.excitation.amplitude = 0.035;  // m: beyond break-away for a part of each cycle
+  const sim::SteadyState state = sim::steady_state(model);
+  CHECK(state.outcome.kind == core::OutcomeKind::event_limit);
+  CHECK(state.outcome.reason.find("too fast") != std::string::npos);
+}
+
 TEST_CASE("smooth engine: a delayed viscous force", "[sim][smooth]") {
   // m x'' + c x' + k x + 3 x'(t - lag) = k Y cos w t has a steady state in closed form.
   const double w = 10.0;
