@@ -317,6 +317,9 @@ TEST_CASE("A model is for batches by what its laws do, not by their names") {
   Model distorted = with(coulomb);
   distorted.excitation.harmonics = {{.order = 3, .amplitude = 0.01}};
   CHECK_FALSE(batch_of(distorted, 1));
+  Model hardening = with(coulomb);
+  hardening.oscillator.cubic_stiffness = 1.0;
+  CHECK_FALSE(batch_of(hardening, 1));
   Model pushed = with(coulomb);
   pushed.excitation.type = ExcitationType::force_harmonic;
   CHECK(batch_of(pushed, 1));

@@ -123,6 +123,8 @@ TEST_CASE("stops come in pairs, more of them the slower the drive and the weaker
   const std::vector<double> slow = ratios(0.06, 0.12, 12);
   const std::vector<double> amplitudes = ratios(1.05, 6.0, 40);
   CHECK(stops_of(sim::regime_map(unit_model(0.05), slow, amplitudes)) == std::set<int>{2, 4, 6});
+  // A fourth slip begins 21.7 or more before the base turns; at r = 0.06 a slip that early does not end in time.
+  CHECK(stops_of(sim::regime_map(unit_model(0.05), {0.02}, {1.05})) == std::set<int>{8});
   const std::set<int> undamped = stops_of(sim::regime_map(unit_model(0.0), slow, amplitudes));
   for (const int stops : {2, 4, 6, 8}) CHECK(undamped.contains(stops));
   for (const double zeta : {0.0, 0.05})
