@@ -82,7 +82,7 @@ TEST_CASE("refused: suggestions", "[scenarios][refused]") {
   CHECK(suggestion("unknown_law.yaml") == "coulomb");
   CHECK(suggestion("unknown_method.yaml") == "resonance_two_point");
   CHECK(suggestion("frequency_word.yaml") == "natural");
-  CHECK(suggestion("quintic_stiffness.yaml").empty());
+  CHECK(suggestion("backlash.yaml").empty());
 }
 
 TEST_CASE("refused: files that are no text or no scenario", "[scenarios][refused]") {
