@@ -104,7 +104,8 @@ class Chunk {
 /// Fills in points that have their `omega` and `Y`.
 Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyStateOptions& options,
                const BatchOptions& batch) {
-  constexpr std::size_t chunk_size = 64;
+  // Points for packs take a microsecond each, the others up to some ten milliseconds.
+  const std::size_t chunk_size = batch_of(model, 1) ? 64 : 4;
   const std::span<CurvePoint> all(points);
   std::vector<Chunk> chunks((points.size() + chunk_size - 1) / chunk_size);
   in_parts(points.size(), chunk_size, batch.threads, [&](std::size_t first, std::size_t count) {

@@ -18,7 +18,8 @@ constexpr double largest_growth = 5.0;
 constexpr double largest_cut = 0.1;
 constexpr double safety = 0.9;
 
-/// Of dopri5: beyond it stability limits the step (Hairer's test); so many such steps make a stiff problem.
+/// Of dopri5: h |lambda| is 3.25 at the boundary of stability (Hairer's test), about which step control swings to
+/// and fro; so many steps beyond this make a stiff problem.
 constexpr double stability_limit = 2.0;
 constexpr int stiff_enough = 15;
 
@@ -123,10 +124,10 @@ void SmoothEngine::lay_phase() {
 }
 
 /// Local errors allowed in each component.
-void SmoothEngine::allow(std::span<const double> X) {
-  allowed_.resize(X.size());
-  for (std::size_t k = 0; k < X.size(); ++k)
-    allowed_[k] = model_.solver.tolerance * (std::abs(X[k]) + flow_.scales()[k]);
+void SmoothEngine::allow() {
+  allowed_.resize(X_.size());
+  for (std::size_t k = 0; k < X_.size(); ++k)
+    allowed_[k] = model_.solver.tolerance * (std::abs(X_[k]) + flow_.scales()[k]);
 }
 
 /// Largest error of the last step over what is allowed.
@@ -210,7 +211,7 @@ bool SmoothEngine::advance(double left) {
   if (!makes_headway()) return false;
   if (stiff_steps_ > stiff_enough && use_implicit_steps()) h_ = 0.0;
   if (h_ == 0.0) h_ = first_step();
-  allow(X_);
+  allow();
   const double longest = longest_step();
   bool rejected = false;
   for (int i = 0; i < max_rejections; ++i) {
@@ -248,8 +249,14 @@ bool SmoothEngine::move(double left, Hit& hit, bool& found) {
     ++count_.searches;
     count_.panels += static_cast<long>(points) - 1;
     const double whole = taken_;
+    grazings_.clear();
     found = find_hit(hit);
-    if (!found || land(hit)) return true;
+    if (!found || land(hit)) {
+      // Beyond the event nothing was touched.
+      std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });
+      count_.grazings += static_cast<long>(grazings_.size());
+      return true;
+    }
     h_ = 0.5 * hit.part * whole;
   }
   outcome_ = {core::OutcomeKind::not_finite,
@@ -275,11 +282,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   }
   if (!comes_to_an_end(taken_ == 0.0)) return nullptr;
   const bool is_over = !found && taken_ == left;
-  interval_->begin = time();
-  interval_->local_begin = local_time_;
-  interval_->duration = taken_;
-  interval_->direction = direction_;
-  interval_->ending.reset();
+  describe_step();
   if (tracking_) {
     track_step();
     if (found && !at_once) carry_to_event(hit.watch);
@@ -292,7 +295,11 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
     return nullptr;
   }
-  if (!found && !(is_over && by_schedule)) return interval_.get();
+  if (!found && !(is_over && by_schedule)) {
+    // A guard that the next phase finds violated was not crossed at an event: nothing delays it.
+    delay_of_event_.setZero();
+    return interval_.get();
+  }
   if (found) {
     interval_->ending = act(owner);
   } else {
@@ -303,6 +310,15 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   is_laid_ = false;
   h_ = 0.0;
   return interval_.get();
+}
+
+/// What the interval tells of the step.
+void SmoothEngine::describe_step() {
+  interval_->begin = time();
+  interval_->local_begin = local_time_;
+  interval_->duration = taken_;
+  interval_->direction = direction_;
+  interval_->ending.reset();
 }
 
 /// The step's end becomes the present; `owner`: of the guard that ended it.

@@ -12,10 +12,11 @@
 /// Rounding. A velocity within `resolution` of zero has not changed its sign: bristles that ring down to rounding
 ///   make no events.
 /// Derivatives. A step is a smooth function of its begin; central differences of the step itself, with the same
-///   step size, give its derivative along every column (bock1981), relative error about 1e-9; events add the
-///   saltation matrix. The derivative is that of the motion as computed, whatever the law.
+///   step size, give its derivative along every column (bock1981); events add the saltation matrix. The derivative
+///   is that of the motion as computed, whatever the law; over a period it agrees with the exact engine's to 1e-7.
 ///
-/// Cost: two to four microseconds a step of Radau IIA, one of dopri5, for a law with one state.
+/// Cost: for a law with one state about 1 us a step of Radau IIA, 0.15 us one of dopri5, and the watch of the
+/// guards.
 
 #include <array>
 #include <memory>
@@ -72,7 +73,7 @@ class SmoothEngine final : public Engine {
   // The step.
   void lay_phase();
   void set_scales();
-  void allow(std::span<const double> X);
+  void allow();
   [[nodiscard]] double first_step();
   [[nodiscard]] double shortest_period() const;
   [[nodiscard]] double longest_step() const;
@@ -81,6 +82,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool advance(double left);
   void notice_stiffness();
   [[nodiscard]] bool use_implicit_steps();
+  void describe_step();
   void take_over(const Owner* owner);
   void pass_time(bool to_period_end);
 
@@ -103,6 +105,7 @@ class SmoothEngine final : public Engine {
   void track_step();
   void carry_to_event(std::size_t watch);
   void carry_from_event();
+  [[nodiscard]] Eigen::MatrixXd through(const Change& change, const Eigen::MatrixXd& states) const;
   [[nodiscard]] Eigen::MatrixXd jump_derivative() const;
 
   VelocityHistory past_;
@@ -128,7 +131,6 @@ class SmoothEngine final : public Engine {
   mutable std::vector<double> guard_values_;
   mutable std::vector<double> probe_;
   mutable std::vector<double> rates_;
-  std::vector<friction::Memory> memories_before_;
 
   Eigen::MatrixXd columns_;
   std::vector<Change> changes_;

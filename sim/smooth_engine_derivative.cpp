@@ -92,6 +92,39 @@ void SmoothEngine::carry_from_event() {
   columns_ = jump_derivative() * at_crossing - as_vector(rates) * delay_of_event_;
 }
 
+/// The derivative of a law's states after a mode change, from `states`, that of those before it.
+Eigen::MatrixXd SmoothEngine::through(const Change& change, const Eigen::MatrixXd& states) const {
+  const friction::Law& law = model_.friction[change.law];
+  const auto difference = [&](const auto& displaced, double step) {
+    const auto after = [&](double shift) {
+      friction::Memory memory = change.before;
+      friction::Instant at = now();
+      displaced(shift, memory, at);
+      law.jump(memory, change.trigger, at, change.direction);
+      return memory.state;
+    };
+    const std::vector<double> above = after(step);
+    const std::vector<double> below = after(-step);
+    return Eigen::VectorXd((as_vector(above) - as_vector(below)) / (2.0 * step));
+  };
+  const Eigen::VectorXd by_x =
+      difference([](double shift, friction::Memory&, friction::Instant& at) { at.x += shift; },
+                 displacement * flow_.scales()[0]);
+  const Eigen::VectorXd by_v =
+      difference([](double shift, friction::Memory&, friction::Instant& at) { at.v += shift; },
+                 displacement * flow_.scales()[1]);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(by_x.size(), states.cols());
+  for (std::size_t k = 0; k < change.before.state.size(); ++k) {
+    const Eigen::VectorXd by_state =
+        difference([k](double shift, friction::Memory& memory, friction::Instant&) { memory.state[k] += shift; },
+                   displacement * std::max(std::abs(change.before.state[k]), flow_.scales()[0]));
+    result += by_state * states.row(static_cast<Eigen::Index>(k));
+  }
+  result.col(0) += by_x;
+  result.col(1) += by_v;
+  return result;
+}
+
 /// Of the coordinates after the mode changes by those before.
 Eigen::MatrixXd SmoothEngine::jump_derivative() const {
   Eigen::Index rows = 2;
@@ -102,49 +135,17 @@ Eigen::MatrixXd SmoothEngine::jump_derivative() const {
   Eigen::Index row = 2;
   Eigen::Index column = 2;
   for (std::size_t i = 0; i < memories_.size(); ++i) {
-    const friction::Law& law = model_.friction[i];
     const auto of_law = [&](const Change& change) { return change.law == i; };
     const auto first = std::ranges::find_if(changes_, of_law);
-    const std::size_t before = first == changes_.end() ? memories_[i].state.size() : first->before.state.size();
-    const auto n = static_cast<Eigen::Index>(before);
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(n, columns);
-    block.middleCols(column, n).setIdentity();
+    const friction::Memory& before = first == changes_.end() ? memories_[i] : first->before;
+    const auto n = static_cast<Eigen::Index>(before.state.size());
+    Eigen::MatrixXd states = Eigen::MatrixXd::Zero(n, columns);
+    states.middleCols(column, n).setIdentity();
     for (const Change& change : changes_) {
-      if (!of_law(change)) continue;
-      const auto after = [&](const friction::Memory& from, const friction::Instant& at) {
-        friction::Memory memory = from;
-        law.jump(memory, change.trigger, at, change.direction);
-        return memory.state;
-      };
-      const auto difference = [&](const auto& displaced, double step) {
-        const std::vector<double> above = displaced(step);
-        const std::vector<double> below = displaced(-step);
-        return Eigen::VectorXd((as_vector(above) - as_vector(below)) / (2.0 * step));
-      };
-      const double x_step = displacement * flow_.scales()[0];
-      const double v_step = displacement * flow_.scales()[1];
-      const Eigen::VectorXd by_x = difference(
-          [&](double step) { return after(change.before, {.t = time(), .x = x_ + step, .v = v_}); }, x_step);
-      const Eigen::VectorXd by_v = difference(
-          [&](double step) { return after(change.before, {.t = time(), .x = x_, .v = v_ + step}); }, v_step);
-      Eigen::MatrixXd next = Eigen::MatrixXd::Zero(by_x.size(), columns);
-      for (std::size_t k = 0; k < change.before.state.size(); ++k) {
-        const double step = displacement * std::max(std::abs(change.before.state[k]), flow_.scales()[0]);
-        const Eigen::VectorXd by_state = difference(
-            [&](double shift) {
-              friction::Memory memory = change.before;
-              memory.state[k] += shift;
-              return after(memory, now());
-            },
-            step);
-        next += by_state * block.row(static_cast<Eigen::Index>(k));
-      }
-      next.col(0) += by_x;
-      next.col(1) += by_v;
-      block = next;
+      if (of_law(change)) states = through(change, states);
     }
-    result.middleRows(row, block.rows()) = block;
-    row += block.rows();
+    result.middleRows(row, states.rows()) = states;
+    row += states.rows();
     column += n;
   }
   return result;

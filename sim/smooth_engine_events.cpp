@@ -201,7 +201,6 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
   const double touch = 100.0 * model_.solver.tolerance * w.scale;
   if (value[1] < touch && value[0] > touch && value[2] > touch) {
     grazings_.push_back({static_cast<int>(watch), at[1] / (points - 1) * taken_});
-    ++count_.grazings;
   }
   return -1.0;
 }
@@ -211,20 +210,12 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
 double SmoothEngine::crossing(std::size_t watch, double before, double negative) const {
   double low = before;
   double value_low = guard(watch, low);
-  for (int i = 0; value_low <= 0.0; ++i) {
-    if (low > 0.0 || i == 0) {
-      if (low > 0.0) return low;
-      low = 0.5 * negative;
-    } else {
-      return 0.0;
-    }
+  if (value_low <= 0.0 && before > 0.0) return before;
+  for (double part = 0.5 * negative; value_low <= 0.0; part *= 0.5) {
+    if (part < 1e-12) return 0.0;
+    if (low > 0.0) negative = low;
+    low = part;
     value_low = guard(watch, low);
-    while (value_low <= 0.0) {
-      negative = low;
-      low *= 0.5;
-      if (low < 1e-9 * negative || low < 1e-12) return 0.0;
-      value_low = guard(watch, low);
-    }
   }
   std::uintmax_t iterations = 60;
   const auto [left, right] = boost::math::tools::toms748_solve(
