@@ -187,9 +187,9 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
     const double left = (value[1] - value[0]) / (at[1] - at[0]);
     const double right = (value[2] - value[1]) / (at[2] - at[1]);
     const double bend = (right - left) / (at[2] - at[0]);
-    if (!(bend > 0.0)) return -1.0;
     const double lowest = 0.5 * (at[0] + at[1]) - 0.5 * left / bend;
-    if (!(lowest > at[0] && lowest < at[2]) || lowest == at[1]) break;
+    // Nearer than rounding lets a parabola tell.
+    if (!(bend > 0.0 && lowest > at[0] && lowest < at[2]) || std::abs(lowest - at[1]) < 1e-9) break;
     const double there = guard(watch, lowest / (points - 1));
     if (there < -resolution * w.scale) return lowest / (points - 1);
     const std::size_t replaced = lowest < at[1] ? 2 : 0;
@@ -199,7 +199,7 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
     value[1] = there;
   }
   const double touch = 100.0 * model_.solver.tolerance * w.scale;
-  if (value[1] < touch && value[0] > touch && value[2] > touch) {
+  if (value[1] < touch && w.values[point - 1] > touch && w.values[point + 1] > touch) {
     grazings_.push_back({static_cast<int>(watch), at[1] / (points - 1) * taken_});
   }
   return -1.0;
