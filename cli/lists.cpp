@@ -46,9 +46,7 @@ std::string facts_of(const friction::LawEntry& law) {
   return columns(rows);
 }
 
-std::string needs_of(const identify::MethodEntry& method) {
-  return method.needs == identify::RecordKind::pairs ? "x-Y pairs" : "extremes of a free decay";
-}
+std::string needs_of(const identify::MethodEntry& method) { return std::string(identify::describe(method.needs)); }
 
 }  // namespace
 
@@ -78,7 +76,8 @@ Listing list_methods(const std::string& name) {
   if (method == nullptr) return unknown("method", name, identify::methods());
   return {std::string(method->name) + ": " + std::string(method->summary) + "\n\n  " +
           std::string(method->equation) + "\n\n  needs: " + needs_of(*method) +
-          "\n  assumes: " + std::string(method->assumes) + "\n"};
+          "\n  assumes: " + std::string(method->assumes) + "\n  sources: " + std::string(method->sources) +
+          " in docs/refs.bib\n  page: docs/methods/" + std::string(method->name) + ".md\n"};
 }
 
 }  // namespace dualdamp::cli

@@ -46,11 +46,22 @@ struct LackOfFit {
   double least_effect = 5e-4;
 };
 
-/// One fit of a fraction of the data (the paper's lower 4/5, 3/5, 2/5; windows of four extremes).
+/// A parameter beyond the four that every estimate reports: a mass, an offset, a contact stiffness, an exponent.
+struct FurtherParameter {
+  std::string name;
+  std::string unit;  ///< SI; empty for a pure number
+  double value = 0.0;
+  std::optional<double> std;
+  std::optional<std::array<double, 2>> interval95;
+};
+
+/// One fit of a fraction of the data (the paper's lower 4/5, 3/5, 2/5; windows of four extremes), or of all of them
+/// with another setting of the method.
 struct SubsetFit {
   std::string label;  ///< "5/5", "4/5", ... or "1-4", "2-5", ...
   int used = 0;
   ParameterSet value;
+  std::vector<FurtherParameter> others;
 };
 
 /// The straight line behind a resonance estimate: x = intercept + slope Y.
@@ -71,6 +82,29 @@ struct DecayFit {
   std::vector<double> residuals;    ///< m, of the used extremes in order
 };
 
+/// One column of a curve.
+struct CurveColumn {
+  std::string name;
+  std::string unit;  ///< SI; empty for a pure number
+  std::vector<double> values;
+};
+
+/// Something to plot that came out beside the numbers: friction over velocity, a profile of the likelihood.
+struct EstimateCurve {
+  std::string name;
+  std::vector<CurveColumn> columns;  ///< of equal length; the first is the abscissa
+};
+
+/// One of the laws that `law_selection` compares.
+struct LawCandidate {
+  std::string law;  ///< "coulomb_viscous", "saturating_viscous", ...
+  std::vector<FurtherParameter> parameters;
+  double residual_deviation = 0.0;  ///< m
+  double AICc = 0.0;                ///< infinite when the data are too few for it
+  double BIC = 0.0;
+  double weight = 0.0;  ///< Akaike weight among the candidates
+};
+
 struct Estimate {
   std::string method;
   core::Outcome outcome;  ///< not ok(): there is no estimate, and why
@@ -85,8 +119,11 @@ struct Estimate {
   std::vector<Exclusion> excluded;
   std::optional<LackOfFit> lack_of_fit;
   std::vector<SubsetFit> subsets;
-  std::optional<LineFit> line;        ///< resonance methods
-  std::optional<DecayFit> decay;      ///< free_decay
+  std::optional<LineFit> line;    ///< resonance methods
+  std::optional<DecayFit> decay;  ///< free_decay
+  std::vector<FurtherParameter> others;
+  std::vector<LawCandidate> candidates;  ///< best first
+  std::vector<EstimateCurve> curves;
   std::vector<std::string> warnings;  ///< each a sentence
 };
 

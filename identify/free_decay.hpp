@@ -16,11 +16,23 @@
 /// least-squares covariance with n - 4 degrees of freedom (n - 3 with `zero_offset`), or from `sigma_x`. Source:
 /// feeny1996decrement, liang1998decrement. Errors: `outcome`. Cost: 300 linear fits of three unknowns.
 
-#include "identify/methods.hpp"
+#include "identify/method.hpp"
 
 namespace dualdamp::identify {
 
 [[nodiscard]] Estimate free_decay(const Record& record, const KnownConstants& constants,
                                   const MethodOptions& options);
+
+inline constexpr MethodEntry free_decay_method{
+    "free_decay",
+    "damping ratio and friction force from the decrements of a free vibration",
+    "linear spring, zeta < 1, the mass moves through every half swing; checked: extremes alternate, extremes after "
+    "the stop are left out, half period against mass and stiffness, cubic term F-test",
+    "X_(i+1) = R X_i - x_f (1 + R), R = exp(-pi zeta/sqrt(1 - zeta^2)); R = -(e_3 - e_1)/(e_2 - e_0) of signed "
+    "extremes e about any offset",
+    "feeny1996decrement, liang1998decrement",
+    RecordKind::decay,
+    lacks_decay,
+    free_decay};
 
 }  // namespace dualdamp::identify

@@ -4,29 +4,44 @@
 /// A method gets a record and the constants a laboratory would know (`KnownConstants`), never the system that
 /// produced it.
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace dualdamp::identify {
 
-/// Constants a laboratory knows before the test. SI.
+/// What was not measured, or is not known.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Constants a laboratory knows before the test; `unknown` where it does not. SI. A method that cannot do without
+/// one of them says so.
 struct KnownConstants {
-  double mass = 0.0;       ///< m [kg], > 0
-  double stiffness = 0.0;  ///< k [N/m], > 0
-  double frequency = 0.0;  ///< forcing frequency w [rad/s], > 0; unused by free_decay
+  double mass = unknown;       ///< m [kg], > 0
+  double stiffness = unknown;  ///< k [N/m], > 0; 0 for a mass on a rail without spring
+  double frequency = unknown;  ///< forcing frequency w [rad/s], > 0, of all data that state none of their own
 };
 
-/// One measured input-output amplitude pair at one frequency.
+/// One measured steady state: input and output amplitude, and what else was read.
 struct Pair {
   double Y = 0.0;     ///< input amplitude [m]
-  double x = 0.0;     ///< output amplitude [m]
+  double x = 0.0;     ///< output amplitude, half of peak to trough [m]
   std::string sweep;  ///< label of the sweep it belongs to; may be empty
   /// Number of the pair in the record, from 1: what messages and exclusion lists name.
   int number = 0;
+  double omega = unknown;              ///< forcing frequency [rad/s]; unknown: that of the constants
+  double phase = unknown;              ///< lag of x's fundamental behind y [rad]
+  double fundamental = unknown;        ///< amplitude of x's fundamental [m]
+  double mean_square_speed = unknown;  ///< m^2/s^2
 };
 
-/// x-Y pairs at one frequency.
+/// Forcing frequency of a pair [rad/s].
+[[nodiscard]] inline double frequency_of(const Pair& pair, const KnownConstants& constants) {
+  return std::isnan(pair.omega) ? constants.frequency : pair.omega;
+}
+
+/// Steady states at one or more amplitudes and frequencies.
 struct PairRecord {
   std::vector<Pair> pairs;
 };
@@ -37,10 +52,24 @@ struct DecayRecord {
   std::vector<double> times;     ///< s, increasing, one for each extreme; empty when they were not measured
 };
 
-/// A record holds what was measured; absent kinds are empty optionals.
+/// Signals of one test, sampled together at a constant rate. A signal that was not measured is empty; the others
+/// are of equal length.
+struct History {
+  double start = 0.0;         ///< time of the first sample [s]
+  double sample_rate = 0.0;   ///< Hz, > 0
+  std::vector<double> y;      ///< base displacement [m]
+  std::vector<double> x;      ///< displacement of the mass [m]
+  std::vector<double> v;      ///< its velocity [m/s]
+  std::vector<double> a;      ///< its acceleration [m/s^2]
+  std::vector<double> force;  ///< force on the mass beside spring, damper and friction [N]
+  std::string sweep;          ///< label; may be empty
+};
+
+/// A record holds what was measured; absent kinds are empty.
 struct Record {
   std::optional<PairRecord> pairs;
   std::optional<DecayRecord> decay;
+  std::vector<History> histories;  ///< one for each test: level, frequency, run
 };
 
 }  // namespace dualdamp::identify

@@ -14,11 +14,22 @@
 /// + a/b)^2/S_YY). Doubts: pairs that stick are left out (and named); an F test of a quadratic term; fits of the
 /// lower 4/5, 3/5, 2/5. Source: liang2004identifying. Errors: `outcome`. Cost: n log n.
 
-#include "identify/methods.hpp"
+#include "identify/method.hpp"
 
 namespace dualdamp::identify {
 
 [[nodiscard]] Estimate resonance_least_squares(const Record& record, const KnownConstants& constants,
                                                const MethodOptions& options);
+
+inline constexpr MethodEntry resonance_least_squares_method{
+    "resonance_least_squares",
+    "damping ratio and friction force from a straight line through amplitude pairs",
+    "excitation at w = wn, zeta small, no sticking, errors in x alone; checked: sticking pairs are left out, "
+    "quadratic term F-test, what the method would make of its own estimate by the exact law",
+    "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn",
+    "liang2004identifying",
+    RecordKind::pairs,
+    lacks_resonance_pairs,
+    resonance_least_squares};
 
 }  // namespace dualdamp::identify

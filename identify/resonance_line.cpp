@@ -30,8 +30,8 @@ std::string exclusion_reason(const Pair& pair) {
 }
 
 /// Both roots apart: k/m may leave the range of double precision.
-double frequency_ratio(const KnownConstants& constants) {
-  return constants.frequency * std::sqrt(constants.mass) / std::sqrt(constants.stiffness);
+double frequency_ratio(double frequency, const KnownConstants& constants) {
+  return frequency * std::sqrt(constants.mass) / std::sqrt(constants.stiffness);
 }
 
 void take_pairs(const PairRecord& record, ResonanceData& data, Estimate& estimate) {
@@ -66,15 +66,19 @@ bool nearly_equal(const std::vector<Datum>& pairs, Value value) {
 
 std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
                                      const MethodOptions& options, Estimate& estimate) {
-  if (!record.pairs) {
-    refuse(estimate, "the record holds no pairs of input and output amplitude");
+  if (std::string lack = lacks_resonance_pairs(record); !lack.empty()) {
+    refuse(estimate, std::move(lack));
     return std::nullopt;
   }
   if (std::string fault = fault_of(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return std::nullopt;
   }
-  const double r = frequency_ratio(constants);
+  if (std::isnan(frequency_of(record.pairs->pairs.front(), constants))) {
+    refuse(estimate, "the method needs the forcing frequency");
+    return std::nullopt;
+  }
+  const double r = frequency_ratio(frequency_of(record.pairs->pairs.front(), constants), constants);
   if (!(r >= least_ratio && r <= greatest_ratio)) {
     refuse(estimate, "the method needs excitation near resonance, and w/wn is " + core::format_number(r, 4));
     return std::nullopt;

@@ -16,7 +16,7 @@
 
 #include "identify/error_propagation.hpp"
 #include "identify/estimate.hpp"
-#include "identify/methods.hpp"
+#include "identify/method.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {

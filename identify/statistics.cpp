@@ -66,6 +66,8 @@ void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, doub
 
 std::string fault_of(const KnownConstants& constants) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (std::isnan(constants.mass)) return "the method needs the mass";
+  if (std::isnan(constants.stiffness)) return "the method needs the stiffness";
   if (!positive(constants.mass)) return "the mass must be positive and finite";
   if (!positive(constants.stiffness)) return "the stiffness must be positive and finite";
   return {};

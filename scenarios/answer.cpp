@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "core/numbers.hpp"
+#include "scenarios/cells.hpp"
 
 namespace dualdamp::scenarios {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// JSON knows no infinity; a number that does not exist is null.
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json finite(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(finite(value));
-  return list;
-}
 
 Json certificate_json(const core::SearchCount& count) {
   return {{"searches", count.searches},
@@ -35,21 +24,6 @@ Json energy_json(const sim::Energy& energy) {
           {"viscous", finite(energy.viscous)},
           {"stored", finite(energy.stored)},
           {"defect", finite(energy.defect)}};
-}
-
-template <typename Item, typename Get>
-Column column(std::string name, std::string unit, const std::vector<Item>& items, Get get) {
-  Column result{.name = std::move(name), .unit = std::move(unit)};
-  result.numbers.reserve(items.size());
-  for (const Item& item : items) result.numbers.push_back(std::invoke(get, item));
-  return result;
-}
-
-template <typename Item, typename Get>
-Column text_column(std::string name, const std::vector<Item>& items, Get get) {
-  Column result{.name = std::move(name), .kind = CellKind::text};
-  for (const Item& item : items) result.texts.emplace_back(std::invoke(get, item));
-  return result;
 }
 
 Table event_table(const std::vector<sim::Event>& events) {
@@ -200,150 +174,6 @@ Table change_table(const std::vector<sim::BranchChange>& changes, const std::str
           .key = "changes"};
 }
 
-Json parameters_json(const identify::ParameterSet& set) {
-  return {{"zeta", finite(set.zeta)}, {"c", finite(set.c)}, {"x_f", finite(set.x_f)}, {"F0", finite(set.F0)}};
-}
-
-Json interval_json(const identify::ParameterIntervals& intervals) {
-  const auto pair = [](const std::array<double, 2>& ends) {
-    return Json::array({finite(ends[0]), finite(ends[1])});
-  };
-  return {{"zeta", pair(intervals.zeta)},
-          {"c", pair(intervals.c)},
-          {"x_f", pair(intervals.x_f)},
-          {"F0", pair(intervals.F0)}};
-}
-
-Json lack_of_fit_json(const identify::LackOfFit& test) {
-  return {{"test", test.test},
-          {"statistic", finite(test.statistic)},
-          {"freedom", test.freedom},
-          {"p_value", finite(test.p_value)},
-          {"effect", finite(test.effect)},
-          {"fired", test.fired},
-          {"level", test.level},
-          {"least_effect", test.least_effect}};
-}
-
-Json line_json(const identify::LineFit& line) {
-  return {{"slope", finite(line.slope)},
-          {"intercept", finite(line.intercept)},
-          {"residual_deviation", finite(line.residual_deviation)},
-          {"G", finite(line.G)},
-          {"residuals", finite(line.residuals)}};
-}
-
-Json decay_json(const identify::DecayFit& decay) {
-  return {{"R", finite(decay.R)},
-          {"first_amplitude", finite(decay.first_amplitude)},
-          {"offset", finite(decay.offset)},
-          {"residual_deviation", finite(decay.residual_deviation)},
-          {"residuals", finite(decay.residuals)}};
-}
-
-Json diagnostics_json(const identify::Estimate& estimate) {
-  Json json;
-  json["reason"] = estimate.outcome.ok() ? estimate.reason : estimate.outcome.reason;
-  json["used"] = estimate.used;
-  json["excluded"] = Json::array();
-  for (const identify::Exclusion& exclusion : estimate.excluded)
-    json["excluded"].push_back({{"number", exclusion.number}, {"reason", exclusion.reason}});
-  if (estimate.covariance) {
-    const Eigen::Matrix2d& c = *estimate.covariance;
-    json["covariance"] = {{finite(c(0, 0)), finite(c(0, 1))}, {finite(c(1, 0)), finite(c(1, 1))}};
-  }
-  if (estimate.correlation) json["correlation"] = finite(*estimate.correlation);
-  if (estimate.lack_of_fit) json["lack_of_fit"] = lack_of_fit_json(*estimate.lack_of_fit);
-  if (!estimate.subsets.empty()) {
-    json["subsets"] = Json::array();
-    for (const identify::SubsetFit& subset : estimate.subsets) {
-      Json item = {{"label", subset.label}, {"used", subset.used}};
-      item.update(parameters_json(subset.value));
-      json["subsets"].push_back(std::move(item));
-    }
-  }
-  if (estimate.line) json["line"] = line_json(*estimate.line);
-  if (estimate.decay) json["decay"] = decay_json(*estimate.decay);
-  json["warnings"] = estimate.warnings;
-  return json;
-}
-
-Json estimate_json(const identify::Estimate& estimate) {
-  const bool exists = estimate.outcome.ok();
-  const identify::ParameterSet nothing{none, none, none, none};
-  Json json = {{"method", estimate.method}};
-  json.update(parameters_json(exists ? estimate.value : nothing));
-  json["std"] = exists && estimate.std ? parameters_json(*estimate.std) : Json(nullptr);
-  json["interval95"] = exists && estimate.interval95 ? interval_json(*estimate.interval95) : Json(nullptr);
-  json["diagnostics"] = diagnostics_json(estimate);
-  json["usable"] = estimate.usable;
-  return json;
-}
-
-Table estimate_table(const std::vector<identify::Estimate>& estimates) {
-  using identify::Estimate;
-  using identify::ParameterSet;
-  const auto value = [](double ParameterSet::* member) {
-    return [member](const Estimate& estimate) { return estimate.outcome.ok() ? estimate.value.*member : none; };
-  };
-  const auto error = [](double ParameterSet::* member) {
-    return [member](const Estimate& estimate) {
-      return estimate.outcome.ok() && estimate.std ? (*estimate.std).*member : none;
-    };
-  };
-  return {
-      "estimates",
-      {text_column("method", estimates, &Estimate::method),
-       text_column("usable", estimates, [](const Estimate& estimate) { return estimate.usable ? "yes" : "no"; }),
-       column("zeta", "", estimates, value(&ParameterSet::zeta)),
-       column("zeta_std", "", estimates, error(&ParameterSet::zeta)),
-       column("c", "N.s/m", estimates, value(&ParameterSet::c)),
-       column("c_std", "N.s/m", estimates, error(&ParameterSet::c)),
-       column("x_f", "m", estimates, value(&ParameterSet::x_f)),
-       column("x_f_std", "m", estimates, error(&ParameterSet::x_f)),
-       column("F0", "N", estimates, value(&ParameterSet::F0)),
-       column("F0_std", "N", estimates, error(&ParameterSet::F0))}};
-}
-
-/// e_0, e_1, ... of the decrement law.
-std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f, std::size_t count) {
-  std::vector<double> extremes;
-  double magnitude = std::abs(decay.first_amplitude);
-  double sign = decay.first_amplitude < 0.0 ? -1.0 : 1.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    extremes.push_back(decay.offset + sign * magnitude);
-    magnitude = decay.R * magnitude - x_f * (1.0 + decay.R);
-    sign = -sign;
-  }
-  return extremes;
-}
-
-/// The data beside what the first estimate with a curve makes of them; a usable one comes first.
-Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
-  const auto has_curve = [](const identify::Estimate& estimate) {
-    return estimate.outcome.ok() && (estimate.line || estimate.decay);
-  };
-  auto chosen = std::ranges::find_if(
-      estimates, [&](const identify::Estimate& estimate) { return estimate.usable && has_curve(estimate); });
-  if (chosen == estimates.end()) chosen = std::ranges::find_if(estimates, has_curve);
-  if (chosen == estimates.end()) return nullptr;
-
-  Json points = Json::array();
-  if (chosen->line && record.pairs) {
-    for (const identify::Pair& pair : record.pairs->pairs)
-      points.push_back({{"number", pair.number},
-                        {"Y", pair.Y},
-                        {"x", pair.x},
-                        {"fitted", finite(chosen->line->intercept + chosen->line->slope * pair.Y)}});
-  } else if (chosen->decay && record.decay) {
-    const std::vector<double>& extremes = record.decay->extremes;
-    const std::vector<double> fitted = fitted_extremes(*chosen->decay, chosen->value.x_f, extremes.size());
-    for (std::size_t i = 0; i < extremes.size(); ++i)
-      points.push_back({{"number", i + 1}, {"x", extremes[i]}, {"fitted", finite(fitted[i])}});
-  }
-  return {{"method", chosen->method}, {"points", points}};
-}
-
 Answer failed(const std::string& reason) {
   Answer answer;
   answer.failure = reason;
@@ -481,29 +311,6 @@ Answer answer(const sim::Branch& branch, sim::BranchParameter parameter, const s
   answer.tables.push_back(change_table(branch.changes, amplitude ? "Y" : "omega", amplitude ? unit : "rad/s"));
   if (!branch.changes.empty() && branch.changes.back().kind == sim::ChangeKind::end)
     answer.warnings.emplace_back("the branch ends inside the range: no orbit continues it");
-  return answer;
-}
-
-Answer answer(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
-  Answer answer;
-  Json list = Json::array();
-  std::string reasons;
-  bool any = false;
-  for (const identify::Estimate& estimate : estimates) {
-    list.push_back(estimate_json(estimate));
-    any = any || estimate.outcome.ok();
-    if (!estimate.outcome.ok())
-      reasons += (reasons.empty() ? "" : "; ") + estimate.method + ": " + estimate.outcome.reason;
-    else if (!estimate.usable)
-      answer.warnings.push_back(estimate.method + " is not usable: " + estimate.reason);
-    for (const std::string& warning : estimate.warnings)
-      answer.warnings.push_back(estimate.method + ": " + warning);
-  }
-  if (!any) return failed("no estimate is possible; " + reasons);
-  if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);
-  answer.result["estimates"] = std::move(list);
-  answer.result["fit"] = fit_json(estimates, record);
-  answer.tables.push_back(estimate_table(estimates));
   return answer;
 }
 

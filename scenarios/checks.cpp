@@ -289,11 +289,10 @@ class Checker {
   void resolve_methods(const std::optional<MeasuredData>& data) {
     const bool synthetic = needs_ != nullptr && needs_->measurement != "data";
     if (needs_ == nullptr || (!synthetic && !data)) return;
-    const bool pairs = synthetic ? needs_->measurement == "xy_curve" : data->csv.record.pairs.has_value();
-    const identify::RecordKind kind = pairs ? identify::RecordKind::pairs : identify::RecordKind::decay;
+    const identify::Record record = synthetic ? outline() : data->csv.record;
     std::vector<std::string> fitting;
     for (const identify::MethodEntry& method : identify::methods())
-      if (method.needs == kind) fitting.emplace_back(method.name);
+      if (method.lacks(record).empty()) fitting.emplace_back(method.name);
 
     Json& analysis = values_["analysis"];
     if (!stands_in_file("analysis", "methods")) {
@@ -302,22 +301,29 @@ class Checker {
     } else if (analysis.contains("methods")) {
       for (std::size_t i = 0; i < analysis["methods"].size(); ++i) {
         const auto name = analysis["methods"][i].get<std::string>();
-        if (!contains(fitting, name))
+        if (const std::string lack = identify::find_method(name)->lacks(record); !lack.empty())
           complain(place_of("analysis.methods[" + std::to_string(i) + "]"),
-                   "method '" + name + "' needs " + (pairs ? "the extremes of a free vibration" : "x-Y pairs"),
-                   joined(fitting), pairs ? "x-Y pairs" : "the extremes of a free vibration");
+                   "method '" + name + "' cannot be used: " + lack, joined(fitting));
       }
     }
     const bool is_free = node("excitation") == nullptr || text_at("excitation", "type") == "none";
-    if (pairs && is_free)
+    const bool pairs = record.pairs.has_value();
+    if (pairs && is_free &&
+        std::ranges::any_of(record.pairs->pairs, [](const identify::Pair& pair) { return std::isnan(pair.omega); }))
       complain(place_of("analysis.data"), "x-Y pairs need the forcing frequency at which they were measured",
                "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency");
-    check_pairs(pairs ? (synthetic ? grid_size_of_measurement() : data->csv.record.pairs->pairs.size()) : 0);
+    check_pairs(pairs ? record.pairs->pairs.size() : 0);
   }
 
-  [[nodiscard]] std::size_t grid_size_of_measurement() const {
+  /// A record of the kind that the measurement will give: enough to tell which methods it allows.
+  [[nodiscard]] identify::Record outline() const {
     const Json& measurement = values_.at("analysis").at("measurement");
-    return measurement.contains("amplitudes") ? grid_size(measurement.at("amplitudes")) : 0;
+    identify::Record record;
+    if (measurement.contains("amplitudes"))
+      record.pairs.emplace().pairs.resize(grid_size(measurement.at("amplitudes")));
+    else
+      record.decay = identify::DecayRecord{{1.0}, {0.0}};
+    return record;
   }
 
   void check_pairs(std::size_t count) {

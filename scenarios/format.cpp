@@ -118,7 +118,21 @@ Variant identify_variant() {
         quantity("sigma_x", {"m"}, "known standard deviation of a measured output amplitude or extreme")
             .at_least(0),
         quantity("sigma_Y", {"m"}, "known standard deviation of a measured input amplitude").at_least(0),
-        boolean("zero_offset", "the extremes of a free vibration are known to be about zero").with_fallback(false)},
+        boolean("zero_offset", "the extremes of a free vibration are known to be about zero").with_fallback(false),
+        boolean("free_natural_frequency", "den_hartog_fit fits the natural frequency too").with_fallback(false),
+        quantities(
+            "cutoffs", {"rad/s"},
+            "cut-off frequencies of the filter that histories are differentiated with; the first one counts, "
+            "the others show what the choice matters")
+            .above(0)
+            .items(1, 16),
+        quantity("least_speed", {"m/s"}, "slower samples are left out where friction is regressed on speed")
+            .at_least(0),
+        integer("bootstrap", "replicates of a bootstrap by sweeps").at_least(0).at_most(1'000'000),
+        quantity("forgetting", {"1"}, "forgetting factor of recursive_least_squares; 1 forgets nothing")
+            .above(0)
+            .at_most(1),
+        quantity("sign_width", {"m/s"}, "width of the smoothed sign of the velocity in extended_kalman").above(0)},
        {{{"data", "measurement"}, true}}}};
 }
 

@@ -101,11 +101,11 @@ class Runner {
     for (const sim::CurvePoint& point : curve.points) {
       ++number;
       if (point.ok())
-        record.pairs.push_back({point.Y, point.x, {}, number});
+        record.pairs.push_back({.Y = point.Y, .x = point.x, .sweep = {}, .number = number});
       else
         warnings.push_back("pair " + std::to_string(number) + " could not be measured: " + curve.reason(point));
     }
-    return {record, std::nullopt};
+    return {.pairs = record};
   }
 
   identify::Record measure(const FreeDecayQuestion& question, std::vector<std::string>& warnings) const {
@@ -116,7 +116,7 @@ class Runner {
       record.extremes.push_back(extreme.x);
       record.times.push_back(extreme.t);
     }
-    return {std::nullopt, record};
+    return {.decay = record};
   }
 
   const Scenario& scenario_;

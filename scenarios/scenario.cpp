@@ -144,13 +144,22 @@ sim::Model model(const Json& values) {
 
 Identify identify_question(const Json& section, const sim::Model& model, std::optional<MeasuredData> data) {
   Identify result;
-  result.constants = {model.oscillator.mass, model.oscillator.stiffness, model.excitation.frequency};
+  result.constants = {model.oscillator.mass, model.oscillator.stiffness,
+                      model.excitation.is_harmonic() ? model.excitation.frequency : identify::unknown};
   for (const Json& name : section.at("methods"))
     result.methods.push_back(identify::find_method(name.get<std::string>()));
   result.options.approximate_G = section.at("approximate_G").get<bool>();
   result.options.zero_offset = section.at("zero_offset").get<bool>();
   result.options.sigma_x = number_or(section, "sigma_x", 0.0);
   result.options.sigma_Y = number_or(section, "sigma_Y", 0.0);
+  result.options.free_natural_frequency = section.at("free_natural_frequency").get<bool>();
+  result.options.least_speed = number_or(section, "least_speed", result.options.least_speed);
+  result.options.forgetting = number_or(section, "forgetting", result.options.forgetting);
+  result.options.sign_width = number_or(section, "sign_width", result.options.sign_width);
+  if (section.contains("bootstrap")) result.options.bootstrap = section.at("bootstrap").get<int>();
+  if (section.contains("cutoffs"))
+    for (const Json& cutoff : section.at("cutoffs"))
+      result.options.cutoffs.push_back(number(cutoff) / (2.0 * std::numbers::pi));
   if (section.contains("pairs")) {
     result.options.first_pair = section.at("pairs")[0].get<int>();
     result.options.second_pair = section.at("pairs")[1].get<int>();

@@ -23,10 +23,21 @@ TEST_CASE("The list of methods is sorted, complete and can be searched") {
     const Estimate e = method.run(Record{}, table_1_constants, {});
     CHECK(e.method == method.name);
     CHECK_FALSE(e.outcome.ok());
-    CHECK(e.reason.find(method.needs == RecordKind::pairs ? "no pairs" : "no extremes") != std::string::npos);
+    CHECK(e.reason == method.lacks(Record{}));
+    CHECK_FALSE(method.sources.empty());
   }
   CHECK(find_method("free_decay")->needs == RecordKind::decay);
   CHECK(find_method("resonance_two_point")->needs == RecordKind::pairs);
+  CHECK(find_method("resonance_two_point")->lacks(Record{}) == "the record holds no x-Y pairs");
   CHECK(find_method("resonance") == nullptr);
   CHECK(find_method("") == nullptr);
+}
+
+TEST_CASE("Pairs at several frequencies are no record of a resonance method") {
+  Record record;
+  record.pairs = PairRecord{{{.Y = 0.1, .x = 0.2, .sweep = {}, .number = 1, .omega = 10.0},
+                             {.Y = 0.2, .x = 0.5, .sweep = {}, .number = 2, .omega = 10.5}}};
+  CHECK(find_method("resonance_two_point")->lacks(record) == "the pairs were measured at several frequencies");
+  record.pairs->pairs[1].omega = 10.0;
+  CHECK(find_method("resonance_two_point")->lacks(record).empty());
 }

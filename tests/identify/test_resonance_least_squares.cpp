@@ -254,9 +254,9 @@ TEST_CASE("Pairs that allow no estimate are refused with the reason") {
   const KnownConstants fine = constants_at(1.0);
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();
-  refused(Record{}, fine, "no pairs");
-  refused(extremes({1.0, -0.5, 0.2}), fine, "no pairs");
-  refused(pairs({}), fine, "of 0 in the record 0 are left");
+  refused(Record{}, fine, "no x-Y pairs");
+  refused(extremes({1.0, -0.5, 0.2}), fine, "no x-Y pairs");
+  refused(pairs({}), fine, "no x-Y pairs");
   refused(pairs({{0.1, 0.2}}), fine, "of 1 in the record 1 is left");
   refused(pairs({{0.1, 0.2}, {0.1, 0.3}, {0.1, 0.4}}), fine, "input amplitudes are all equal");
   refused(pairs({{0.1, 0.2}, {0.2, 0.2}, {0.3, 0.2}}), fine, "output amplitudes are all equal");
@@ -267,7 +267,7 @@ TEST_CASE("Pairs that allow no estimate are refused with the reason") {
   refused(pairs({{0.1, 0.2}, {0.2, 0.5}}), {1.0, nan, 10.0}, "stiffness");
   refused(pairs({{0.1, 0.2}, {0.2, 0.5}}), {1.0, 100.0, 0.0}, "near resonance");
   refused(pairs({{0.1, 0.2}, {0.2, 0.5}}), {1.0, 100.0, 21.0}, "near resonance");
-  refused(pairs({{0.1, 0.2}, {0.2, 0.5}}), {1.0, 100.0, nan}, "near resonance");
+  refused(pairs({{0.1, 0.2}, {0.2, 0.5}}), {1.0, 100.0, nan}, "needs the forcing frequency");
   refused(pairs({{1e300, 1e-300}, {2e300, 2e-300}}), fine, "does not grow");
 }
 

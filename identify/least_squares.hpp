@@ -1,0 +1,41 @@
+#pragma once
+/// Nonlinear least squares, shared by the methods that need it: Levenberg-Marquardt with bounds, by Ceres.
+///
+///   min_p sum_i r_i(p)^2,   low <= p <= high
+///
+/// Parameters should be of order one: scale them. Errors: `outcome`. Cost: tens of evaluations.
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+
+#include "core/outcome.hpp"
+
+namespace dualdamp::identify {
+
+struct LeastSquaresProblem {
+  Eigen::Index residuals = 0;
+  Eigen::VectorXd start;
+  Eigen::VectorXd low;   ///< empty: no bounds
+  Eigen::VectorXd high;  ///< empty: no bounds
+  /// Fills the residuals, and their derivatives (residuals x parameters) where `jacobian` is there. False: the
+  /// model has no value at these parameters, and the step is shortened.
+  std::function<bool(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)>
+      evaluate;
+};
+
+struct LeastSquaresFit {
+  core::Outcome outcome;
+  Eigen::VectorXd parameters;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+  double sum_of_squares = 0.0;
+};
+
+[[nodiscard]] LeastSquaresFit fit(const LeastSquaresProblem& problem);
+
+/// Covariance of the parameters for residuals of unit variance, (J^T J)^-1; nothing when the data leave a direction
+/// of the parameters undetermined.
+[[nodiscard]] std::optional<Eigen::MatrixXd> unit_covariance(const Eigen::MatrixXd& jacobian);
+
+}  // namespace dualdamp::identify
