@@ -41,6 +41,7 @@ class Parser {
     add_run();
     add_check();
     add_identify();
+    add_report();
     add_lists();
   }
 
@@ -98,6 +99,13 @@ class Parser {
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }
 
+  void add_report() {
+    report_command_ = app_.add_subcommand("report", "Write the page of a result directory, report.html, anew");
+    report_command_->add_option("DIR", report_.directories, "Directories with a result.json")
+        ->required()
+        ->type_name("");
+  }
+
   void add_lists() {
     laws_command_ = app_.add_subcommand("laws", "List the friction laws, or explain one");
     laws_command_->add_option("NAME", laws_.name, "A law")->type_name("");
@@ -111,6 +119,7 @@ class Parser {
     if (run_command_->parsed()) return run_;
     if (check_command_->parsed()) return check_;
     if (identify_command_->parsed()) return identify_;
+    if (report_command_->parsed()) return report_;
     if (laws_command_->parsed()) return laws_;
     if (methods_command_->parsed()) return methods_;
     return schema_;
@@ -121,12 +130,14 @@ class Parser {
   CLI::App* run_command_ = nullptr;
   CLI::App* check_command_ = nullptr;
   CLI::App* identify_command_ = nullptr;
+  CLI::App* report_command_ = nullptr;
   CLI::App* laws_command_ = nullptr;
   CLI::App* methods_command_ = nullptr;
   CLI::App* schema_command_ = nullptr;
   RunCommand run_;
   CheckCommand check_;
   IdentifyCommand identify_;
+  ReportCommand report_;
   LawsCommand laws_;
   MethodsCommand methods_;
   SchemaCommand schema_;

@@ -42,6 +42,10 @@ struct IdentifyCommand {
   bool quiet = false;
 };
 
+struct ReportCommand {
+  std::vector<std::string> directories;
+};
+
 /// Nothing to do but to print and leave: help, version, or a wrong command line.
 struct Leave {
   std::string message;
@@ -49,8 +53,8 @@ struct Leave {
   bool json = false;  ///< the caller wanted JSON
 };
 
-using Command =
-    std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, SchemaCommand, IdentifyCommand, Leave>;
+using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, SchemaCommand, IdentifyCommand,
+                             ReportCommand, Leave>;
 
 [[nodiscard]] Command parse(int argc, const char* const* argv);
 

@@ -12,6 +12,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
 #include "cli/print.hpp"
+#include "cli/report/report.hpp"
 #include "core/build_info.hpp"
 #include "scenarios/output.hpp"
 #include "scenarios/run.hpp"
@@ -97,9 +98,11 @@ Report run_and_write(Scenario loaded, const std::string& directory) {
   {
     const std::lock_guard lock(output_mutex());
     scenarios::write_files(directory, files);
+    scenarios::write_files(directory, {report_page(directory)});
   }
   for (const scenarios::OutputFile& file : files)
     report.messages += "wrote " + (fs::path(directory) / file.name).string() + "\n";
+  report.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
   return report;
 }
 
@@ -261,6 +264,24 @@ int execute(const IdentifyCommand& command) {
                return run_and_write(scenario_of(command), command.out.empty() ? standard.string() : command.out);
              }),
              style);
+}
+
+int execute(const ReportCommand& command) {
+  ExitStatus worst = ExitStatus::done;
+  for (const std::string& directory : command.directories) {
+    const Report report = guarded([&] {
+      // Where there is no directory there is no result either: nothing is created.
+      if (!fs::is_directory(directory))
+        return refused(ExitStatus::invalid_input, directory + ": there is no such directory");
+      scenarios::write_files(directory, {report_page(directory)});
+      Report done;
+      done.messages = "wrote " + (fs::path(directory) / "report.html").string() + "\n";
+      return done;
+    });
+    print(report, {});
+    worst = std::max(worst, report.status);
+  }
+  return finish(worst);
 }
 
 Report of_list(const Listing& listing) {

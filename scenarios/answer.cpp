@@ -34,9 +34,9 @@ Table event_table(const std::vector<sim::Event>& events) {
           .key = "events"};
 }
 
-Table history_table(const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
+Table history_table(std::string name, const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
   using Type = sim::ExcitationType;
-  Table table{"history", {column("t", "s", samples, &sim::Sample::t)}, true};
+  Table table{std::move(name), {column("t", "s", samples, &sim::Sample::t)}, true};
   if (excitation.type == Type::base_harmonic || excitation.type == Type::base_ramp)
     table.columns.push_back(column("y", "m", samples, &sim::Sample::y));
   table.columns.push_back(column("x", "m", samples, &sim::Sample::x));
@@ -217,11 +217,12 @@ Answer answer(const sim::History& history, const sim::Excitation& excitation) {
   answer.result["energy"] = energy_json(history.energy);
   answer.result["certificate"] = certificate_json(history.certificate);
   answer.tables.push_back(event_table(history.events));
-  if (!history.samples.empty()) answer.tables.push_back(history_table(history.samples, excitation));
+  if (!history.samples.empty()) answer.tables.push_back(history_table("history", history.samples, excitation));
   return answer;
 }
 
-Answer answer(const sim::SteadyState& state) {
+Answer answer(const sim::SteadyState& state, const std::vector<sim::Sample>& orbit,
+              const sim::Excitation& excitation) {
   if (!state.outcome.ok()) return failed(state.outcome.reason);
   Answer answer;
   answer.warnings = state.warnings;
@@ -249,6 +250,7 @@ Answer answer(const sim::SteadyState& state) {
                              {column("start", "s", state.sticks, &sim::Stick::start),
                               column("duration", "s", state.sticks, &sim::Stick::duration),
                               column("position", "m", state.sticks, &sim::Stick::position)}});
+  answer.tables.push_back(history_table("orbit", orbit, excitation));
   return answer;
 }
 

@@ -23,7 +23,9 @@ struct Answer {
 };
 
 [[nodiscard]] Answer answer(const sim::History& history, const sim::Excitation& excitation);
-[[nodiscard]] Answer answer(const sim::SteadyState& state);
+/// `orbit`: samples over one period.
+[[nodiscard]] Answer answer(const sim::SteadyState& state, const std::vector<sim::Sample>& orbit,
+                            const sim::Excitation& excitation);
 [[nodiscard]] Answer answer(const sim::FreeDecay& decay);
 
 enum class CurveOver { amplitude, frequency };

@@ -32,7 +32,12 @@ class Runner {
   }
 
   Answer operator()(const SteadyStateQuestion& /*question*/) const {
-    return answer(sim::steady_state(scenario_.model, options_));
+    constexpr int samples = 720;  // of one period, for plots
+    const sim::Model& model = scenario_.model;
+    const sim::SteadyState state = sim::steady_state(model, options_);
+    const bool exists = state.outcome.ok();
+    return answer(state, exists ? sim::one_period(model, state, samples) : std::vector<sim::Sample>(),
+                  model.excitation);
   }
 
   Answer operator()(const XyCurve& question) const {

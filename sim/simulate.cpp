@@ -39,6 +39,21 @@ History simulate(const Model& model, const SimulateOptions& options) {
   return history;
 }
 
+std::vector<Sample> one_period(const Model& model, const SteadyState& state, int count) {
+  const std::unique_ptr<Engine> engine = make_engine(model);
+  engine->restart(state.start);
+  Sampler sampler(count / state.period);
+  Sample final;
+  while (engine->cycle() == 0) {
+    const Interval* interval = engine->next_in_period();
+    if (interval == nullptr) break;
+    sampler.observe(*interval);
+    final = interval->at(interval->duration);
+  }
+  sampler.finish(final);
+  return std::move(sampler.samples());
+}
+
 FreeDecay free_decay(const Model& model, int peaks) {
   FreeDecay decay;
   const std::unique_ptr<Engine> owned = make_engine(model);

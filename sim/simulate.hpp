@@ -8,6 +8,7 @@
 #include "sim/energy.hpp"
 #include "sim/interval.hpp"
 #include "sim/model.hpp"
+#include "sim/steady_state.hpp"
 
 namespace dualdamp::sim {
 
@@ -34,6 +35,9 @@ struct SimulateOptions {
 };
 
 [[nodiscard]] History simulate(const Model& model, const SimulateOptions& options);
+
+/// One period of a steady state: `count` + 1 samples equally spaced in time, both ends included.
+[[nodiscard]] std::vector<Sample> one_period(const Model& model, const SteadyState& state, int count);
 
 /// An extreme of a free vibration: a turning point of x.
 struct Extreme {

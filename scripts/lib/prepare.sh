@@ -18,12 +18,14 @@ fail() {
   exit 69
 }
 
-# missing_packages KIND...: the packages of these kinds that are not installed.
+# missing_packages KIND...: the packages of these kinds that are not installed. An npm from elsewhere will do:
+# Debian's cannot stand beside it.
 missing_packages() {
   local wanted present
   wanted=$(awk -v kinds=" $* " '!/^#/ && index(kinds, " " $2 " ") { print $1 }' "$root/scripts/packages.txt")
   # shellcheck disable=SC2086
   present=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p')
+  if command -v npm >/dev/null; then present+=$'\nnpm'; fi
   grep -vxF -f <(printf '%s\n' "$present") <<<"$wanted" | tr '\n' ' '
 }
 

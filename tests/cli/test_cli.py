@@ -24,6 +24,7 @@ system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulo
 excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
 analysis: {type: steady_state}
 """
+FILES = ["orbit.csv", "report.html", "result.json"]  # of a steady state
 KEYS = ["program", "provenance", "scenario", "analysis", "status", "result", "warnings", "checks", "errors"]
 
 
@@ -69,19 +70,19 @@ class Case(unittest.TestCase):
 class Run(Case):
     def test_results_go_to_results_and_the_stem(self):
         result = self.run_program("run", "base.yaml")
-        self.assertEqual(list(tree(self.folder / "results")), ["base/result.json"])
+        self.assertEqual(list(tree(self.folder / "results")), [f"base/{name}" for name in FILES])
         self.assertIn("peak", result.stdout)
         self.assertIn("wrote results/base/result.json", result.stderr)
 
     def test_out_is_used_directly_for_one_file(self):
         self.run_program("run", "base.yaml", "--out", "a/b")
-        self.assertEqual(list(tree(self.folder / "a")), ["b/result.json"])
+        self.assertEqual(list(tree(self.folder / "a")), [f"b/{name}" for name in FILES])
         self.assertFalse((self.folder / "results").exists())
 
     def test_out_gets_a_folder_a_file_for_several(self):
         self.write("other.yaml", BASE)
         result = self.run_program("run", "base.yaml", "other.yaml", "--out", "out", "--jobs", "2")
-        self.assertEqual(list(tree(self.folder / "out")), ["base/result.json", "other/result.json"])
+        self.assertEqual(list(tree(self.folder / "out")), [f"{stem}/{name}" for stem in ("base", "other") for name in FILES])
         self.assertLess(result.stdout.index("base.yaml"), result.stdout.index("other.yaml"))
 
     def test_two_files_of_one_name_do_not_overwrite_each_other(self):
@@ -110,7 +111,7 @@ class Run(Case):
     def test_the_worst_status_counts_and_good_files_still_run(self):
         self.write("bad.yaml", "schema: dualdamp/1\n")
         self.run_program("run", "bad.yaml", "base.yaml", status=3)
-        self.assertEqual(list(tree(self.folder / "results")), ["base/result.json"])
+        self.assertEqual(list(tree(self.folder / "results")), [f"base/{name}" for name in FILES])
 
     def test_set(self):
         document = self.document("run", "base.yaml", "--json", "--set", "system.mass=2 kg", "--set", "numerics.tolerance=1e-12")
@@ -228,7 +229,7 @@ class Refusals(Case):
     def test_wrong_usage(self):
         for arguments in [[], ["run"], ["fly"], ["run", "base.yaml", "--fly"], ["run", "base.yaml", "--jobs", "0"],
                           ["run", "base.yaml", "--jobs", "two"], ["run", "base.yaml", "--out"], ["identify", "x.csv"],
-                          ["laws", "gravity"], ["methods", "guess"], ["report", "results"], ["run", "base.yaml", "--resume"],
+                          ["laws", "gravity"], ["methods", "guess"], ["run", "base.yaml", "--resume"],
                           ["run", "base.yaml", "--plugin", "x.so"], ["run", "base.yaml", "--out", ""]]:
             with self.subTest(arguments):
                 result = self.run_program(*arguments, status=2)
@@ -287,7 +288,7 @@ class Identify(Case):
         (estimate,) = document["result"]["estimates"]
         self.assertAlmostEqual(estimate["F0"], 2.00278357380023, delta=1e-12)
         self.assertTrue(estimate["usable"])
-        self.assertEqual(list(tree(self.folder / "results")), ["pairs/estimates.csv", "pairs/result.json"])
+        self.assertEqual(list(tree(self.folder / "results")), ["pairs/estimates.csv", "pairs/report.html", "pairs/result.json"])
 
     def test_data_anywhere(self):
         with tempfile.TemporaryDirectory() as elsewhere:

@@ -249,3 +249,24 @@ TEST_CASE("the energy account resolves a transient far faster than the motion") 
   CHECK(history.energy.viscous > 0.0);
   CHECK(std::abs(history.energy.defect) < 1e-12 * history.energy.viscous);
 }
+
+TEST_CASE("one period of samples closes and shows the numbers of its steady state") {
+  for (const sim::Model& model : {base_driven(1.0, 100.0, 4.0, 2.0, 2.0, 0.1, 10.0), stick_slip()}) {
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    const std::vector<sim::Sample> orbit = sim::one_period(model, state, 1000);
+    REQUIRE(orbit.size() == 1001);
+    CHECK(orbit.back().t == Approx(state.period).epsilon(1e-12));
+    CHECK(orbit.back().x == Approx(orbit.front().x).margin(1e-12 * state.amplitude));
+    CHECK(orbit.back().v == Approx(orbit.front().v).margin(1e-12 * state.max_speed));
+    double peak = 0.0;
+    double fastest = 0.0;
+    for (const sim::Sample& sample : orbit) {
+      peak = std::max(peak, sample.x);
+      fastest = std::max(fastest, std::abs(sample.v));
+    }
+    // Between samples the parabola through a peak loses (pi/1000)^2/2 of it.
+    CHECK(peak == Approx(state.peak).epsilon(1e-5));
+    CHECK(fastest == Approx(state.max_speed).epsilon(1e-5));
+  }
+}

@@ -1,0 +1,18 @@
+#pragma once
+/// The files that the page is made of, as the build put them into the program.
+
+#include <string_view>
+
+namespace dualdamp::cli::assets {
+
+extern const std::string_view page_html;
+extern const std::string_view page_css;
+extern const std::string_view data_js;
+extern const std::string_view elements_js;
+extern const std::string_view chart_js;
+extern const std::string_view views_js;
+extern const std::string_view page_js;
+extern const std::string_view uPlot_iife_min_js;
+extern const std::string_view uPlot_min_css;
+
+}  // namespace dualdamp::cli::assets

@@ -1,0 +1,69 @@
+"use strict";
+// The data of the page: the result document, and the tables by name.
+
+const parse = (id) => JSON.parse(document.getElementById(id).textContent);
+
+/** Fields of one line of CSV; a field in double quotes may hold commas, and a quote as two quotes. */
+function fields(line) {
+  const out = [];
+  let at = 0;
+  while (at <= line.length) {
+    if (line[at] === '"') {
+      let text = "";
+      for (at += 1; at < line.length; at += 1) {
+        if (line[at] !== '"') text += line[at];
+        else if (line[at + 1] === '"') { text += '"'; at += 1; }
+        else break;
+      }
+      out.push(text);
+      at += 2;
+    } else {
+      let end = line.indexOf(",", at);
+      if (end < 0) end = line.length;
+      out.push(line.slice(at, end));
+      at = end + 1;
+    }
+  }
+  return out;
+}
+
+/** A table of the run: columns by name, each {name, unit, values, isText}; an empty field is null. */
+function table({ csv, rows, step }) {
+  const lines = csv.split("\n").filter((line) => line !== "");
+  const columns = fields(lines[0]).map((heading) => {
+    const [, name, unit] = heading.match(/^(.*?)(?: \[(.*)\])?$/);
+    return { name, unit: unit ?? "", values: [] };
+  });
+  for (const line of lines.slice(1)) fields(line).forEach((text, i) => columns[i]?.values.push(text));
+  for (const column of columns) {
+    column.isText = column.values.some((text) => text !== "" && Number.isNaN(Number(text)));
+    column.texts = column.values;
+    if (!column.isText) column.values = column.texts.map((text) => (text === "" ? null : Number(text)));
+  }
+  const byName = Object.fromEntries(columns.map((column) => [column.name, column]));
+  return { columns, rows, step, get: (name) => byName[name] };
+}
+
+const run = parse("document");
+const tables = Object.fromEntries(Object.entries(parse("tables")).map(([name, text]) => [name, table(text)]));
+
+/** A number as people read it; the exact one stands in the attribute beside it. */
+function short(value, digits = 6) {
+  if (typeof value !== "number") return value === null || value === undefined ? "–" : String(value);
+  return value.toPrecision(digits).replace(/\.?0+($|e)/, "$1").replace("-", "−").replace("e−", "e-");
+}
+
+const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
+
+/** Unit and factor that make numbers up to `largest` pleasant to read: 0.004 m is 4 mm. */
+function readable(unit, largest) {
+  if (!["m", "m/s", "s", "N", "J"].includes(unit) || !(largest > 0)) return { unit, factor: 1 };
+  const [size, prefix] = prefixes.find(([scale]) => largest >= scale) ?? prefixes[prefixes.length - 1];
+  return { unit: prefix + unit, factor: 1 / size };
+}
+
+function largest(lists) {
+  let most = 0;
+  for (const list of lists) for (const value of list) if (Math.abs(value) > most) most = Math.abs(value);
+  return most;
+}

@@ -1,0 +1,53 @@
+// Small helpers that make parts of the page.
+
+/** An element with attributes, and children that are elements or text. */
+function make(name, attributes = {}, ...children) {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes))
+    if (value !== undefined && value !== null && value !== false) element.setAttribute(key, value === true ? "" : value);
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+const heading = (text) => make("h2", {}, text);
+
+/** Name, value and unit in boxes; each item {name, value, unit, path}. */
+function numbers(items) {
+  return make("dl", { class: "numbers" }, items.map(({ name, value, unit, path }) =>
+    make("div", {}, make("dt", {}, name),
+      make("dd", { "data-path": path, "data-value": JSON.stringify(value), title: String(value) },
+        short(value), unit && unit !== "1" ? ` ${unit}` : ""))));
+}
+
+/** A table with a head; cells are text, numbers, or {text, class, path, value}. */
+function grid(head, rows, { tall = false, caption } = {}) {
+  const cell = (content, tag, isText) => {
+    const item = typeof content === "object" && content !== null && !(content instanceof Node) ? content : { text: content };
+    const text = typeof item.text === "number" ? short(item.text) : item.text ?? "–";
+    return make(tag, {
+      class: [isText ? "text" : "", item.class ?? ""].join(" ").trim() || null, style: item.style, title: item.title,
+      "data-path": item.path, "data-value": item.path ? JSON.stringify(item.value ?? item.text) : null,
+      scope: tag === "th" ? "col" : null,
+    }, text);
+  };
+  const texts = head.map((_, i) => rows.every((row) => {
+    const content = row[i]?.text ?? row[i];
+    return typeof content !== "number" && content !== null && content !== undefined;
+  }));
+  return make("div", { class: tall ? "scroll tall" : "scroll", tabindex: 0, role: "region", "aria-label": caption ?? "table" },
+    make("table", {}, make("thead", {}, make("tr", {}, head.map((name, i) => cell(name, "th", texts[i])))),
+      make("tbody", {}, rows.map((row) => make("tr", {}, row.map((content, i) => cell(content, "td", texts[i])))))));
+}
+
+/** A table of the run, folded; long ones show their beginning. */
+function folded(name, { columns, rows, step }, most = 500) {
+  const shown = Math.min(columns[0]?.values.length ?? 0, most);
+  const all = shown === rows;
+  const note = all ? "" : ` The page shows ${shown} of ${rows} rows${step > 1 ? `, every ${step}th` : ""}; all are in ${name}.csv.`;
+  const body = Array.from({ length: shown }, (_, i) =>
+    columns.map((column) => (column.isText ? column.texts[i] : { text: column.values[i], title: column.texts[i] })));
+  return make("details", {}, make("summary", {}, `${name}.csv, ${rows} row${rows === 1 ? "" : "s"}`),
+    note ? make("p", { class: "soft" }, note.trim()) : null,
+    grid(columns.map((column) => column.name + (column.unit ? ` [${column.unit}]` : "")), body,
+      { tall: true, caption: `${name}.csv` }));
+}

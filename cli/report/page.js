@@ -1,0 +1,71 @@
+// Puts the page together.
+
+/** Scalars of the result with their path, lists and the certificate left out. */
+function scalars(value, path = "") {
+  if (value === null || typeof value !== "object") return [{ name: path, value, path }];
+  if (Array.isArray(value)) return [];
+  return Object.entries(value).filter(([key]) => key !== "certificate")
+    .flatMap(([key, item]) => scalars(item, path ? `${path}.${key}` : key));
+}
+
+const unitsOfScalars = { peak: "m", trough: "m", amplitude: "m", phase: "rad", period: "s", max_speed: "m/s", "final.t": "s", "final.x": "m", "final.v": "m/s" };
+const unitOfScalar = (path) => unitsOfScalars[path] ?? (path.startsWith("energy.") ? "J" : "");
+
+const verdicts = { 0: ["done", "good"], 1: ["a check failed", "bad"], 4: ["no result", "bad"], 5: ["some cases failed", "doubt"] };
+
+function head() {
+  const title = run.scenario?.title ?? run.provenance?.source ?? "dualdamp";
+  document.title = `${title} – dualdamp`;
+  const [words, mood] = verdicts[run.status] ?? ["failed", "bad"];
+  const theme = make("button", { type: "button", class: "tools" }, "light / dark");
+  theme.addEventListener("click", () => {
+    const root = document.documentElement;
+    const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+    root.dataset.theme = dark ? "light" : "dark";
+    drawAll();
+  });
+  return [
+    make("div", { class: "row" }, make("span", { class: "soft" }, `dualdamp ${run.program.version} · ${run.analysis}`), theme),
+    make("div", { class: "row" }, make("h1", {}, title), make("span", { class: `badge ${mood}` }, words)),
+    make("p", { class: "soft" }, `${run.provenance?.source ?? ""} · ${run.provenance?.started ?? ""} · ${short(run.provenance?.duration ?? 0, 3)} s`),
+  ];
+}
+
+function checks() {
+  if (!run.checks.length) return [];
+  return [heading("Checks"), grid(["value", "expected", "here", "difference", "", "source"], run.checks.map((c) => [
+    c.value, c.expected, { text: c.found, title: String(c.found) }, c.difference ?? null, { text: c.ok ? "✓" : "✗ off", class: c.ok ? "good" : "bad" }, { text: c.source ?? "", class: "long" }]))];
+}
+
+function provenance() {
+  const { program } = run;
+  const rows = [["program", `${program.name} ${program.version}`], ["commit", program.commit], ["compiler", program.compiler],
+    ["libraries", Object.entries(program.libraries).map((l) => l.join(" ")).join(", ")], ...Object.entries(run.provenance ?? {}).map(([k, v]) => [k, String(v)])];
+  return [heading("Where this comes from"),
+    make("details", {}, make("summary", {}, "Provenance"), grid(["", ""], rows.map(([k, v]) => [{ text: k, class: "text" }, { text: v, class: "long" }]))),
+    make("details", {}, make("summary", {}, "Scenario as it was run (SI)"), make("pre", { tabindex: 0 }, JSON.stringify(run.scenario, null, 2)))];
+}
+
+function body() {
+  const result = run.result ?? {};
+  const parts = [];
+  for (const error of run.errors) parts.push(make("p", { class: "note bad" }, error.message));
+  if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
+  for (const warning of run.warnings) parts.push(make("p", { class: "note" }, warning));
+  if (result.estimates) parts.push(heading("Estimates"), estimateTable(result.estimates));
+  const single = scalars(result).filter(({ path }) => !path.startsWith("fit.") && path !== "verdict" && path !== "");
+  if (single.length) parts.push(heading("Numbers"), numbers(single.map((item) => ({ ...item, unit: unitOfScalar(item.path) }))));
+  const drawn = (views[run.analysis]?.(result) ?? []).filter(Boolean);
+  if (drawn.length) parts.push(make("div", { class: "charts", style: "margin-top:1rem" }, drawn));
+  parts.push(...furtherTables(result), ...checks());
+  if (Object.keys(tables).length) parts.push(heading("Tables"), ...Object.entries(tables).map(([name, t]) => folded(name, t)));
+  return [...parts, ...provenance()];
+}
+
+document.getElementById("head").append(...head());
+document.getElementById("main").append(...body());
+drawAll();
+let resizing = 0;
+addEventListener("resize", () => { clearTimeout(resizing); resizing = setTimeout(drawAll, 150); });
+addEventListener("beforeprint", drawAll);
+document.documentElement.dataset.ready = "true";

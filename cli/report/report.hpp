@@ -1,0 +1,16 @@
+#pragma once
+/// The page of a result directory: one HTML file that opens offline, made from result.json and the tables beside
+/// it.
+
+#include <string>
+
+#include "scenarios/files.hpp"
+
+namespace dualdamp::cli {
+
+/// report.html of `directory`. Lists in result.json beyond 5000 items, and rows of a table beyond 50,000 (200,000
+/// of a map), are thinned out and the page says so. Errors: `core::InputError` when there is no result.json or it
+/// is none of ours; raised when the file is written.
+[[nodiscard]] scenarios::OutputFile report_page(const std::string& directory);
+
+}  // namespace dualdamp::cli

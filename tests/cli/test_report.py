@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""The page of results in a browser: it loads offline without errors, its charts are drawn, its numbers are those of
+result.json.
+
+usage: test_report.py PROGRAM ROOT [TEST...]
+"""
+
+import html
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+BROWSER = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
+
+# Says of each chart how many of its pixels are not empty.
+PROBE = """<script>
+for (const canvas of document.querySelectorAll(".plot canvas")) {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let inked = 0;
+  for (let i = 3; i < data.length; i += 4) if (data[i] > 0) inked += 1;
+  canvas.dataset.inked = inked;
+}
+</script>"""
+
+# One of each kind, with the number of charts it shows at least.
+EXAMPLES = {
+    "simulate": 5,
+    "steady_state": 4,
+    "xy_curve": 2,
+    "frequency_response": 3,
+    "regime_map": 1,
+    "xy_branch": 2,
+    "frequency_branch": 2,
+    "free_decay": 1,
+    "identify_xy_curve": 3,
+    "identify_free_decay": 3,
+    "formula": 0,
+}
+
+
+def at(document, path):
+    """The value at a path such as estimates[0].zeta."""
+    for key in re.findall(r"[^.\[\]]+", path):
+        document = document[int(key)] if isinstance(document, list) else document[key]
+    return document
+
+
+@unittest.skipIf(BROWSER is None, "there is no Chromium on this machine")
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        cls.addClassCleanup(cls.temporary.cleanup)
+
+    def run_program(self, *arguments, status=0):
+        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
+
+    def load(self, page):
+        """The page after its scripts have run, and what the console said."""
+        copy = page.with_name("probed.html")
+        copy.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
+        result = subprocess.run(
+            [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--window-size=1000,800",
+             f"--user-data-dir={self.folder / 'browser'}", "--virtual-time-budget=2000", "--dump-dom", copy.as_uri()],
+            capture_output=True, text=True, timeout=120,
+        )
+        copy.unlink()
+        return result.stdout, [line for line in result.stderr.splitlines() if "CONSOLE" in line]
+
+    def check(self, name, charts):
+        out = self.folder / name
+        self.run_program("run", ROOT / "scenarios/examples" / f"{name}.yaml", "--out", out, "--quiet")
+        page = out / "report.html"
+        self.assertNotRegex(page.read_text(), r"""(src|href)=["']?(https?:)?//""", "the page is self-contained")
+        dom, console = self.load(page)
+        self.assertEqual(console, [])
+        self.assertIn('data-ready="true"', dom)
+        inked = [int(count) for count in re.findall(r'data-inked="(\d+)"', dom)]
+        self.assertGreaterEqual(len(inked), charts)
+        for count in inked:
+            self.assertGreater(count, 500, "a chart is empty")
+        result = json.loads((out / "result.json").read_text())["result"]
+        shown = re.findall(r'data-path="([^"]+)" data-value="([^"]*)"', dom)
+        for path, value in shown:
+            self.assertEqual(json.loads(html.unescape(value)), at(result, path), path)
+        return dom, shown
+
+    def test_every_kind_of_analysis_has_its_page(self):
+        for name, charts in EXAMPLES.items():
+            with self.subTest(name):
+                _, shown = self.check(name, charts)
+                if name.startswith("identify"):
+                    self.assertIn("estimates[0].zeta", [path for path, _ in shown])
+
+    def test_a_title_cannot_become_markup(self):
+        scenario = self.folder / "markup.yaml"
+        scenario.write_text(
+            "schema: dualdamp/1\ntitle: '</script><script>throw 1</script><b>bold</b>'\n"
+            "system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m}\n"
+            "excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}\nanalysis: {type: steady_state}\n")
+        self.run_program("run", scenario, "--out", self.folder / "markup", "--quiet")
+        dom, console = self.load(self.folder / "markup/report.html")
+        self.assertEqual(console, [])
+        self.assertIn("&lt;b&gt;bold&lt;/b&gt;", dom)
+        self.assertNotIn("<b>bold</b>", dom)
+
+    def test_an_error_in_the_page_would_be_seen(self):
+        self.run_program("run", ROOT / "scenarios/examples/formula.yaml", "--out", self.folder / "broken", "--quiet")
+        page = self.folder / "broken/report.html"
+        page.write_text(page.read_text().replace("function head()", "function not_head()"))
+        dom, console = self.load(page)
+        self.assertEqual(len(console), 1)
+        self.assertNotIn('data-ready="true"', dom)
+
+    def test_report_writes_the_same_page_anew(self):
+        out = self.folder / "anew"
+        self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", out, "--quiet")
+        first = (out / "report.html").read_bytes()
+        (out / "report.html").unlink()
+        self.run_program("report", out)
+        self.assertEqual((out / "report.html").read_bytes(), first)
+
+    def test_a_long_table_is_thinned_out_and_the_page_says_so(self):
+        out = self.folder / "long"
+        self.run_program("run", ROOT / "scenarios/examples/simulate.yaml", "--set", "analysis.sample_rate=100000", "--out", out, "--quiet")
+        dom, console = self.load(out / "report.html")
+        self.assertEqual(console, [])
+        rows = sum(1 for line in (out / "history.csv").read_text().splitlines() if not line.startswith("#")) - 1
+        self.assertIn(f"of {rows} rows, every {rows // 50000 + 1}th; all are in history.csv", dom)
+
+    def test_a_directory_without_a_result_is_refused(self):
+        empty = self.folder / "empty"
+        empty.mkdir()
+        self.assertIn("there is no result here", self.run_program("report", empty, status=3).stderr)
+        (empty / "result.json").write_text("{")
+        self.assertIn("not a whole JSON document", self.run_program("report", empty, status=3).stderr)
+        (empty / "result.json").write_text("{}")
+        self.assertIn("no result of dualdamp", self.run_program("report", empty, status=3).stderr)
+        self.assertIn("no such directory", self.run_program("report", self.folder / "nowhere", status=3).stderr)
+        self.assertEqual(sorted(path.name for path in empty.iterdir()), ["result.json"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
