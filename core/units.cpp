@@ -194,6 +194,16 @@ class UnitSystem {
     return answer;
   }
 
+  /// Whether it is a product of base units and nothing else.
+  bool is_coherent(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    const Unit unit = parse(text);
+    if (!unit || contains_angle(unit)) return false;
+    const std::optional<std::string> base = definition(unit);
+    // A factor comes first and an offset last, each beside a space.
+    return base && !base->empty() && *base != "1" && base->find(' ') == std::string::npos;
+  }
+
  private:
   using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
   using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
@@ -207,12 +217,18 @@ class UnitSystem {
     return {ut_parse(system_.get(), text.c_str(), UT_ASCII), &ut_free};
   }
 
-  /// udunits2 counts an angle as the number 1; here an angle is an angle.
-  static bool contains_angle(const Unit& unit) {
+  /// In base units: "9.8 m.kg.s-2".
+  static std::optional<std::string> definition(const Unit& unit) {
     std::array<char, 256> buffer{};
     const int length = ut_format(unit.get(), buffer.data(), buffer.size(), UT_ASCII | UT_DEFINITION);
-    return length < 0 ||
-           std::string_view(buffer.data(), static_cast<std::size_t>(length)).find("rad") != std::string_view::npos;
+    if (length < 0) return std::nullopt;
+    return std::string(buffer.data(), static_cast<std::size_t>(length));
+  }
+
+  /// udunits2 counts an angle as the number 1; here an angle is an angle.
+  static bool contains_angle(const Unit& unit) {
+    const std::optional<std::string> text = definition(unit);
+    return !text || text->find("rad") != std::string::npos;
   }
 
   [[nodiscard]] Answer convert(const std::string& unit_text, const std::string& si_text) const {
@@ -324,6 +340,11 @@ QuantityText parse_quantity(std::string_view text, std::string_view si_unit) {
   if (!std::isfinite(value) || (value == 0.0 && *number.value != 0.0))
     return refused(quoted(body) + " is outside the range of double precision");
   return {value, {}, {}};
+}
+
+bool is_si(std::string_view unit) {
+  if (find_dimension(unit) != nullptr) return true;
+  return UnitGrammar(unit).accepts() && UnitSystem::instance().is_coherent(std::string(unit));
 }
 
 QuantityText unit_factor(std::string_view unit, std::string_view si_unit) {

@@ -34,6 +34,9 @@ struct QuantityText {
 /// The factor that converts a number in `unit` to `si_unit`: for the head of a data column. An empty unit is SI.
 [[nodiscard]] QuantityText unit_factor(std::string_view unit, std::string_view si_unit);
 
+/// Whether the unit can name a dimension: one of SI, or a product of such, with factor 1, and read by its name.
+[[nodiscard]] bool is_si(std::string_view unit);
+
 /// "a mass such as '5 kg'": what is accepted, for messages and documentation.
 [[nodiscard]] std::string describe_dimension(std::string_view si_unit);
 

@@ -125,3 +125,15 @@ TEST_CASE("units: several threads may ask at once", "[core][units]") {
   threads.clear();
   for (const int count : good) CHECK(count == 500);
 }
+
+TEST_CASE("units that name a dimension are those of SI with factor 1", "[core][units]") {
+  for (const char* unit : {"1", "N", "N.s/m", "m/s^2", "rad/s", "kg", "Pa", "1/m", "kg.m^2/s"}) {
+    INFO(unit);
+    CHECK(is_si(unit));
+  }
+  for (const char* unit :
+       {"", "g", "mm", "lbf", "parsec", "degC", "%", "2 N", "N.mm", "N.m/rad", "rpm", "nonsense"}) {
+    INFO(unit);
+    CHECK_FALSE(is_si(unit));
+  }
+}
