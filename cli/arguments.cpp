@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <string_view>
 
@@ -30,11 +31,22 @@ void add_output_options(CLI::App& command, std::string& out, bool& json, bool& q
   command.add_flag("--quiet", quiet, "No messages on stderr but errors");
 }
 
+/// The libraries that DUALDAMP_PLUGINS names.
+std::vector<std::string> plugins_of_environment() {
+  const char* text = std::getenv("DUALDAMP_PLUGINS");
+  std::istringstream list(text == nullptr ? "" : text);
+  std::vector<std::string> files;
+  for (std::string file; std::getline(list, file, ':');)
+    if (!file.empty()) files.push_back(file);
+  return files;
+}
+
 class Parser {
  public:
   Parser() {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", version_text());
+    add_plugins(app_);
     app_.footer(
         "Exit status: 0 done, 1 a requested check failed, 2 wrong usage, 3 invalid scenario or data,\n"
         "4 numerical failure, 70 a bug of this program, 130 interrupted.");
@@ -45,7 +57,7 @@ class Parser {
     add_lists();
   }
 
-  Command parse(int argc, const char* const* argv) {
+  Call parse(int argc, const char* const* argv) {
     const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
     try {
       app_.parse(argc, argv);
@@ -53,13 +65,24 @@ class Parser {
       std::ostringstream out;
       std::ostringstream errors;
       const int status = app_.exit(error, out, errors);
-      if (status == 0) return Leave{out.str(), 0, false};
-      return Leave{error.what(), usage, json};
+      if (status == 0) return {Leave{out.str(), 0, false}, {}};
+      return {Leave{error.what(), usage, json}, {}};
     }
-    return chosen();
+    return {chosen(), plugins_};
   }
 
  private:
+  void add_plugins(CLI::App& command) {
+    const auto append = [this](const std::vector<std::string>& files) {
+      plugins_.insert(plugins_.end(), files.begin(), files.end());
+    };
+    command
+        .add_option_function<std::vector<std::string>>("--plugin", append,
+                                                       "Library with a friction law, loaded before anything else")
+        ->allow_extra_args(false)
+        ->type_name("LIB");
+  }
+
   void add_run() {
     run_command_ = app_.add_subcommand("run", "Run scenario files");
     run_command_->add_option("FILE", run_.files, "Scenario files")->required()->type_name("");
@@ -74,11 +97,13 @@ class Parser {
         ->check(CLI::Range(1, max_jobs))
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and say what would be run");
+    add_plugins(*run_command_);
   }
 
   void add_check() {
     check_command_ = app_.add_subcommand("check", "Check scenario files without running them");
     check_command_->add_option("FILE", check_.files, "Scenario files")->required()->type_name("");
+    add_plugins(*check_command_);
   }
 
   void add_identify() {
@@ -108,11 +133,28 @@ class Parser {
 
   void add_lists() {
     laws_command_ = app_.add_subcommand("laws", "List the friction laws, or explain one");
-    laws_command_->add_option("NAME", laws_.name, "A law")->type_name("");
+    CLI::Option* name = laws_command_->add_option("NAME", laws_.name, "A law")->type_name("");
+    CLI::Option* check =
+        laws_command_->add_flag("--check", laws_.check, "Test whether the law keeps its contract")->needs(name);
+    laws_command_->add_option("--set", laws_.set, "A parameter of the law that is tested: --set kinetic='2 N'")
+        ->allow_extra_args(false)
+        ->type_name("NAME=VALUE")
+        ->needs(check);
+    laws_command_
+        ->add_option("--stroke", laws_.stroke, "Longest stroke of the test; strokes up to this visit all modes")
+        ->type_name("QUANTITY")
+        ->capture_default_str()
+        ->needs(check);
+    laws_command_->add_option("--stroke-time", laws_.stroke_time, "Time of such a stroke")
+        ->type_name("QUANTITY")
+        ->capture_default_str()
+        ->needs(check);
+    add_plugins(*laws_command_);
     methods_command_ = app_.add_subcommand("methods", "List the identification methods, or explain one");
     methods_command_->add_option("NAME", methods_.name, "A method")->type_name("");
     schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
     schema_command_->add_flag("--markdown", schema_.markdown, "The reference page instead");
+    add_plugins(*schema_command_);
   }
 
   [[nodiscard]] Command chosen() const {
@@ -134,6 +176,7 @@ class Parser {
   CLI::App* laws_command_ = nullptr;
   CLI::App* methods_command_ = nullptr;
   CLI::App* schema_command_ = nullptr;
+  std::vector<std::string> plugins_ = plugins_of_environment();
   RunCommand run_;
   CheckCommand check_;
   IdentifyCommand identify_;
@@ -145,6 +188,6 @@ class Parser {
 
 }  // namespace
 
-Command parse(int argc, const char* const* argv) { return Parser().parse(argc, argv); }
+Call parse(int argc, const char* const* argv) { return Parser().parse(argc, argv); }
 
 }  // namespace dualdamp::cli

@@ -23,6 +23,10 @@ struct CheckCommand {
 
 struct LawsCommand {
   std::string name;
+  bool check = false;  ///< whether it keeps the law contract
+  std::vector<std::string> set;
+  std::string stroke = "0.1 m";
+  std::string stroke_time = "0.5 s";
 };
 
 struct MethodsCommand {
@@ -56,6 +60,14 @@ struct Leave {
 using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, SchemaCommand, IdentifyCommand,
                              ReportCommand, Leave>;
 
-[[nodiscard]] Command parse(int argc, const char* const* argv);
+/// A command line.
+struct Call {
+  Command command;
+  std::vector<std::string> plugins;  ///< libraries to load before the command is executed
+};
+
+/// Plugins are those that the environment variable DUALDAMP_PLUGINS names, colons between them, then those of
+/// `--plugin`, wherever it stands.
+[[nodiscard]] Call parse(int argc, const char* const* argv);
 
 }  // namespace dualdamp::cli

@@ -7,13 +7,17 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
+#include "cli/conformance.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "core/build_info.hpp"
+#include "friction_models/law_fault.hpp"
+#include "friction_models/plugin.hpp"
 #include "scenarios/output.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/scenario.hpp"
@@ -70,6 +74,8 @@ Report guarded(Work work) {
     return refused(ExitStatus::invalid_input, error.diagnostics());
   } catch (const scenarios::OutputError& error) {
     return refused(ExitStatus::usage, error.what());
+  } catch (const friction::LawFault& fault) {
+    return refused(ExitStatus::numerical_failure, fault.what());
   } catch (const std::exception& error) {
     return bug(error.what());
   }
@@ -291,7 +297,18 @@ Report of_list(const Listing& listing) {
   return report;
 }
 
-int execute(const LawsCommand& command) { return say(of_list(list_laws(command.name)), {}); }
+int execute(const LawsCommand& command) {
+  const Listing listing = list_laws(command.name);
+  if (!command.check || !listing.found) return say(of_list(listing), {});
+  return say(guarded([&] {
+               const Conformance conformance = check_law(command);
+               Report report;
+               report.status = conformance.holds ? ExitStatus::done : ExitStatus::check_failed;
+               report.text = conformance.text;
+               return report;
+             }),
+             {});
+}
 
 int execute(const MethodsCommand& command) { return say(of_list(list_methods(command.name)), {}); }
 
@@ -311,11 +328,32 @@ int execute(const Leave& leave) {
   return say(report, {leave.json, false});
 }
 
+/// Loads the plugins; says why not and returns the status when one is refused.
+std::optional<int> load_plugins(const std::vector<std::string>& files, const Style& style) {
+  try {
+    for (const std::string& file : files) friction::load_plugin(file);
+    return std::nullopt;
+  } catch (const core::InputError& error) {
+    return say(refused(ExitStatus::usage, error.diagnostics()), style);
+  }
+}
+
+template <typename ChosenCommand>
+Style style_of(const ChosenCommand& command) {
+  if constexpr (requires { command.quiet; }) return {command.json, command.quiet};
+  return {};
+}
+
 }  // namespace
 
-int execute(const Command& command) noexcept {
+int execute(const Call& call) noexcept {
   try {
-    return std::visit([](const auto& chosen) { return execute(chosen); }, command);
+    return std::visit(
+        [&](const auto& chosen) {
+          const std::optional<int> failed = load_plugins(call.plugins, style_of(chosen));
+          return failed ? *failed : execute(chosen);
+        },
+        call.command);
   } catch (const std::exception& error) {
     std::cerr << bug(error.what()).errors;
     return static_cast<int>(ExitStatus::internal_bug);

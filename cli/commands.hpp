@@ -6,6 +6,6 @@
 namespace dualdamp::cli {
 
 /// Exit status of the program. Never throws.
-[[nodiscard]] int execute(const Command& command) noexcept;
+[[nodiscard]] int execute(const Call& call) noexcept;
 
 }  // namespace dualdamp::cli

@@ -41,6 +41,11 @@ std::string facts_of(const friction::LawEntry& law) {
                {"random", law.is_random ? "yes" : "no"},
                {"passive", law.is_passive ? "yes" : "no: it may give out more work than it took in"}};
   if (!law.caution.empty()) rows.push_back({"caution", std::string(law.caution)});
+  if (law.plugin) {
+    if (!law.sources.empty()) rows.push_back({"sources", std::string(law.sources)});
+    rows.push_back({"plugin", law.plugin->file + ", version " + law.plugin->version});
+    return columns(rows);
+  }
   rows.push_back({"sources", std::string(law.sources) + " in docs/refs.bib"});
   rows.push_back({"page", "docs/laws/" + std::string(law.name) + ".md"});
   return columns(rows);

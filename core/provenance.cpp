@@ -63,6 +63,9 @@ std::vector<std::pair<std::string, std::string>> lines(const Provenance& provena
   for (const Library& library : libraries())
     versions += (versions.empty() ? "" : ", ") + library.name + " " + library.version;
   result.emplace_back("libraries", versions);
+  for (const Plugin& plugin : provenance.plugins)
+    result.emplace_back("plugin",
+                        plugin.law + " " + plugin.version + ", " + plugin.file + ", sha256 " + plugin.sha256);
   result.emplace_back("source", provenance.source);
   result.emplace_back("source_sha256", provenance.source_sha256);
   for (const std::string& text : provenance.overrides) result.emplace_back("set", text);

@@ -22,6 +22,14 @@ struct Library {
 /// The present time as "2025-01-31T12:00:00Z".
 [[nodiscard]] std::string utc_now();
 
+/// A shared library whose friction law the program has taken in.
+struct Plugin {
+  std::string law;
+  std::string version;  ///< of the law, as the library says
+  std::string file;
+  std::string sha256;  ///< of its bytes
+};
+
 /// Where an artefact comes from, beside the program itself (`core::build_info()`, `libraries()`).
 struct Provenance {
   std::string source;                  ///< the scenario file as named by the user
@@ -30,6 +38,7 @@ struct Provenance {
   std::string scenario_sha256;         ///< of `scenario`
   std::string data_sha256;             ///< of the measured data, when there is any
   std::vector<std::string> overrides;  ///< `--set` texts in order
+  std::vector<Plugin> plugins;         ///< loaded, whether or not their laws are used
   double tolerance = 0.0;
   std::string started;    ///< UTC
   double duration = 0.0;  ///< s

@@ -69,6 +69,7 @@ std::vector<LawEntry> make_list() {
        .equation = "F = sum of stiffness (x - b);  at |x - b| = snap_distance: b = x + snap_distance U(-1, 1)",
        .states = "place of each bristle",
        .is_random = true,
+       .is_odd = false,
        .sources = "haessig1991",
        .modifiers = {"fluctuation"},
        .parameters = Bristle::parameters(),
@@ -254,15 +255,24 @@ std::vector<LawEntry> make_list() {
   };
 }
 
-}  // namespace
-
-const std::vector<LawEntry>& laws() {
-  static const std::vector<LawEntry> list = [] {
+std::vector<LawEntry>& all_laws() {
+  static std::vector<LawEntry> list = [] {
     std::vector<LawEntry> entries = make_list();
     for (LawEntry& entry : entries) entry.parameters = with_modifiers(std::move(entry.parameters), entry.modifiers);
     return entries;
   }();
   return list;
+}
+
+}  // namespace
+
+const std::vector<LawEntry>& laws() { return all_laws(); }
+
+void add_law(LawEntry entry) {
+  entry.parameters = with_modifiers(std::move(entry.parameters), entry.modifiers);
+  std::vector<LawEntry>& list = all_laws();
+  const auto place = std::ranges::lower_bound(list, entry.name, {}, &LawEntry::name);
+  list.insert(place, std::move(entry));
 }
 
 const LawEntry* find_law(std::string_view name) {

@@ -24,6 +24,9 @@ Json provenance_json(const core::Provenance& provenance) {
   Json json = {{"source", provenance.source}, {"source_sha256", provenance.source_sha256}};
   if (!provenance.overrides.empty()) json["set"] = provenance.overrides;
   if (!provenance.data_sha256.empty()) json["data_sha256"] = provenance.data_sha256;
+  for (const core::Plugin& plugin : provenance.plugins)
+    json["plugins"].push_back(
+        {{"law", plugin.law}, {"version", plugin.version}, {"file", plugin.file}, {"sha256", plugin.sha256}});
   json["scenario_sha256"] = provenance.scenario_sha256;
   json["tolerance"] = provenance.tolerance;
   json["started"] = provenance.started;

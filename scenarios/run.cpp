@@ -4,6 +4,8 @@
 #include <chrono>
 
 #include "core/numbers.hpp"
+#include "friction_models/law_fault.hpp"
+#include "friction_models/registry.hpp"
 #include "scenarios/answer.hpp"
 #include "scenarios/expectations.hpp"
 #include "scenarios/formulas.hpp"
@@ -163,9 +165,21 @@ core::Provenance provenance_of(const Scenario& scenario) {
   if (const auto* identify = std::get_if<Identify>(&scenario.analysis))
     provenance.data_sha256 = identify->data_sha256;
   provenance.overrides = scenario.overrides;
+  for (const friction::LawEntry& law : friction::laws())
+    if (law.plugin) provenance.plugins.push_back(*law.plugin);
   provenance.tolerance = scenario.tolerance;
   provenance.started = core::utc_now();
   return provenance;
+}
+
+Answer ask(const Scenario& scenario) {
+  try {
+    return std::visit(Runner(scenario), scenario.analysis);
+  } catch (const friction::LawFault& fault) {
+    Answer none;
+    none.failure = fault.what();
+    return none;
+  }
 }
 
 }  // namespace
@@ -174,7 +188,7 @@ RunResult run(const Scenario& scenario) {
   RunResult result;
   result.provenance = provenance_of(scenario);
   const auto start = std::chrono::steady_clock::now();
-  Answer answer = std::visit(Runner(scenario), scenario.analysis);
+  Answer answer = ask(scenario);
   result.provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   result.warnings = scenario.warnings;

@@ -270,4 +270,14 @@ Scenario load_scenario(const std::string& path, const LoadOptions& options) {
   return parse_scenario(read_file(path, max_bytes), path, options);
 }
 
+friction::ParameterValues law_parameters(const std::string& law, const std::vector<std::string>& set) {
+  LoadOptions options;
+  for (const std::string& assignment : set) options.set.push_back({"system.friction." + assignment});
+  const Scenario around =
+      parse_scenario("schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
+                         "}}\nanalysis: {type: simulate, duration: 1}\n",
+                     "command line", options);
+  return law_values(friction::find_law(law)->parameters, Json::parse(around.resolved).at("system").at("friction"));
+}
+
 }  // namespace dualdamp::scenarios

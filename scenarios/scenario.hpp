@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/diagnostics.hpp"
+#include "friction_models/parameters.hpp"
 #include "identify/methods.hpp"
 #include "sim/continuation.hpp"
 #include "sim/model.hpp"
@@ -110,5 +111,9 @@ struct LoadOptions {
 /// The same from text; `name` stands for the file in messages, and data files are looked for in `name`'s directory.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& name,
                                       const LoadOptions& options = {});
+
+/// The parameters of one law, `set` as the user writes them (`kinetic=2 N`), checked as in a file, defaults filled
+/// in. Errors: `core::InputError`, also when there is no such law.
+[[nodiscard]] friction::ParameterValues law_parameters(const std::string& law, const std::vector<std::string>& set);
 
 }  // namespace dualdamp::scenarios

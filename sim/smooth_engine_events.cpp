@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "friction_models/law_fault.hpp"
 #include "sim/smooth_engine.hpp"
 
 namespace dualdamp::sim {
@@ -217,10 +218,16 @@ double SmoothEngine::crossing(std::size_t watch, double before, double negative)
     low = part;
     value_low = guard(watch, low);
   }
+  const double value_negative = guard(watch, negative);
+  if (value_negative > 0.0) {
+    throw friction::LawFault(
+        "a guard of a friction law has another sign when it is asked again for the same instant, t = " +
+        std::to_string(time() + negative * taken_) + " s");
+  }
   std::uintmax_t iterations = 60;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      [&](double part) { return guard(watch, part); }, low, negative, value_low, guard(watch, negative),
-      boost::math::tools::eps_tolerance<double>(48), iterations);
+  const auto [left, right] =
+      boost::math::tools::toms748_solve([&](double part) { return guard(watch, part); }, low, negative, value_low,
+                                        value_negative, boost::math::tools::eps_tolerance<double>(48), iterations);
   return 0.5 * (left + right);
 }
 

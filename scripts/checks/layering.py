@@ -49,7 +49,8 @@ LIBRARIES = {
     "fmt": (r"fmt/", ABOVE_SIM, SOURCES),
     "CLI11": (r"CLI/", ["cli"], PUBLIC),
     "MPI": (r"mpi\.h", ["bench"], SOURCES),
-    "the operating system": (r"(sys/\w+|unistd|fcntl|dlfcn|pthread|poll|signal|termios)\.h", ["scenarios", "bench", "cli"], SOURCES),
+    "the dynamic loader": (r"dlfcn\.h", ["friction_models"], SOURCES),
+    "the operating system": (r"(sys/\w+|unistd|fcntl|pthread|poll|signal|termios)\.h", ["scenarios", "bench", "cli"], SOURCES),
 }
 STANDARD = re.compile(r"[a-z_0-9]+$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -8,8 +8,8 @@
 #include "friction_models/contact_compliance.hpp"
 #include "friction_models/dahl.hpp"
 #include "friction_models/iwan.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;
@@ -18,8 +18,8 @@ using friction::Law;
 
 namespace {
 
-test::LawCase bouc_wen(double exponent, double ratio, double beta_share) {
-  test::LawCase c = test::law_case(
+sim::LawCase bouc_wen(double exponent, double ratio, double beta_share) {
+  sim::LawCase c = sim::law_case(
       "bouc_wen",
       {{"limit", 2.0}, {"stiffness", 1e4}, {"exponent", exponent}, {"ratio", ratio}, {"beta_share", beta_share}});
   c.stroke = 20.0 * 2.0 / 1e4;
@@ -32,19 +32,19 @@ test::LawCase bouc_wen(double exponent, double ratio, double beta_share) {
 
 TEST_CASE("bouc_wen conforms to the law contract", "[friction][bouc_wen]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(bouc_wen(1.0, 0.0, 0.5)) == none);
-  CHECK(test::nonconformities(bouc_wen(2.0, 0.1, 0.7)) == none);
-  CHECK(test::nonconformities(bouc_wen(1.5, 0.0, 0.1)) == none);
-  CHECK(test::nonconformities(bouc_wen(30.0, 0.3, 1.0)) == none);
-  CHECK(test::nonconformities(bouc_wen(3.0, 0.0, 1.4)) == none);
+  CHECK(sim::nonconformities(bouc_wen(1.0, 0.0, 0.5)) == none);
+  CHECK(sim::nonconformities(bouc_wen(2.0, 0.1, 0.7)) == none);
+  CHECK(sim::nonconformities(bouc_wen(1.5, 0.0, 0.1)) == none);
+  CHECK(sim::nonconformities(bouc_wen(30.0, 0.3, 1.0)) == none);
+  CHECK(sim::nonconformities(bouc_wen(3.0, 0.0, 1.4)) == none);
 }
 
 TEST_CASE("bouc_wen: first loading in closed form", "[friction][bouc_wen]") {
   // z/z0 = 1 - exp(-x/z0) for the exponent 1, tanh(x/z0) for 2, whatever b.
   const double z0 = 2e-4;
   for (const double b : {0.0, 0.5, 1.0}) {
-    test::LawHost one(Law(BoucWen(2.0, 1e4, 1.0, 0.2, b)), {});
-    test::LawHost two(Law(BoucWen(2.0, 1e4, 2.0, 0.2, b)), {});
+    sim::LawHost one(Law(BoucWen(2.0, 1e4, 1.0, 0.2, b)), {});
+    sim::LawHost two(Law(BoucWen(2.0, 1e4, 2.0, 0.2, b)), {});
     for (const double r : {0.1, 1.0, 4.0}) {
       one.move_to(r * z0);
       two.move_to(r * z0);
@@ -56,8 +56,8 @@ TEST_CASE("bouc_wen: first loading in closed form", "[friction][bouc_wen]") {
 
 TEST_CASE("bouc_wen: with b = 1 and exponent 1 it is dahl", "[friction][bouc_wen]") {
   test::Random random(11);
-  test::LawHost bouc(Law(BoucWen(2.0, 1e4, 1.0, 0.0, 1.0)), {});
-  test::LawHost dahl(Law(friction::Dahl(2.0, 1e4, 1.0)), {});
+  sim::LawHost bouc(Law(BoucWen(2.0, 1e4, 1.0, 0.0, 1.0)), {});
+  sim::LawHost dahl(Law(friction::Dahl(2.0, 1e4, 1.0)), {});
   for (int i = 0; i < 100; ++i) {
     const double x = random.sign() * random.logarithmic(1e-6, 1e-3);
     bouc.move_to(x);
@@ -72,12 +72,12 @@ TEST_CASE("bouc_wen: a large exponent leaves contact_compliance", "[friction][bo
   const double z0 = 2e-4;
   for (const double n : {100.0, 1000.0}) {
     const Law law(BoucWen(2.0, 1e4, n, 0.0, 0.5));
-    test::LawHost onset(law, {});
+    sim::LawHost onset(law, {});
     onset.move_to(z0);
     const double gap = n * (2.0 - onset.force()) / 2.0;
     CHECK(gap == Approx(std::log(2.0)).epsilon(5.0 / n));
-    test::LawHost bouc(law, {});
-    test::LawHost contact(Law(friction::ContactCompliance(2.0, 2.0, 1e4, 0.0)), {});
+    sim::LawHost bouc(law, {});
+    sim::LawHost contact(Law(friction::ContactCompliance(2.0, 2.0, 1e4, 0.0)), {});
     test::Random random(5);
     for (int i = 0; i < 300; ++i) {
       const double x = random.uniform(-3.0, 3.0) * z0;
@@ -91,7 +91,7 @@ TEST_CASE("bouc_wen: a large exponent leaves contact_compliance", "[friction][bo
 TEST_CASE("bouc_wen: an inner loop does not close, that of iwan does", "[friction][bouc_wen]") {
   const double z0 = 2e-4;
   const auto lost = [&](const Law& law) {
-    test::LawHost host(law, {});
+    sim::LawHost host(law, {});
     host.move_to(z0);
     const double before = host.force();
     host.move_to(0.7 * z0);
@@ -108,7 +108,7 @@ TEST_CASE("bouc_wen: an inner loop does not close, that of iwan does", "[frictio
 TEST_CASE("bouc_wen: it gives out work in unloading when b is below 1/2, and says so", "[friction][bouc_wen]") {
   // Heat in unloading is F |v| r (2 b - 1) with r = z/z0, exponent 1.
   const auto heat_of_unloading = [](double b) {
-    test::LawHost host(Law(BoucWen(2.0, 1e4, 1.0, 0.0, b)), {});
+    sim::LawHost host(Law(BoucWen(2.0, 1e4, 1.0, 0.0, b)), {});
     host.move_to(2e-4);
     const double before = host.heat();
     host.move_to(1e-4);

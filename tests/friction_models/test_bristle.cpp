@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Bristle;
@@ -18,7 +18,7 @@ using friction::Memory;
 
 namespace {
 
-double stored(const test::LawHost& host, double stiffness) {
+double stored(const sim::LawHost& host, double stiffness) {
   double sum = 0.0;
   for (const double place : host.memory().state) sum += stiffness / 2.0 * std::pow(host.now().x - place, 2);
   return sum;
@@ -29,13 +29,13 @@ double stored(const test::LawHost& host, double stiffness) {
 TEST_CASE("bristle conforms to the law contract", "[friction][bristle]") {
   const std::vector<std::string> none;
   for (const double count : {1.0, 6.0}) {
-    test::LawCase c = test::law_case(
-        "bristle", {{"stiffness", 500.0}, {"snap_distance", 2e-3}, {"count", count}, {"seed", 42.0}});
+    sim::LawCase c =
+        sim::law_case("bristle", {{"stiffness", 500.0}, {"snap_distance", 2e-3}, {"count", count}, {"seed", 42.0}});
     c.stroke = 0.02;
     c.odd = false;
     c.passive = false;  // it starts stretched
     c.random = true;
-    CHECK(test::nonconformities(c) == none);
+    CHECK(sim::nonconformities(c) == none);
   }
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("bristle: the same seed gives the same places, another one others", "[
 
 TEST_CASE("bristle: nothing snaps on a way that stretches none to its length, and the force is elastic",
           "[friction][bristle]") {
-  test::LawHost host(Law(Bristle(500.0, 2e-3, 20, 1)), {});
+  sim::LawHost host(Law(Bristle(500.0, 2e-3, 20, 1)), {});
   const double front = host.memory().state.front() + 2e-3;
   const double force = host.force();
   host.move_to(0.999 * front);
@@ -65,7 +65,7 @@ TEST_CASE("bristle: mean force and snaps of a long way", "[friction][bristle]") 
   const double stiffness = 500.0;
   const double d = 2e-3;
   const int count = 40;
-  test::LawHost host(Law(Bristle(stiffness, d, count, 3)), {});
+  sim::LawHost host(Law(Bristle(stiffness, d, count, 3)), {});
   host.move_to(10.0 * d);
   const int events = host.events();
   const double work = host.work();

@@ -8,8 +8,8 @@
 
 #include "friction_models/registry.hpp"
 #include "sim/analytic/contact.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
@@ -21,11 +21,11 @@ using friction::Memory;
 
 namespace {
 
-test::LawCase contact(double kinetic, double static_level, double stiffness, double damping) {
-  test::LawCase c = test::law_case("contact_compliance", {{"kinetic", kinetic},
-                                                          {"static", static_level},
-                                                          {"contact_stiffness", stiffness},
-                                                          {"contact_damping", damping}});
+sim::LawCase contact(double kinetic, double static_level, double stiffness, double damping) {
+  sim::LawCase c = sim::law_case("contact_compliance", {{"kinetic", kinetic},
+                                                        {"static", static_level},
+                                                        {"contact_stiffness", stiffness},
+                                                        {"contact_damping", damping}});
   // Strokes of many times the travel to break-away visit all modes.
   c.stroke = 20.0 * std::max(static_level, 0.1) / stiffness;
   c.scaled = [=](double factor) {
@@ -38,11 +38,11 @@ test::LawCase contact(double kinetic, double static_level, double stiffness, dou
 
 TEST_CASE("contact_compliance conforms to the law contract", "[friction][contact_compliance]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(contact(2.0, 2.0, 1e3, 0.0)) == none);
-  CHECK(test::nonconformities(contact(2.0, 3.0, 1e3, 0.0)) == none);
-  CHECK(test::nonconformities(contact(2.0, 2.0, 1e3, 5.0)) == none);
-  CHECK(test::nonconformities(contact(2.0, 3.0, 1e3, 500.0)) == none);
-  CHECK(test::nonconformities(contact(0.0, 0.0, 1e7, 0.0)) == none);
+  CHECK(sim::nonconformities(contact(2.0, 2.0, 1e3, 0.0)) == none);
+  CHECK(sim::nonconformities(contact(2.0, 3.0, 1e3, 0.0)) == none);
+  CHECK(sim::nonconformities(contact(2.0, 2.0, 1e3, 5.0)) == none);
+  CHECK(sim::nonconformities(contact(2.0, 3.0, 1e3, 500.0)) == none);
+  CHECK(sim::nonconformities(contact(0.0, 0.0, 1e7, 0.0)) == none);
 }
 
 TEST_CASE("contact_compliance: the slider jumps at break-away, the mass does not",
@@ -132,7 +132,7 @@ TEST_CASE("contact_compliance: the Jenkins loop of any amplitude", "[friction][c
   for (const double static_level : {2.0, 3.0}) {
     for (const double amplitude : {0.0009, 0.0035, 0.01, 1.0}) {
       INFO(static_level << " N, " << amplitude << " m");
-      test::LawHost host(friction::Law(ContactCompliance(2.0, static_level, stiffness, 0.0)), {});
+      sim::LawHost host(friction::Law(ContactCompliance(2.0, static_level, stiffness, 0.0)), {});
       for (int i = 0; i < 4; ++i) host.move_to(i % 2 == 0 ? amplitude : -amplitude);
       const double before = host.work();
       host.move_to(amplitude);
@@ -152,10 +152,10 @@ TEST_CASE("contact_compliance: sliding sets in at the speed of Eq (18)", "[frict
   const double kinetic = 3.5;
   for (const double stiffness : {11.6e4, 1.2e4, 1.7e3}) {
     INFO(stiffness);
-    test::LawHost host(friction::Law(ContactCompliance(kinetic, kinetic, stiffness, 0.0)), {.x = -X});
+    sim::LawHost host(friction::Law(ContactCompliance(kinetic, kinetic, stiffness, 0.0)), {.x = -X});
     host.move_to(X);
     const double turned = host.now().t;
-    const test::Path back = [&](double t) {
+    const sim::Path back = [&](double t) {
       const double angle = omega * (t - turned);
       return Instant{t, X * std::cos(angle), -X * omega * std::sin(angle)};
     };

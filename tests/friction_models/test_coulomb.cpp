@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "friction_models/registry.hpp"
-#include "tests/support/law_conformance.hpp"
+#include "sim/conformance/law_conformance.hpp"
 
 using namespace dualdamp;
 using friction::Coulomb;
@@ -13,9 +13,9 @@ using friction::Direction;
 
 TEST_CASE("coulomb conforms to the law contract", "[friction][coulomb]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(test::law_case("coulomb", {{"kinetic", 2.0}})) == none);
-  CHECK(test::nonconformities(test::law_case("coulomb", {{"kinetic", 2.0}, {"static", 3.5}})) == none);
-  CHECK(test::nonconformities(test::law_case("coulomb", {{"kinetic", 0.0}})) == none);
+  CHECK(sim::nonconformities(sim::law_case("coulomb", {{"kinetic", 2.0}})) == none);
+  CHECK(sim::nonconformities(sim::law_case("coulomb", {{"kinetic", 2.0}, {"static", 3.5}})) == none);
+  CHECK(sim::nonconformities(sim::law_case("coulomb", {{"kinetic", 0.0}})) == none);
 }
 
 TEST_CASE("coulomb is kinetic sgn v while slipping and holds up to static", "[friction][coulomb]") {
@@ -52,7 +52,7 @@ TEST_CASE("coulomb's static level defaults to the kinetic one and may not lie be
 }
 
 TEST_CASE("coulomb from the registry is the law with the values given", "[friction][coulomb]") {
-  const test::LawCase c = test::law_case("coulomb", {{"kinetic", 2.0}, {"static", 3.0}});
+  const sim::LawCase c = sim::law_case("coulomb", {{"kinetic", 2.0}, {"static", 3.0}});
   CHECK(c.law.force({}, {}, Direction::forward) == 2.0);
   CHECK(c.law.static_limit({}, {}) == 3.0);
 }

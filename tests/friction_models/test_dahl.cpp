@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Dahl;
@@ -14,8 +14,8 @@ using friction::Law;
 
 namespace {
 
-test::LawCase dahl(double kinetic, double sigma0, double exponent) {
-  test::LawCase c = test::law_case("dahl", {{"kinetic", kinetic}, {"sigma0", sigma0}, {"exponent", exponent}});
+sim::LawCase dahl(double kinetic, double sigma0, double exponent) {
+  sim::LawCase c = sim::law_case("dahl", {{"kinetic", kinetic}, {"sigma0", sigma0}, {"exponent", exponent}});
   c.stroke = 20.0 * kinetic / sigma0;
   c.scaled = [=](double factor) {
     // The distance kinetic/sigma0 over which friction builds up is the limit over a stiffness that stays.
@@ -28,16 +28,16 @@ test::LawCase dahl(double kinetic, double sigma0, double exponent) {
 
 TEST_CASE("dahl conforms to the law contract", "[friction][dahl]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(dahl(2.0, 1e3, 1.0)) == none);
-  CHECK(test::nonconformities(dahl(2.0, 1e5, 1.5)) == none);
-  CHECK(test::nonconformities(dahl(2.0, 1e5, 2.0)) == none);
+  CHECK(sim::nonconformities(dahl(2.0, 1e3, 1.0)) == none);
+  CHECK(sim::nonconformities(dahl(2.0, 1e5, 1.5)) == none);
+  CHECK(sim::nonconformities(dahl(2.0, 1e5, 2.0)) == none);
 }
 
 TEST_CASE("dahl: first loading in closed form", "[friction][dahl]") {
   // dF/dx = sigma0 (1 - F/Fc)^i: 1 - F/Fc = exp(-a) for i = 1, (1 + (i - 1) a)^(-1/(i - 1)) else, a = sigma0 x/Fc.
   // The host integrates with a tolerance of 1e-11 of Fc/sigma0 a step.
   for (const double exponent : {1.0, 1.5, 2.0, 3.0}) {
-    test::LawHost host(Law(Dahl(2.0, 1e4, exponent)), {.x = 0.3});
+    sim::LawHost host(Law(Dahl(2.0, 1e4, exponent)), {.x = 0.3});
     for (const double a : {0.01, 0.5, 3.0, 20.0}) {
       INFO(exponent << " " << a);
       host.move_to(0.3 + a * 2e-4);
@@ -56,7 +56,7 @@ TEST_CASE("dahl: peak force and work of a loop", "[friction][dahl]") {
     const double amplitude = 1e-3;
     const double a = sigma0 * amplitude / kinetic;
     INFO(a);
-    test::LawHost host(Law(Dahl(kinetic, sigma0, 1.0)), {});
+    sim::LawHost host(Law(Dahl(kinetic, sigma0, 1.0)), {});
     for (int i = 0; i < 40; ++i) host.move_to(i % 2 == 0 ? amplitude : -amplitude);
     const double before = host.work();
     const double heat_before = host.heat();
@@ -73,7 +73,7 @@ TEST_CASE("dahl: peak force and work of a loop", "[friction][dahl]") {
 
 TEST_CASE("dahl: under a step of its limit downward the bristles let go to the new level", "[friction][dahl]") {
   const Law law(Dahl(2.0, 1e4, 1.0));
-  test::LawHost host(law, {});
+  sim::LawHost host(law, {});
   host.turn(friction::Direction::forward);
   const auto path = [](double factor) {
     return [=](double t) {

@@ -7,9 +7,9 @@
 
 #include "friction_models/lugre.hpp"
 #include "friction_models/registry.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/forced_mass.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -32,8 +32,8 @@ Law law_of(double static_level, const Lugre::Bristles& b, double elastic_limit, 
   return Law(ElastoPlastic(StribeckCurve(factor, factor * static_level, 0.001), b, factor * elastic_limit));
 }
 
-test::LawCase elasto_plastic(double static_level, const Lugre::Bristles& b, double elastic_limit) {
-  test::LawCase c = test::law_case("elasto_plastic", values(static_level, b, elastic_limit));
+sim::LawCase elasto_plastic(double static_level, const Lugre::Bristles& b, double elastic_limit) {
+  sim::LawCase c = sim::law_case("elasto_plastic", values(static_level, b, elastic_limit));
   c.stroke = 30.0 * static_level / b.sigma0;
   c.passive = b.sigma2 >= b.sigma1 * (static_level - 1.0);
   c.scaled = [=](double factor) { return law_of(static_level, b, elastic_limit, factor); };
@@ -44,15 +44,15 @@ test::LawCase elasto_plastic(double static_level, const Lugre::Bristles& b, doub
 
 TEST_CASE("elasto_plastic conforms to the law contract", "[friction][elasto_plastic]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(elasto_plastic(1.5, bristles, 0.7e-5)) == none);
-  CHECK(test::nonconformities(elasto_plastic(1.0, bristles, 0.99e-5)) == none);
-  CHECK(test::nonconformities(elasto_plastic(1.5, {1e5, 0.0, 0.0}, 1e-9)) == none);
-  CHECK(test::nonconformities(elasto_plastic(1.5, {1e5, 20.0, 10.0}, 0.5e-5)) == none);
+  CHECK(sim::nonconformities(elasto_plastic(1.5, bristles, 0.7e-5)) == none);
+  CHECK(sim::nonconformities(elasto_plastic(1.0, bristles, 0.99e-5)) == none);
+  CHECK(sim::nonconformities(elasto_plastic(1.5, {1e5, 0.0, 0.0}, 1e-9)) == none);
+  CHECK(sim::nonconformities(elasto_plastic(1.5, {1e5, 20.0, 10.0}, 0.5e-5)) == none);
 }
 
 TEST_CASE("elasto_plastic: a spring below its elastic limit, lugre's level in a long slip",
           "[friction][elasto_plastic]") {
-  test::LawHost host(law_of(1.5, {1e5, 0.0, 0.4}, 0.7e-5), {});
+  sim::LawHost host(law_of(1.5, {1e5, 0.0, 0.4}, 0.7e-5), {});
   for (const double x : {0.69e-5, -0.5e-5, 0.0, -0.69e-5, 0.3e-5}) {
     host.move_to(x);
     CHECK(host.force() == Approx(1e5 * x + 0.4 * host.now().v).margin(1e-10));
@@ -86,7 +86,7 @@ TEST_CASE("elasto_plastic: first yield in closed form", "[friction][elasto_plast
     const double from = least + 2.0 * i * h;
     x += h / 3.0 * (slope(from) + 4.0 * slope(from + h) + slope(from + 2.0 * h));
   }
-  test::LawHost host(law_of(1.0, {1e5, 0.0, 0.0}, least), {});
+  sim::LawHost host(law_of(1.0, {1e5, 0.0, 0.0}, least), {});
   host.move_to(x);
   CHECK(host.events() == 1);
   CHECK(host.last_event().x == Approx(least).epsilon(1e-9));

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "friction_models/registry.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 
 using namespace dualdamp;
 using friction::DelayedFriction;
@@ -27,8 +27,8 @@ StribeckCurve curve(double factor = 1.0) { return {factor * 2.0, factor * 3.0, 0
 
 double level(double speed) { return 2.0 + std::exp(-speed * speed / 0.0025); }
 
-test::LawCase lagging(bool delayed) {
-  test::LawCase c = test::law_case(
+sim::LawCase lagging(bool delayed) {
+  sim::LawCase c = sim::law_case(
       "friction_lag",
       {{"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.05}, {"lag", lag}, {"delay", delayed}});
   c.scaled = [=](double factor) {
@@ -38,7 +38,7 @@ test::LawCase lagging(bool delayed) {
 }
 
 /// From rest at the time 0 with this acceleration, its past included.
-test::Path accelerating(double a) {
+sim::Path accelerating(double a) {
   return [=](double t) {
     return Instant{.t = t, .x = a * t * t / 2.0, .v = a * t, .past_velocity = a * std::max(0.0, t - lag)};
   };
@@ -48,8 +48,8 @@ test::Path accelerating(double a) {
 
 TEST_CASE("friction_lag conforms to the law contract", "[friction][friction_lag]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(lagging(false)) == none);
-  CHECK(test::nonconformities(lagging(true)) == none);
+  CHECK(sim::nonconformities(lagging(false)) == none);
+  CHECK(sim::nonconformities(lagging(true)) == none);
 }
 
 TEST_CASE("friction_lag: the parameter delay chooses the kind of lag", "[friction][friction_lag]") {
@@ -64,8 +64,8 @@ TEST_CASE("friction_lag: the level in a steady acceleration from rest", "[fricti
   const double a = 2.0;
   for (const double side : {-1.0, 1.0}) {
     const Direction direction = side > 0.0 ? Direction::forward : Direction::backward;
-    test::LawHost first(Law(FrictionLag(curve(), lag)), {});
-    test::LawHost delayed(Law(DelayedFriction(curve(), lag)), {});
+    sim::LawHost first(Law(FrictionLag(curve(), lag)), {});
+    sim::LawHost delayed(Law(DelayedFriction(curve(), lag)), {});
     first.turn(direction);
     delayed.turn(direction);
     for (const double t : {0.01, 0.03, 0.06}) {
@@ -85,7 +85,7 @@ TEST_CASE("friction_lag: higher while the mass accelerates than while it deceler
   };
   const double half = std::numbers::pi / 20.0;
   for (const double part : {0.05, 0.15, 0.3}) {
-    test::LawHost host(Law(FrictionLag(curve(), lag)), {});
+    sim::LawHost host(Law(FrictionLag(curve(), lag)), {});
     host.turn(Direction::forward);
     host.follow(part * half, path);
     const double up = host.force();
@@ -94,7 +94,7 @@ TEST_CASE("friction_lag: higher while the mass accelerates than while it deceler
     CHECK(up > host.force() + 1e-3);
   }
   // It stops at less than the static level, which is regained as w = w0 exp(-t/lag) fades.
-  test::LawHost host(Law(FrictionLag(curve(), lag)), {});
+  sim::LawHost host(Law(FrictionLag(curve(), lag)), {});
   host.turn(Direction::forward);
   host.follow(half, path);
   CHECK(host.force() < 2.5);
@@ -107,7 +107,7 @@ TEST_CASE("friction_lag: higher while the mass accelerates than while it deceler
 
 TEST_CASE("friction_lag: the level peaks where w changes its sign", "[friction][friction_lag]") {
   // At 1 m/s for ever, then at -1 m/s: w = 2 exp(-t/lag) - 1 is 0 at lag ln 2, where the level is the static one.
-  test::LawHost host(Law(FrictionLag(curve(), lag)), {.v = 1.0});
+  sim::LawHost host(Law(FrictionLag(curve(), lag)), {.v = 1.0});
   host.turn(Direction::backward);
   host.follow(lag, [](double t) { return Instant{.t = t, .x = -t, .v = -1.0}; });
   CHECK(host.events() == 1);

@@ -7,8 +7,8 @@
 
 #include "friction_models/iwan.hpp"
 #include "friction_models/registry.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;
@@ -40,8 +40,8 @@ Law law_of(const Elements& elements, double static_level, double attraction, dou
       GeneralizedMaxwellSlip(elements, StribeckCurve(2.0 * factor, factor * static_level, 0.01), attraction));
 }
 
-test::LawCase maxwell_slip(const Elements& elements, double static_level, double attraction) {
-  test::LawCase c = test::law_case("generalized_maxwell_slip", values(elements, static_level, attraction));
+sim::LawCase maxwell_slip(const Elements& elements, double static_level, double attraction) {
+  sim::LawCase c = sim::law_case("generalized_maxwell_slip", values(elements, static_level, attraction));
   c.stroke = 1e-3;
   c.passive = static_level == 2.0;
   c.scaled = [=](double factor) { return law_of(elements, static_level, attraction, factor); };
@@ -49,7 +49,7 @@ test::LawCase maxwell_slip(const Elements& elements, double static_level, double
 }
 
 /// Drags the law by `distance` at this speed, without a stop before.
-void drag(test::LawHost& host, double speed, double distance) {
+void drag(sim::LawHost& host, double speed, double distance) {
   const Instant from = host.now();
   host.follow(from.t + distance / std::abs(speed),
               [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
@@ -59,10 +59,10 @@ void drag(test::LawHost& host, double speed, double distance) {
 
 TEST_CASE("generalized_maxwell_slip conforms to the law contract", "[friction][generalized_maxwell_slip]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(maxwell_slip(four, 2.0, 10.0)) == none);
-  CHECK(test::nonconformities(maxwell_slip(four, 3.0, 10.0)) == none);
-  CHECK(test::nonconformities(maxwell_slip(four, 3.0, 1e3)) == none);
-  CHECK(test::nonconformities(maxwell_slip({{1e4, 1.0}}, 3.0, 1e3)) == none);
+  CHECK(sim::nonconformities(maxwell_slip(four, 2.0, 10.0)) == none);
+  CHECK(sim::nonconformities(maxwell_slip(four, 3.0, 10.0)) == none);
+  CHECK(sim::nonconformities(maxwell_slip(four, 3.0, 1e3)) == none);
+  CHECK(sim::nonconformities(maxwell_slip({{1e4, 1.0}}, 3.0, 1e3)) == none);
 }
 
 TEST_CASE("generalized_maxwell_slip: first loading, then the level of steady slip",
@@ -70,7 +70,7 @@ TEST_CASE("generalized_maxwell_slip: first loading, then the level of steady sli
   const Law law = law_of(four, 3.0, 100.0);
   for (const double v : {1e-4, 0.01, 0.05}) {
     INFO(v);
-    test::LawHost host(law, {});
+    sim::LawHost host(law, {});
     host.turn(Direction::forward);
     drag(host, v, 3e-6);
     CHECK(host.force() == Approx(1e5 * 3e-6).epsilon(1e-12));  // all stuck: below 0.1 x 2 N/4e4
@@ -85,7 +85,7 @@ TEST_CASE("generalized_maxwell_slip: a slipping element follows the level with a
           "[friction][generalized_maxwell_slip]") {
   // From steady slip at v1 to v2: F_i' = C (share - F_i/s), so F = s2 + (s1 - s2) exp(-C t/s2) whatever the shares.
   const double attraction = 20.0;
-  test::LawHost host(law_of(four, 3.0, attraction), {});
+  sim::LawHost host(law_of(four, 3.0, attraction), {});
   host.turn(Direction::forward);
   drag(host, 1e-3, 5e-3);
   const double s1 = 2.0 + std::exp(-0.01);
@@ -99,8 +99,8 @@ TEST_CASE("generalized_maxwell_slip: with one level it is iwan, Masing's loops a
           "[friction][generalized_maxwell_slip]") {
   std::vector<friction::Iwan::Element> elements;
   for (const auto& [stiffness, share] : four) elements.push_back({stiffness, 2.0 * share});
-  test::LawHost iwan(Law(friction::Iwan(elements)), {});
-  test::LawHost maxwell(law_of(four, 2.0, 50.0), {});
+  sim::LawHost iwan(Law(friction::Iwan(elements)), {});
+  sim::LawHost maxwell(law_of(four, 2.0, 50.0), {});
   test::Random random(3);
   for (int i = 0; i < 200; ++i) {
     const double x = random.sign() * random.logarithmic(1e-6, 3e-4);
@@ -116,7 +116,7 @@ TEST_CASE("generalized_maxwell_slip: with static above kinetic a loop can give o
   // F = 0 it returns static^2/(2 k). Drawn back as fast as at first it takes kinetic^2/(2 k) and kinetic (static -
   // kinetic)/k: (static - kinetic)^2/(2 k) is won.
   const double k = 1e4;
-  test::LawHost host(law_of({{k, 1.0}}, 3.0, 1e4), {});
+  sim::LawHost host(law_of({{k, 1.0}}, 3.0, 1e4), {});
   host.turn(Direction::forward);
   drag(host, 1.0, 0.1);
   REQUIRE(host.force() == Approx(2.0).epsilon(1e-9));

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "friction_models/contact_compliance.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/standard_system.hpp"
 
@@ -26,16 +26,16 @@ class Contacts {
       hosts_.emplace_back(Law(ContactCompliance(limit, limit, stiffness, 0.0)), friction::Instant{});
   }
   void move_to(double x) {
-    for (test::LawHost& host : hosts_) host.move_to(x);
+    for (sim::LawHost& host : hosts_) host.move_to(x);
   }
   [[nodiscard]] double force() const {
     double sum = 0.0;
-    for (const test::LawHost& host : hosts_) sum += host.force();
+    for (const sim::LawHost& host : hosts_) sum += host.force();
     return sum;
   }
 
  private:
-  std::vector<test::LawHost> hosts_;
+  std::vector<sim::LawHost> hosts_;
 };
 
 }  // namespace
@@ -47,12 +47,12 @@ TEST_CASE("iwan conforms to the law contract", "[friction][iwan]") {
   };
   const std::vector<friction::ParameterValues> list = {element(500.0, 0.1), element(1e4, 1.0), element(1e3, 3.0),
                                                        element(1e4, 1.0)};
-  std::vector<test::LawCase> cases = {test::law_case("iwan", {{"elements", list}})};
+  std::vector<sim::LawCase> cases = {sim::law_case("iwan", {{"elements", list}})};
   for (const double count : {1.0, 12.0})
-    cases.push_back(test::law_case("iwan", {{"stiffness", 1e4}, {"limit", 2.0}, {"count", count}}));
-  for (test::LawCase& c : cases) {
+    cases.push_back(sim::law_case("iwan", {{"stiffness", 1e4}, {"limit", 2.0}, {"count", count}}));
+  for (sim::LawCase& c : cases) {
     c.stroke = 0.02;
-    CHECK(test::nonconformities(c) == none);
+    CHECK(sim::nonconformities(c) == none);
   }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("iwan is its elements in parallel, along random paths", "[friction][iw
     }
     double total = 0.0;
     for (const auto& element : elements) total += element.limit;
-    test::LawHost iwan(Law(Iwan(elements)), {});
+    sim::LawHost iwan(Law(Iwan(elements)), {});
     Contacts contacts(elements);
     for (int i = 0; i < 60; ++i) {
       const double x = random.sign() * random.logarithmic(1e-4, 2.0);
@@ -87,7 +87,7 @@ TEST_CASE("iwan: the backbone of uniform elements", "[friction][iwan]") {
   const double stiffness = 1e4;
   const double limit = 2.0;
   for (const int n : {1, 7, 400}) {
-    test::LawHost host(Law(Iwan(Iwan::uniform(stiffness, limit, n))), {});
+    sim::LawHost host(Law(Iwan(Iwan::uniform(stiffness, limit, n))), {});
     for (const double x : {2e-5, 1e-4, 2.1e-4, 3.9e-4, 4e-4, 1.0}) {
       host.move_to(x);
       double sum = 0.0;
@@ -106,8 +106,8 @@ TEST_CASE("iwan: Masing's rule, and the loop of uniform elements", "[friction][i
   const int n = 300;
   const Law law(Iwan(Iwan::uniform(stiffness, limit, n)));
   const double amplitude = 1.7e-4;
-  test::LawHost backbone(law, {});
-  test::LawHost loop(law, {});
+  sim::LawHost backbone(law, {});
+  sim::LawHost loop(law, {});
   loop.move_to(amplitude);
   const double turn = loop.force();
   // The branch from a turn is the backbone with both axes doubled.
@@ -129,8 +129,8 @@ TEST_CASE("iwan: Masing's rule, and the loop of uniform elements", "[friction][i
 }
 
 TEST_CASE("iwan: return-point memory, and forgotten inner loops", "[friction][iwan]") {
-  test::LawHost inner(Law(Iwan(Iwan::uniform(1e4, 2.0, 50))), {});
-  test::LawHost straight = inner;
+  sim::LawHost inner(Law(Iwan(Iwan::uniform(1e4, 2.0, 50))), {});
+  sim::LawHost straight = inner;
   inner.move_to(2e-4);
   straight.move_to(2e-4);
   const double force = inner.force();

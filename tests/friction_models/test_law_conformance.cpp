@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "friction_models/coulomb.hpp"
-#include "tests/support/law_conformance.hpp"
+#include "sim/conformance/law_conformance.hpp"
 
 namespace {
 
@@ -125,11 +125,11 @@ bool named(const std::vector<std::string>& faults, const std::string& part) {
 }
 
 std::vector<std::string> faults_with(Planted planted) {
-  return test::nonconformities({.law = friction::Law(Slider(planted))});
+  return sim::nonconformities({.law = friction::Law(Slider(planted))});
 }
 
 std::vector<std::string> faults_with(PlantedInDahl planted) {
-  return test::nonconformities({.law = friction::Law(Dahl(planted))});
+  return sim::nonconformities({.law = friction::Law(Dahl(planted))});
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ TEST_CASE("the conformance suite names planted faults", "[friction][conformance]
   CHECK(named(faults_with(Planted::moody), "second time"));
   const friction::Law coulomb(friction::Coulomb(2.0, 2.0));
   const auto unscaled = [&](double) { return coulomb; };
-  CHECK(named(test::nonconformities({.law = coulomb, .scaled = unscaled}), "a factor on its limits"));
+  CHECK(named(sim::nonconformities({.law = coulomb, .scaled = unscaled}), "a factor on its limits"));
 }
 
 TEST_CASE("the conformance suite names planted faults of laws that are not affine", "[friction][conformance]") {
@@ -166,8 +166,8 @@ TEST_CASE("the conformance suite names faults of parameter tables", "[friction][
   // 'limit' has no lower end, though the law needs one; 'length' says nothing about itself.
   const std::vector<friction::Parameter> table = {
       {.name = "limit", .unit = "N", .range = {.low = 0.0}, .meaning = "level"}, {.name = "length", .unit = "m"}};
-  const auto faults = test::nonconformities({.law = friction::Law(Slider(Planted::nothing)),
-                                             .parameters = &table,
-                                             .values = {{"limit", 1.0}, {"length", 1.0}}});
+  const auto faults = sim::nonconformities({.law = friction::Law(Slider(Planted::nothing)),
+                                            .parameters = &table,
+                                            .values = {{"limit", 1.0}, {"length", 1.0}}});
   CHECK(faults == std::vector<std::string>{"'length' has no meaning or no unit"});
 }

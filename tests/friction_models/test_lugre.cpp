@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "friction_models/dahl.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/forced_mass.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -38,8 +38,8 @@ struct Values {
 /// Table I of canudas1995, whose mass is 1 kg.
 const Values published{.bristles = {1e5, 316.22776601683796, 0.4}};
 
-test::LawCase lugre(const Values& values) {
-  test::LawCase c = test::law_case("lugre", values.named());
+sim::LawCase lugre(const Values& values) {
+  sim::LawCase c = sim::law_case("lugre", values.named());
   c.stroke = 30.0 * values.static_level / values.bristles.sigma0;
   c.passive = Lugre::warnings(values.named()).empty();
   c.scaled = [=](double factor) { return values.law(factor); };
@@ -47,7 +47,7 @@ test::LawCase lugre(const Values& values) {
 }
 
 /// Drags the law by `distance` at this speed.
-void drag(test::LawHost& host, double speed, double distance) {
+void drag(sim::LawHost& host, double speed, double distance) {
   const Instant from = host.now();
   const auto path = [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; };
   host.turn(speed < 0.0 ? Direction::backward : Direction::forward);
@@ -58,17 +58,17 @@ void drag(test::LawHost& host, double speed, double distance) {
 
 TEST_CASE("lugre conforms to the law contract", "[friction][lugre]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(lugre(published)) == none);
-  CHECK(test::nonconformities(lugre({2.0, 3.0, 0.05, {1e4, 20.0, 0.0}})) == none);
-  CHECK(test::nonconformities(lugre({2.0, 2.0, 0.05, {1e5, 316.0, 0.0}})) == none);
-  CHECK(test::nonconformities(lugre({2.0, 3.0, 1e-4, {1e4, 20.0, 10.0}})) == none);
+  CHECK(sim::nonconformities(lugre(published)) == none);
+  CHECK(sim::nonconformities(lugre({2.0, 3.0, 0.05, {1e4, 20.0, 0.0}})) == none);
+  CHECK(sim::nonconformities(lugre({2.0, 2.0, 0.05, {1e5, 316.0, 0.0}})) == none);
+  CHECK(sim::nonconformities(lugre({2.0, 3.0, 1e-4, {1e4, 20.0, 10.0}})) == none);
 }
 
 TEST_CASE("lugre: steady sliding", "[friction][lugre]") {
   // F = g(v) sgn v + sigma2 v; z comes to it as exp(-sigma0 x/g), here exp(-100/1.5).
   for (const double v : {1e-5, 1e-3, 2e-3, 0.5, -0.001, -0.3}) {
     INFO(v);
-    test::LawHost host(published.law(), {});
+    sim::LawHost host(published.law(), {});
     drag(host, v, 1e-3);
     const double r = v / 0.001;
     const double level = 1.0 + 0.5 * std::exp(-r * r);
@@ -97,7 +97,7 @@ TEST_CASE("lugre: its published values give out work, and it says so", "[frictio
   // -sigma1 v (static - kinetic)/kinetic = -1581 N at first. barabanov2000: it takes sigma2 >= sigma1 (static -
   // kinetic)/kinetic to outweigh that.
   const auto work = [](const Values& values) {
-    test::LawHost host(values.law(), {});
+    sim::LawHost host(values.law(), {});
     drag(host, 1e-4, 2e-4);
     drag(host, 10.0, 1e-5);
     return host.work();

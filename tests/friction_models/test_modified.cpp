@@ -12,9 +12,9 @@
 #include "friction_models/coulomb.hpp"
 #include "friction_models/registry.hpp"
 #include "friction_models/reset_integrator.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "sim/simulate.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
@@ -69,7 +69,7 @@ double bisect(double low, double high, const std::function<double(double)>& f) {
 
 /// Work of the loop between +-amplitude, after one round.
 double loop_work(const Law& law, double amplitude) {
-  test::LawHost host(law, {});
+  sim::LawHost host(law, {});
   host.move_to(-amplitude);
   host.move_to(amplitude);
   const double before = host.work();
@@ -101,22 +101,22 @@ TEST_CASE("laws under modifiers conform to the law contract", "[friction][modifi
       cases.push_back({{"position_slope", 1.5e3}});
     }
     for (const ParameterValues& modified : cases) {
-      test::LawCase c = test::law_case(name, plus(values, modified));
+      sim::LawCase c = sim::law_case(name, plus(values, modified));
       c.stroke = 0.05;
       CAPTURE(name, modified.has("drift"), modified.has("position_slope"), modified.has("fluctuation"));
-      CHECK(test::nonconformities(c) == none);
+      CHECK(sim::nonconformities(c) == none);
     }
   }
 }
 
 TEST_CASE("bristle under a fluctuation conforms to the law contract", "[friction][modified]") {
   const ParameterValues values{{"stiffness", 500.0}, {"snap_distance", 2e-3}, {"count", 6.0}, {"seed", 42.0}};
-  test::LawCase c = test::law_case("bristle", plus(values, fluctuation(0.5, 4.0, 3.0)));
+  sim::LawCase c = sim::law_case("bristle", plus(values, fluctuation(0.5, 4.0, 3.0)));
   c.stroke = 0.02;
   c.odd = false;
   c.passive = false;
   c.random = true;
-  CHECK(test::nonconformities(c) == none);
+  CHECK(sim::nonconformities(c) == none);
 }
 
 TEST_CASE("modifiers that do nothing leave the law as it is", "[friction][modified]") {
@@ -224,8 +224,8 @@ TEST_CASE("drift: a slider under a growing limit stops before the mass", "[frict
   const double w = 3.0;
   const double X = 0.02;
   const double d = 1.5;
-  test::LawHost host(contact(2.0, 1000.0, {{"drift", d}}), {.x = X});
-  const test::Path path = [&](double t) { return Instant{t, X * std::cos(w * t), -X * w * std::sin(w * t)}; };
+  sim::LawHost host(contact(2.0, 1000.0, {{"drift", d}}), {.x = X});
+  const sim::Path path = [&](double t) { return Instant{t, X * std::cos(w * t), -X * w * std::sin(w * t)}; };
   host.turn(Direction::backward);
   host.follow(0.8, path);
   REQUIRE(host.events() == 1);
@@ -245,7 +245,7 @@ TEST_CASE("fluctuation: a step downward relaxes a spring that is being unloaded,
   for (const bool bond : {false, true}) {
     const Law law = bond ? Law(friction::ResetIntegrator(2.0, stiffness, 0.0, 0.0))
                          : Law(ContactCompliance(2.0, 2.0, stiffness, 0.0));
-    test::LawHost host(law, {});
+    sim::LawHost host(law, {});
     host.move_to(0.01);
     host.move_to(0.0095);
     REQUIRE(host.force() == Approx(1.5).epsilon(1e-12));
@@ -266,7 +266,7 @@ TEST_CASE("a contact whose limit vanishes begins anew, unstretched, where it ret
   for (const bool bond : {false, true}) {
     const Law stiff =
         bond ? Law(friction::ResetIntegrator(2.0, 1e5, 0.5, 0.0)) : Law(ContactCompliance(2.0, 2.0, 1e5, 0.0));
-    test::LawHost host(friction::modified(stiff, {{"position_slope", -200.0}}, {2.0}), {});
+    sim::LawHost host(friction::modified(stiff, {{"position_slope", -200.0}}, {2.0}), {});
     host.move_to(0.03);
     CHECK(host.force() == 0.0);
     CHECK(host.guards().size() == 2);
@@ -345,7 +345,7 @@ TEST_CASE("iwan under modifiers is its elements with one common factor", "[frict
   REQUIRE(laws.size() == 5);
   double sliding = 0.0;
   for (const Law& law : laws) {
-    test::LawHost host(law, {});
+    sim::LawHost host(law, {});
     host.turn(Direction::forward);
     host.follow(0.09, [](double t) { return Instant{t, t, 1.0}; });
     sliding += host.force();

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -37,8 +37,8 @@ friction::ParameterValues named(const NormalVibration::Rider& r) {
           {"lift_velocity", r.lift_velocity}};
 }
 
-test::LawCase vibrating(const NormalVibration::Rider& r) {
-  test::LawCase c = test::law_case("normal_vibration", named(r));
+sim::LawCase vibrating(const NormalVibration::Rider& r) {
+  sim::LawCase c = sim::law_case("normal_vibration", named(r));
   c.stroke_time = 0.05;
   c.scaled = [=](double factor) {
     NormalVibration::Rider scaled = r;
@@ -57,7 +57,7 @@ NormalVibration::Rider jumping() {
 }
 
 /// Goes on at this speed for this time; 0: at rest.
-void slide(test::LawHost& host, double speed, double duration) {
+void slide(sim::LawHost& host, double speed, double duration) {
   const Instant from = host.now();
   host.turn(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::rest);
   host.follow(from.t + duration,
@@ -68,14 +68,14 @@ void slide(test::LawHost& host, double speed, double duration) {
 
 TEST_CASE("normal_vibration conforms to the law contract", "[friction][normal_vibration]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(vibrating(rider)) == none);
-  CHECK(test::nonconformities(vibrating(jumping())) == none);
+  CHECK(sim::nonconformities(vibrating(rider)) == none);
+  CHECK(sim::nonconformities(vibrating(jumping())) == none);
 }
 
 TEST_CASE("normal_vibration: without lift it is coulomb exactly", "[friction][normal_vibration]") {
   NormalVibration::Rider r = rider;
   r.lift = 0.0;
-  test::LawHost host(Law(NormalVibration(r)), {});
+  sim::LawHost host(Law(NormalVibration(r)), {});
   for (const double speed : {0.3, -2.0, 1e-6, 0.0}) {
     slide(host, speed, 0.1);
     CHECK(host.force() == (speed > 0.0 ? 2.0 : speed < 0.0 ? -2.0 : 0.0));
@@ -88,7 +88,7 @@ TEST_CASE("normal_vibration: friction falls with the speed of steady slip", "[fr
   // N = weight - lift; 0.2 s leave exp(-0.1 2000 0.2) of the start. The states are kept to 1e-11.
   for (const double speed : {0.05, -0.5, 1.0}) {
     INFO(speed);
-    test::LawHost host(Law(NormalVibration(rider)), {});
+    sim::LawHost host(Law(NormalVibration(rider)), {});
     slide(host, speed, 0.2);
     const double lift = 20.0 * std::abs(speed) / (1.0 + std::abs(speed) / 0.5);
     CHECK(host.force() == Approx(std::copysign(0.1 * (20.0 - lift), speed)).epsilon(1e-8));
@@ -109,7 +109,7 @@ TEST_CASE("normal_vibration: the stiffness of small vibrations", "[friction][nor
 TEST_CASE("normal_vibration: the contact opens and closes", "[friction][normal_vibration]") {
   // Undamped, lifted for 1.5 ms by 33 N, then thrown: y'^2 m/2 + weight (y + h0/3 (1 - y/h0)^3) stays, without the
   // last term while open.
-  test::LawHost host(Law(NormalVibration(jumping())), {});
+  sim::LawHost host(Law(NormalVibration(jumping())), {});
   slide(host, 1.0, 1.5e-3);
   REQUIRE(host.memory().mode == 1);
   CHECK(host.force() == 0.0);

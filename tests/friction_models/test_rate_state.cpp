@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -31,15 +31,15 @@ RateState::Contact granite(Evolution evolution = Evolution::aging) {
           .evolution = evolution};
 }
 
-test::LawCase rate_state(const RateState::Contact& contact) {
-  test::LawCase c =
-      test::law_case("rate_state", {{"normal_force", contact.normal_force},
-                                    {"mu0", contact.mu0},
-                                    {"a", contact.a},
-                                    {"b", contact.b},
-                                    {"slip_distance", contact.slip_distance},
-                                    {"reference_velocity", contact.reference_velocity},
-                                    {"evolution", contact.evolution == Evolution::slip ? "slip" : "aging"}});
+sim::LawCase rate_state(const RateState::Contact& contact) {
+  sim::LawCase c =
+      sim::law_case("rate_state", {{"normal_force", contact.normal_force},
+                                   {"mu0", contact.mu0},
+                                   {"a", contact.a},
+                                   {"b", contact.b},
+                                   {"slip_distance", contact.slip_distance},
+                                   {"reference_velocity", contact.reference_velocity},
+                                   {"evolution", contact.evolution == Evolution::slip ? "slip" : "aging"}});
   c.stroke = 30.0 * contact.slip_distance;
   c.stroke_time = 10.0 * contact.slip_distance / contact.reference_velocity;
   c.scaled = [=](double factor) {
@@ -51,7 +51,7 @@ test::LawCase rate_state(const RateState::Contact& contact) {
 }
 
 /// Slides at this speed for this time.
-void slide(test::LawHost& host, double speed, double duration) {
+void slide(sim::LawHost& host, double speed, double duration) {
   const Instant from = host.now();
   host.follow(from.t + duration,
               [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
@@ -61,12 +61,12 @@ void slide(test::LawHost& host, double speed, double duration) {
 
 TEST_CASE("rate_state conforms to the law contract", "[friction][rate_state]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(rate_state(granite(Evolution::aging))) == none);
-  CHECK(test::nonconformities(rate_state(granite(Evolution::slip))) == none);
+  CHECK(sim::nonconformities(rate_state(granite(Evolution::aging))) == none);
+  CHECK(sim::nonconformities(rate_state(granite(Evolution::slip))) == none);
   // exp(mu0/a) = exp(1200) is no double.
   RateState::Contact sharp = granite();
   sharp.a = 0.0005;
-  CHECK(test::nonconformities(rate_state(sharp)) == none);
+  CHECK(sim::nonconformities(rate_state(sharp)) == none);
 }
 
 TEST_CASE("rate_state: steady sliding", "[friction][rate_state]") {
@@ -76,7 +76,7 @@ TEST_CASE("rate_state: steady sliding", "[friction][rate_state]") {
     for (const double ratio : {-1e3, 1e-2, 1.0, 30.0, 1e4}) {
       INFO(ratio);
       const double v = ratio * 1e-6;
-      test::LawHost host(Law(RateState(granite(evolution))), {});
+      sim::LawHost host(Law(RateState(granite(evolution))), {});
       host.turn(v < 0.0 ? Direction::backward : Direction::forward);
       slide(host, v, 60.0 * 1e-5 / std::abs(v));
       const double known = 10.0 * (0.6 - 0.005 * std::log(std::abs(ratio)));
@@ -91,7 +91,7 @@ TEST_CASE("rate_state: a step of the speed", "[friction][rate_state]") {
   for (const Evolution evolution : {Evolution::aging, Evolution::slip}) {
     for (const double r : {0.1, 10.0}) {
       INFO(r);
-      test::LawHost host(Law(RateState(granite(evolution))), {});
+      sim::LawHost host(Law(RateState(granite(evolution))), {});
       host.turn(Direction::forward);
       slide(host, 1e-6, 1.0);
       const double before = host.force();
@@ -100,7 +100,7 @@ TEST_CASE("rate_state: a step of the speed", "[friction][rate_state]") {
         const double s = std::exp(-d);
         const double psi =
             evolution == Evolution::slip ? -std::log(r) * (1.0 - s) : std::log(1.0 / r + (1.0 - 1.0 / r) * s);
-        test::LawHost stepped = host;
+        sim::LawHost stepped = host;
         slide(stepped, r * 1e-6, d * 1e-5 / (r * 1e-6) + 1e-12);
         CHECK(stepped.force() - before ==
               Approx(10.0 * (0.01 * std::log(r) + 0.015 * psi)).epsilon(1e-7).margin(1e-9));
@@ -112,7 +112,7 @@ TEST_CASE("rate_state: a step of the speed", "[friction][rate_state]") {
 TEST_CASE("rate_state: contacts age at rest", "[friction][rate_state]") {
   // exp(psi) = 1 + V0 t/Dc by aging; by slip nothing changes.
   for (const Evolution evolution : {Evolution::aging, Evolution::slip}) {
-    test::LawHost host(Law(RateState(granite(evolution))), {});
+    sim::LawHost host(Law(RateState(granite(evolution))), {});
     slide(host, 0.0, 1e3);
     CHECK(host.memory().state[0] == Approx(evolution == Evolution::aging ? std::log(101.0) : 0.0).epsilon(1e-9));
     CHECK(host.force() == 0.0);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "friction_models/contact_compliance.hpp"
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
@@ -18,8 +18,8 @@ using friction::ResetIntegrator;
 
 namespace {
 
-test::LawCase reset_integrator(double kinetic, double stiffness, double static_gain, double damping) {
-  test::LawCase c = test::law_case(
+sim::LawCase reset_integrator(double kinetic, double stiffness, double static_gain, double damping) {
+  sim::LawCase c = sim::law_case(
       "reset_integrator",
       {{"kinetic", kinetic}, {"stiffness", stiffness}, {"static_gain", static_gain}, {"damping", damping}});
   c.stroke = 20.0 * std::max(kinetic, 0.1) / stiffness;
@@ -33,16 +33,16 @@ test::LawCase reset_integrator(double kinetic, double stiffness, double static_g
 
 TEST_CASE("reset_integrator conforms to the law contract", "[friction][reset_integrator]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(reset_integrator(2.0, 1e3, 0.0, 0.0)) == none);
-  CHECK(test::nonconformities(reset_integrator(2.0, 1e3, 0.5, 0.0)) == none);
-  CHECK(test::nonconformities(reset_integrator(2.0, 1e3, 1.5, 20.0)) == none);
-  CHECK(test::nonconformities(reset_integrator(0.0, 1e6, 0.3, 0.0)) == none);
+  CHECK(sim::nonconformities(reset_integrator(2.0, 1e3, 0.0, 0.0)) == none);
+  CHECK(sim::nonconformities(reset_integrator(2.0, 1e3, 0.5, 0.0)) == none);
+  CHECK(sim::nonconformities(reset_integrator(2.0, 1e3, 1.5, 20.0)) == none);
+  CHECK(sim::nonconformities(reset_integrator(0.0, 1e6, 0.3, 0.0)) == none);
 }
 
 TEST_CASE("reset_integrator: the force falls at break-away and rises when the bond holds again",
           "[friction][reset_integrator]") {
   // z0 = 2 mm; the bond breaks at 1.5 * 2 N = 3 N.
-  test::LawHost host(friction::Law(ResetIntegrator(2.0, 1000.0, 0.5, 0.0)), {.x = 0.3});
+  sim::LawHost host(friction::Law(ResetIntegrator(2.0, 1000.0, 0.5, 0.0)), {.x = 0.3});
   host.move_to(0.3015);
   CHECK(host.force() == Approx(1.5 * 1000.0 * 0.0015).epsilon(1e-12));
   host.move_to(0.310);
@@ -58,8 +58,8 @@ TEST_CASE("reset_integrator: the force falls at break-away and rises when the bo
 }
 
 TEST_CASE("reset_integrator without static gain is contact_compliance", "[friction][reset_integrator]") {
-  test::LawHost bond(friction::Law(ResetIntegrator(2.0, 1000.0, 0.0, 0.0)), {});
-  test::LawHost contact(friction::Law(friction::ContactCompliance(2.0, 2.0, 1000.0, 0.0)), {});
+  sim::LawHost bond(friction::Law(ResetIntegrator(2.0, 1000.0, 0.0, 0.0)), {});
+  sim::LawHost contact(friction::Law(friction::ContactCompliance(2.0, 2.0, 1000.0, 0.0)), {});
   for (const double x : {0.001, -0.002, 0.01, 0.0071, 0.009, -0.03, 0.0}) {
     bond.move_to(x);
     contact.move_to(x);
@@ -72,7 +72,7 @@ TEST_CASE("reset_integrator: a loop takes 4 kinetic (A - z0)", "[friction][reset
   for (const double static_gain : {0.0, 0.5, 2.0}) {
     INFO(static_gain);
     const friction::Law law(ResetIntegrator(2.0, 1000.0, static_gain, 0.0));
-    test::LawHost host(law, {});
+    sim::LawHost host(law, {});
     host.move_to(-0.05);
     host.move_to(0.05);
     const double before = host.work();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "friction_models/registry.hpp"
-#include "tests/support/law_conformance.hpp"
+#include "sim/conformance/law_conformance.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -20,12 +20,12 @@ namespace {
 
 using Form = StribeckCurve::Form;
 
-test::LawCase stribeck(double static_level, const std::string& form, double exponent) {
-  test::LawCase c = test::law_case("stribeck", {{"kinetic", 2.0},
-                                                {"static", static_level},
-                                                {"stribeck_velocity", 0.05},
-                                                {"form", form},
-                                                {"exponent", exponent}});
+sim::LawCase stribeck(double static_level, const std::string& form, double exponent) {
+  sim::LawCase c = sim::law_case("stribeck", {{"kinetic", 2.0},
+                                              {"static", static_level},
+                                              {"stribeck_velocity", 0.05},
+                                              {"form", form},
+                                              {"exponent", exponent}});
   c.scaled = [=](double factor) {
     return Law(Stribeck(StribeckCurve(factor * 2.0, factor * static_level, 0.05,
                                       form == "gaussian"      ? Form::gaussian
@@ -40,11 +40,11 @@ test::LawCase stribeck(double static_level, const std::string& form, double expo
 
 TEST_CASE("stribeck conforms to the law contract", "[friction][stribeck]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(stribeck(3.0, "gaussian", 2.0)) == none);
-  CHECK(test::nonconformities(stribeck(3.0, "gaussian", 3.0)) == none);
-  CHECK(test::nonconformities(stribeck(2.0, "gaussian", 2.0)) == none);
-  CHECK(test::nonconformities(stribeck(3.0, "exponential", 2.0)) == none);
-  CHECK(test::nonconformities(stribeck(3.0, "lorentz", 2.0)) == none);
+  CHECK(sim::nonconformities(stribeck(3.0, "gaussian", 2.0)) == none);
+  CHECK(sim::nonconformities(stribeck(3.0, "gaussian", 3.0)) == none);
+  CHECK(sim::nonconformities(stribeck(2.0, "gaussian", 2.0)) == none);
+  CHECK(sim::nonconformities(stribeck(3.0, "exponential", 2.0)) == none);
+  CHECK(sim::nonconformities(stribeck(3.0, "lorentz", 2.0)) == none);
 }
 
 TEST_CASE("stribeck: levels of the three forms", "[friction][stribeck]") {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/law_conformance.hpp"
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -17,8 +17,8 @@ using friction::ViscousPower;
 
 namespace {
 
-test::LawCase viscous(double coefficient, double velocity, double exponent) {
-  test::LawCase c = test::law_case(
+sim::LawCase viscous(double coefficient, double velocity, double exponent) {
+  sim::LawCase c = sim::law_case(
       "viscous_power", {{"coefficient", coefficient}, {"reference_velocity", velocity}, {"exponent", exponent}});
   c.scaled = [=](double factor) { return Law(ViscousPower(factor * coefficient, velocity, exponent)); };
   return c;
@@ -30,7 +30,7 @@ TEST_CASE("viscous_power conforms to the law contract", "[friction][viscous_powe
   const std::vector<std::string> none;
   for (const double exponent : {0.3, 1.0, 1.7, 2.0, 3.0}) {
     INFO(exponent);
-    CHECK(test::nonconformities(viscous(2.0, 0.1, exponent)) == none);
+    CHECK(sim::nonconformities(viscous(2.0, 0.1, exponent)) == none);
   }
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("viscous_power: work of a harmonic cycle", "[friction][viscous_power]"
     const auto path = [=](double t) {
       return Instant{.t = t, .x = amplitude * std::cos(omega * t), .v = -amplitude * omega * std::sin(omega * t)};
     };
-    test::LawHost host(Law(ViscousPower(3.0, 1.0, n)), path(0.0));
+    sim::LawHost host(Law(ViscousPower(3.0, 1.0, n)), path(0.0));
     host.turn(Direction::backward);
     host.follow(2.0 * quarter, path);
     host.turn(Direction::forward);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/law_conformance.hpp"
+#include "sim/conformance/law_conformance.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -14,9 +14,9 @@ using friction::ViscousSaturating;
 
 namespace {
 
-test::LawCase viscous(double coefficient, double velocity) {
-  test::LawCase c =
-      test::law_case("viscous_saturating", {{"coefficient", coefficient}, {"saturation_velocity", velocity}});
+sim::LawCase viscous(double coefficient, double velocity) {
+  sim::LawCase c =
+      sim::law_case("viscous_saturating", {{"coefficient", coefficient}, {"saturation_velocity", velocity}});
   c.scaled = [=](double factor) { return Law(ViscousSaturating(factor * coefficient, velocity)); };
   return c;
 }
@@ -25,9 +25,9 @@ test::LawCase viscous(double coefficient, double velocity) {
 
 TEST_CASE("viscous_saturating conforms to the law contract", "[friction][viscous_saturating]") {
   const std::vector<std::string> none;
-  CHECK(test::nonconformities(viscous(4.0, 0.5)) == none);
-  CHECK(test::nonconformities(viscous(2000.0, 1e-3)) == none);
-  CHECK(test::nonconformities(viscous(0.0, 1.0)) == none);
+  CHECK(sim::nonconformities(viscous(4.0, 0.5)) == none);
+  CHECK(sim::nonconformities(viscous(2000.0, 1e-3)) == none);
+  CHECK(sim::nonconformities(viscous(0.0, 1.0)) == none);
 }
 
 TEST_CASE("viscous_saturating: dashpot at low speed, constant at high speed", "[friction][viscous_saturating]") {

@@ -1,5 +1,6 @@
 #pragma once
-/// What every friction law must pass, whoever wrote it: the law contract as a test.
+/// What every friction law must pass, whoever wrote it: the law contract as a test, for this project's own tests
+/// and for laws from outside (`dualdamp laws NAME --check`).
 ///
 ///     CHECK(nonconformities(law_case("coulomb", {{"kinetic", 2.0}})) == std::vector<std::string>{});
 ///
@@ -28,7 +29,7 @@
 #include "friction_models/law.hpp"
 #include "friction_models/parameters.hpp"
 
-namespace dualdamp::test {
+namespace dualdamp::sim {
 
 struct LawCase {
   friction::Law law;
@@ -42,10 +43,12 @@ struct LawCase {
   std::function<friction::Law(double factor)> scaled{};  ///< the law with all its limits multiplied
 };
 
-/// A law of the registry with these values, defaults filled in; passive and random as it is declared.
+/// A law of the registry with these values, defaults filled in; odd, passive and random as it is declared, with the
+/// limits that its entry names. Errors: std::invalid_argument where there is no such law, its values are refused,
+/// or they make several laws in parallel.
 [[nodiscard]] LawCase law_case(std::string_view name, const friction::ParameterValues& values);
 
 /// One sentence for each kind of fault; empty for a law that conforms.
 [[nodiscard]] std::vector<std::string> nonconformities(const LawCase& law_case);
 
-}  // namespace dualdamp::test
+}  // namespace dualdamp::sim

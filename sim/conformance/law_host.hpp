@@ -8,7 +8,7 @@
 
 #include "friction_models/law.hpp"
 
-namespace dualdamp::test {
+namespace dualdamp::sim {
 
 /// Where the mass is at a time.
 using Path = std::function<friction::Instant(double t)>;
@@ -65,4 +65,4 @@ class LawHost {
   bool broken_ = false;
 };
 
-}  // namespace dualdamp::test
+}  // namespace dualdamp::sim

@@ -1,4 +1,4 @@
-#include "tests/support/law_conformance.hpp"
+#include "sim/conformance/law_conformance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/random.hpp"
 #include "friction_models/registry.hpp"
-#include "tests/support/law_host.hpp"
-#include "tests/support/random.hpp"
+#include "sim/conformance/law_host.hpp"
 
-namespace dualdamp::test {
+namespace dualdamp::sim {
 
 namespace {
 
@@ -28,6 +28,23 @@ constexpr int steps_per_stroke = 40;
 
 /// Affine forms and laws evaluate the same few sums in another order.
 constexpr double same = 1e-10;
+
+/// The same draws with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : stream_{seed} {}
+
+  /// Uniform in the logarithm, in [low, high); low > 0.
+  double logarithmic(double low, double high) { return low * std::pow(high / low, uniform()); }
+  bool chance(double probability) { return uniform() < probability; }
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+
+ private:
+  double uniform() { return stream_.uniform(count_++); }
+
+  core::RandomStream stream_;
+  std::uint64_t count_ = 0;
+};
 
 /// Keeps each kind of fault once.
 class Faults {
@@ -232,7 +249,8 @@ void examine_response(const LawHost& host, const LawCase& c, Faults& faults) {
 /// All that can be asked of one step without making it. No event between now and `end`.
 void examine(const LawHost& host, const Path& path, double end, const LawCase& c, Random& random, Faults& faults) {
   const Law& law = host.law();
-  const Memory before = host.memory();
+  Memory before;  // a copy: a library may write where it must only read
+  before = host.memory();
   const double force = host.force();
   if (!std::isfinite(force)) faults.add("the force is not finite");
   if (force != host.force() || host.memory() != before) faults.add("the force is not pure");
@@ -441,6 +459,11 @@ class ParameterExaminer {
   Faults& faults_;
 };
 
+friction::Law with_scaled_limits(const friction::LawEntry& entry, friction::ParameterValues values, double factor) {
+  for (const std::string_view name : entry.limits) values.set(name, factor * values.number(name));
+  return entry.make(values).front();
+}
+
 }  // namespace
 
 LawCase law_case(std::string_view name, const friction::ParameterValues& values) {
@@ -452,11 +475,15 @@ LawCase law_case(std::string_view name, const friction::ParameterValues& values)
   }
   const std::vector<friction::Law> made = entry->make(completed);
   if (made.size() != 1) throw std::invalid_argument("'" + std::string(name) + "' is several laws in parallel");
-  return {.law = made.front(),
-          .parameters = &entry->parameters,
-          .values = values,
-          .passive = entry->is_passive,
-          .random = entry->is_random};
+  LawCase result{.law = made.front(),
+                 .parameters = &entry->parameters,
+                 .values = values,
+                 .odd = entry->is_odd,
+                 .passive = entry->is_passive,
+                 .random = entry->is_random};
+  if (!entry->limits.empty())
+    result.scaled = [=](double factor) { return with_scaled_limits(*entry, completed, factor); };
+  return result;
 }
 
 std::vector<std::string> nonconformities(const LawCase& c) {
@@ -471,4 +498,4 @@ std::vector<std::string> nonconformities(const LawCase& c) {
   return faults.list();
 }
 
-}  // namespace dualdamp::test
+}  // namespace dualdamp::sim

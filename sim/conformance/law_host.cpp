@@ -1,12 +1,12 @@
-#include "tests/support/law_host.hpp"
+#include "sim/conformance/law_host.hpp"
 
 #include <algorithm>
-#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
+#include <limits>
 
-namespace dualdamp::test {
+#include "sim/stepper.hpp"
+
+namespace dualdamp::sim {
 
 using friction::Direction;
 using friction::Instant;
@@ -15,11 +15,47 @@ using friction::Trigger;
 
 namespace {
 
-namespace odeint = boost::numeric::odeint;
-
 constexpr int max_jumps = 32;
-constexpr double tolerance = 1e-11;
+constexpr double tolerance = 1e-12;
 constexpr int max_events = 1000;  ///< within one call of follow
+
+/// The states of a law over their scales, with work and heat behind them.
+class StatesOnPath final : public VectorField {
+ public:
+  StatesOnPath(const friction::Law& law, Memory memory, Direction direction, const Path& path)
+      : law_(law), memory_(std::move(memory)), direction_(direction), path_(path), scales_(memory_.state.size()) {
+    law_.scales(memory_, scales_);
+    std::ranges::replace(scales_, 0.0, 1.0);
+  }
+
+  [[nodiscard]] std::size_t size() const override { return scales_.size() + 2; }
+  void evaluate(std::span<const double> y, double t, std::span<double> rates) const override {
+    const Instant now = path_(t);
+    unscale(y, memory_);
+    const std::size_t n = scales_.size();
+    rates[n] = law_.respond(memory_, now, direction_, rates.first(n)) * now.v;
+    rates[n + 1] = law_.dissipation(memory_, now, direction_);
+    for (std::size_t i = 0; i < n; ++i) rates[i] /= scales_[i];
+  }
+  /// The explicit method needs none.
+  void jacobian(std::span<const double>, double, std::span<double>) const override {}
+
+  [[nodiscard]] std::vector<double> scaled(const Memory& memory) const {
+    std::vector<double> y(size());
+    for (std::size_t i = 0; i < scales_.size(); ++i) y[i] = memory.state[i] / scales_[i];
+    return y;
+  }
+  void unscale(std::span<const double> y, Memory& memory) const {
+    for (std::size_t i = 0; i < scales_.size(); ++i) memory.state[i] = y[i] * scales_[i];
+  }
+
+ private:
+  const friction::Law& law_;
+  mutable Memory memory_;
+  Direction direction_;
+  const Path& path_;
+  std::vector<double> scales_;
+};
 
 }  // namespace
 
@@ -103,47 +139,37 @@ void LawHost::go(double end, const Path& path) {
   }
 }
 
-/// Dormand and Prince's method on the states, relative to their scales, with work and heat behind them.
+/// Explicit steps on the states relative to their scales.
 void LawHost::integrate(double end, const Path& path) {
-  const std::size_t n = memory_.state.size();
-  std::vector<double> scales(n);
-  law_.scales(memory_, scales);
-  std::ranges::replace(scales, 0.0, 1.0);
-  Memory memory = memory_;
-  const auto unscale = [&](const std::vector<double>& y) {
-    for (std::size_t i = 0; i < n; ++i) memory.state[i] = y[i] * scales[i];
-  };
-  const auto rates = [&](const std::vector<double>& y, std::vector<double>& slope, double t) {
-    const Instant now = path(t);
-    unscale(y);
-    slope[n] = law_.respond(memory, now, direction_, {slope.data(), n}) * now.v;
-    slope[n + 1] = law_.dissipation(memory, now, direction_);
-    for (std::size_t i = 0; i < n; ++i) slope[i] /= scales[i];
-  };
-  std::vector<double> y(n + 2);
-  for (std::size_t i = 0; i < n; ++i) y[i] = memory_.state[i] / scales[i];
+  const StatesOnPath field(law_, memory_, direction_, path);
+  const auto stepper = make_explicit_stepper();
+  std::vector<double> y = field.scaled(memory_);
+  std::vector<double> next(y.size());
+  std::vector<double> error(y.size());
+  std::vector<double> allowed(y.size());
   double t = now_.t;
-  double step = end - t;
-  auto stepper = odeint::make_controlled<odeint::runge_kutta_dopri5<std::vector<double>>>(tolerance, tolerance);
+  double h = end - t;
   while (t < end) {
-    const std::vector<double> before = y;
-    const double from = t;
-    const double tried = step = std::min(step, end - t);
-    const bool passed = stepper.try_step(rates, y, t, step) == odeint::success;
-    const bool finite = std::ranges::all_of(y, [](double value) { return std::isfinite(value); });
-    if (passed && finite) continue;
-    if (tried < 1e-12 * (end - now_.t)) return give_up("its states are not finite, or cannot be followed");
-    if (finite) continue;
-    // A stage far beyond the solution, which the error test does not notice.
-    y = before;
-    t = from;
-    step = tried / 8.0;
-    stepper.reset();
+    for (std::size_t i = 0; i < y.size(); ++i) allowed[i] = tolerance * (1.0 + std::abs(y[i]));
+    const bool is_last = h >= end - t;
+    if (is_last) h = end - t;
+    double excess = 0.0;
+    if (stepper->step(field, y, t, h, allowed, next, error)) {
+      for (std::size_t i = 0; i < y.size(); ++i) excess = std::max(excess, std::abs(error[i]) / allowed[i]);
+    } else {
+      excess = std::numeric_limits<double>::infinity();
+    }
+    if (excess <= 1.0) {
+      t = is_last ? end : t + h;
+      y.swap(next);
+    } else if (h < 1e-12 * (end - now_.t)) {
+      return give_up("its states are not finite, or cannot be followed");
+    }
+    h *= std::clamp(0.9 * std::pow(excess, -1.0 / (stepper->order() + 1)), 0.1, 5.0);
   }
-  unscale(y);
-  memory_ = memory;
-  work_ += y[n];
-  heat_ += y[n + 1];
+  field.unscale(y, memory_);
+  work_ += y[y.size() - 2];
+  heat_ += y.back();
 }
 
 /// The guard farthest below zero beyond rounding; -1: none.
@@ -176,4 +202,4 @@ void LawHost::give_up(const std::string& fault) {
   broken_ = true;
 }
 
-}  // namespace dualdamp::test
+}  // namespace dualdamp::sim

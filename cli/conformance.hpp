@@ -1,0 +1,18 @@
+#pragma once
+/// The conformance suite from the command line: `dualdamp laws NAME --check`.
+
+#include <string>
+
+#include "cli/arguments.hpp"
+
+namespace dualdamp::cli {
+
+struct Conformance {
+  std::string text;
+  bool holds = true;
+};
+
+/// Errors: core::InputError for values that the law refuses; friction::LawFault.
+[[nodiscard]] Conformance check_law(const LawsCommand& command);
+
+}  // namespace dualdamp::cli

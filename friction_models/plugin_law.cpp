@@ -1,0 +1,205 @@
+#include "friction_models/plugin_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "core/numbers.hpp"
+#include "friction_models/law_fault.hpp"
+
+namespace dualdamp::friction {
+
+namespace {
+
+using Table = dualdamp_law_table;
+
+[[noreturn]] void fail(const Table& table, const std::string& what) {
+  throw LawFault("law '" + std::string(table.name) + "' of a plugin: " + what);
+}
+
+/// Calls a function of the library and returns its status. An exception that the interface forbids ends here.
+template <class Function, class... Arguments>
+int status_of(const Table& table, const char* name, Function function, Arguments... arguments) {
+  try {
+    return function(arguments...);
+  } catch (const std::exception& error) {
+    fail(table, std::string(name) + "() threw an exception, which no C function may: " + error.what());
+  } catch (...) {
+    fail(table, std::string(name) + "() threw an exception, which no C function may");
+  }
+}
+
+template <class Function, class... Arguments>
+void call(const Table& table, const char* name, Function function, Arguments... arguments) {
+  const int status = status_of(table, name, function, arguments...);
+  if (status != DUALDAMP_OK) fail(table, std::string(name) + "() returned status " + std::to_string(status));
+}
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+struct Destroyer {
+  void (*destroy)(void* law);
+  void operator()(void* law) const noexcept {
+    try {
+      destroy(law);
+    } catch (...) {
+      return;  // nobody is left to be told
+    }
+  }
+};
+
+/// One law of the library with its parameters.
+class PluginLaw final : public LawModel {
+ public:
+  PluginLaw(const Table& table, void* law) : table_(table), owned_(law, Destroyer{table.destroy}) {}
+
+  [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
+    std::array<double, max_plugin_states> rates{};
+    return respond(memory, now, direction, std::span(rates).first(table_.states));
+  }
+  [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
+                               std::span<double> rates) const override {
+    double force = 0.0;
+    const dualdamp_instant instant = outside(now, direction);
+    call(table_, "respond", table_.respond, law(), memory.mode, memory.state.data(), &instant, &force,
+         rates.data());
+    // Too large is an answer: a step that looked too far ahead is then made shorter.
+    const bool is_number =
+        !std::isnan(force) && std::ranges::none_of(rates, [](double r) { return std::isnan(r); });
+    if (!is_number) refuse_nan("respond", memory, now);
+    return force;
+  }
+
+  [[nodiscard]] bool is_modal() const override { return table_.states > 0 || table_.jump != nullptr; }
+  [[nodiscard]] Memory start(const Instant& now) const override {
+    Memory memory{.state = std::vector<double>(table_.states)};
+    if (table_.start != nullptr) {
+      const dualdamp_instant instant = outside(now, Direction::rest);
+      call(table_, "start", table_.start, law(), &instant, &memory.mode, memory.state.data());
+      check_memory("start", memory);
+    }
+    return memory;
+  }
+  void guards(const Memory& memory, const Instant& now, Direction direction,
+              std::vector<double>& values) const override {
+    if (table_.guards == 0) return;
+    std::array<double, max_plugin_guards> room{};
+    const dualdamp_instant instant = outside(now, direction);
+    call(table_, "guard", table_.guard, law(), memory.mode, memory.state.data(), &instant, room.data());
+    const std::span<const double> own(room.data(), table_.guards);
+    if (!all_finite(own)) refuse_nan("guard", memory, now);
+    values.insert(values.end(), own.begin(), own.end());
+  }
+  void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override {
+    if (table_.jump == nullptr) return;
+    const dualdamp_instant instant = outside(now, direction);
+    call(table_, "jump", table_.jump, law(), trigger.cause, &instant, &memory.mode, memory.state.data());
+    check_memory("jump", memory);
+  }
+
+  [[nodiscard]] bool holds_mass() const override { return table_.static_limit != nullptr; }
+  [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const override {
+    if (table_.static_limit == nullptr) return 0.0;
+    double limit = 0.0;
+    const dualdamp_instant instant = outside(now, Direction::rest);
+    call(table_, "static_limit", table_.static_limit, law(), memory.mode, memory.state.data(), &instant, &limit);
+    if (!std::isfinite(limit)) refuse_nan("static_limit", memory, now);
+    if (limit < 0.0) fail(table_, "static_limit() gave " + core::format_number(limit) + ", which is below 0");
+    return limit;
+  }
+
+  [[nodiscard]] bool is_affine() const override { return false; }
+  [[nodiscard]] Affine affine_force(const Memory&, const Instant&, Direction) const override { return {}; }
+  [[nodiscard]] Affine affine_limit(const Memory&, const Instant&) const override { return {}; }
+  void affine_guards(const Memory&, const Instant&, Direction, std::vector<Affine>&) const override {}
+
+  [[nodiscard]] bool has_rates() const override { return table_.states > 0; }
+  void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> out) const override {
+    static_cast<void>(respond(memory, now, direction, out));
+  }
+  void scales(const Memory&, std::span<double> out) const override {
+    if (table_.states == 0) return;
+    call(table_, "scales", table_.scales, law(), out.data());
+    const auto is_size = [](double scale) { return std::isfinite(scale) && scale > 0.0; };
+    if (!std::ranges::all_of(out, is_size)) fail(table_, "scales() gave a size that is not above 0");
+  }
+  [[nodiscard]] double delay() const override { return 0.0; }
+  [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const override {
+    if (table_.dissipation == nullptr) return force(memory, now, direction) * now.v;
+    double power = 0.0;
+    const dualdamp_instant instant = outside(now, direction);
+    call(table_, "dissipation", table_.dissipation, law(), memory.mode, memory.state.data(), &instant, &power);
+    if (std::isnan(power)) refuse_nan("dissipation", memory, now);
+    return power;
+  }
+  [[nodiscard]] bool advances() const override { return false; }
+  void advance(Memory&, const Instant&, const Instant&, double, Direction) const override {}
+  [[nodiscard]] double next_change(const Memory&) const override { return std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] std::string_view aperiodic() const override { return {}; }
+
+ private:
+  static dualdamp_instant outside(const Instant& now, Direction direction) {
+    const Modification& m = now.modification;
+    return {.t = now.t,
+            .x = now.x,
+            .v = now.v,
+            .direction = static_cast<int>(direction),
+            .limit_factor = m.factor,
+            .limit_offset = m.slope * now.x,
+            .limit_vanished = m.vanished};
+  }
+
+  /// Not the law's fault where it was asked about no number.
+  void refuse_nan(const char* function, const Memory& memory, const Instant& now) const {
+    const std::array<double, 3> place = {now.t, now.x, now.v};
+    if (!all_finite(memory.state) || !all_finite(place)) return;
+    fail(table_,
+         std::string(function) + "() gave a value that is no number, at t = " + core::format_number(now.t, 6) +
+             " s, x = " + core::format_number(now.x, 6) + " m, v = " + core::format_number(now.v, 6) + " m/s");
+  }
+  void check_memory(const char* function, const Memory& memory) const {
+    if (memory.mode < 0 || memory.mode >= static_cast<int>(table_.modes))
+      fail(table_, std::string(function) + "() went to mode " + std::to_string(memory.mode) +
+                       ", but the table declares modes 0 to " + std::to_string(table_.modes - 1));
+    if (!all_finite(memory.state)) fail(table_, std::string(function) + "() left a state that is no number");
+  }
+
+  [[nodiscard]] void* law() const { return owned_.get(); }
+
+  const Table& table_;
+  std::shared_ptr<void> owned_;  // destroyed even if null, which is a law too
+};
+
+}  // namespace
+
+std::string printable(const char* text, std::size_t size) {
+  std::string result(text, strnlen(text, size));
+  std::ranges::replace_if(result, [](unsigned char c) { return c < 0x20 || c > 0x7E; }, '?');
+  return result;
+}
+
+Created create_law(const Table& table, const ParameterValues& values) {
+  std::vector<double> numbers;
+  for (const dualdamp_parameter& parameter : std::span(table.parameters, table.parameter_count))
+    numbers.push_back(values.number(parameter.name));
+  std::array<char, max_plugin_text> message{};
+  void* law = nullptr;
+  const int status = status_of(table, "create", table.create, numbers.data(), &law, message.data(),
+                               static_cast<unsigned>(message.size()));
+  Created result{.message = printable(message.data(), message.size())};
+  if (status == DUALDAMP_OK) {
+    result.law = Law(std::make_shared<const PluginLaw>(table, law));
+  } else if (result.message.empty()) {
+    result.message = "status " + std::to_string(status) + ", without a reason";
+  }
+  return result;
+}
+
+}  // namespace dualdamp::friction
