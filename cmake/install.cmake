@@ -1,4 +1,4 @@
-# find_package(dualdamp [COMPONENTS core friction_models sim identify scenarios bench]) after an install.
+# find_package(dualdamp [COMPONENTS core friction_models sim identify scenarios bench plugin]) after an install.
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dualdamp)
