@@ -40,7 +40,7 @@ function checks() {
 function provenance() {
   const { program } = run;
   const rows = [["program", `${program.name} ${program.version}`], ["commit", program.commit], ["compiler", program.compiler],
-    ["libraries", Object.entries(program.libraries).map((l) => l.join(" ")).join(", ")], ...Object.entries(run.provenance ?? {}).map(([k, v]) => [k, String(v)])];
+    ["libraries", Object.entries(program.libraries).map((l) => l.join(" ")).join(", ")], ...Object.entries(run.provenance ?? {}).map(([k, v]) => [k, typeof v === "string" ? v : JSON.stringify(v)])];
   return [heading("Where this comes from"),
     make("details", {}, make("summary", {}, "Provenance"), grid(["", ""], rows.map(([k, v]) => [{ text: k, class: "text" }, { text: v, class: "long" }]))),
     make("details", {}, make("summary", {}, "Scenario as it was run (SI)"), make("pre", { tabindex: 0 }, JSON.stringify(run.scenario, null, 2)))];
