@@ -42,6 +42,8 @@ struct MethodOptions {
   double least_speed = 0.0;
   /// Replicates of a bootstrap by sweeps (by residuals where there is one sweep); 0: none.
   int bootstrap = 0;
+  /// Profiles of the likelihood of zeta and F0, as curves with the intervals that follow from them.
+  bool profile = false;
   /// recursive_least_squares: forgetting factor, in (0, 1]; 1 forgets nothing.
   double forgetting = 1.0;
   /// extended_kalman: width of the smoothed sign of the velocity [m/s]; 0: the method's own choice.

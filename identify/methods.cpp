@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identify/free_decay.hpp"
+#include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
 
@@ -11,6 +12,7 @@ namespace dualdamp::identify {
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       free_decay_method,
+      resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,
   };

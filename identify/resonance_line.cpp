@@ -34,6 +34,16 @@ double frequency_ratio(double frequency, const KnownConstants& constants) {
   return frequency * std::sqrt(constants.mass) / std::sqrt(constants.stiffness);
 }
 
+/// Index of the label; most pairs carry that of the pair before them.
+int sweep_index(const std::string& label, std::vector<std::string>& labels) {
+  if (labels.empty() || labels.back() != label) {
+    const auto found = std::ranges::find(labels, label);
+    if (found != labels.end()) return static_cast<int>(found - labels.begin());
+    labels.push_back(label);
+  }
+  return static_cast<int>(labels.size()) - 1;
+}
+
 void take_pairs(const PairRecord& record, ResonanceData& data, Estimate& estimate) {
   double largest = 0.0;
   for (std::size_t i = 0; i < record.pairs.size(); ++i) {
@@ -43,7 +53,7 @@ void take_pairs(const PairRecord& record, ResonanceData& data, Estimate& estimat
       estimate.excluded.push_back({number, std::move(reason)});
       continue;
     }
-    data.pairs.push_back({pair.Y, pair.x, number});
+    data.pairs.push_back({pair.Y, pair.x, number, sweep_index(pair.sweep, data.sweeps)});
     largest = std::max(largest, pair.x);
   }
   data.unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
@@ -150,7 +160,7 @@ std::vector<Datum> exact_pairs(const ResonanceData& data, const std::vector<Datu
   for (const Datum& datum : used) {
     const std::optional<double> x = analytic::amplitude(functions, datum.Y, std::max(friction.x_f, 0.0));
     if (!x) return {};
-    exact.push_back({datum.Y, *x, datum.number});
+    exact.push_back({datum.Y, *x, datum.number, datum.sweep});
   }
   return exact;
 }

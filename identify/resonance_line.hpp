@@ -25,6 +25,7 @@ struct Datum {
   double Y = 0.0;
   double x = 0.0;
   int number = 0;  ///< of the pair in the record
+  int sweep = 0;   ///< index of its sweep, in order of appearance
 };
 
 /// The record made ready: pairs with positive finite amplitudes in order of x, and the frequency.
@@ -34,6 +35,7 @@ struct ResonanceData {
   double r = 1.0;     ///< w/wn of the test
   ResonanceG G;       ///< at w = wn
   KnownConstants constants;
+  std::vector<std::string> sweeps;  ///< labels
 };
 
 struct Line {
