@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "core/numbers.hpp"
 
@@ -64,6 +65,21 @@ std::string table_text(const scenarios::Table& table) {
   return text;
 }
 
+/// A paragraph of lines that fit a terminal.
+std::string folded(const std::string& paragraph) {
+  constexpr std::size_t widest = 100;
+  std::string text;
+  std::size_t column = 0;
+  std::istringstream words(paragraph);
+  for (std::string word; words >> word;) {
+    const bool breaks = column > 0 && column + 1 + width(word) > widest;
+    text += column == 0 ? "" : breaks ? "\n" : " ";
+    column = (breaks || column == 0 ? 0 : column + 1) + width(word);
+    text += word;
+  }
+  return text;
+}
+
 std::string checks_text(const std::vector<scenarios::Check>& checks) {
   std::vector<std::vector<std::string>> rows = {{"value", "paper", "here", "difference", "ok", "source"}};
   for (const scenarios::Check& check : checks) {
@@ -98,6 +114,7 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
   }
   for (const scenarios::Table& table : result.tables)
     if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table);
+  if (!result.verdict.empty()) text += "\n" + folded(result.verdict) + "\n";
   if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
   return text;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
+#include "identify/verdict.hpp"
 #include "scenarios/answer.hpp"
 #include "scenarios/cells.hpp"
 
@@ -128,29 +129,64 @@ Json estimate_json(const identify::Estimate& estimate) {
   return json;
 }
 
+using Member = double identify::ParameterSet::*;
+using Interval = std::array<double, 2> identify::ParameterIntervals::*;
+
 Table estimate_table(const std::vector<identify::Estimate>& estimates) {
   using identify::Estimate;
+  using identify::ParameterIntervals;
   using identify::ParameterSet;
-  const auto value = [](double ParameterSet::* member) {
-    return [member](const Estimate& estimate) { return estimate.outcome.ok() ? estimate.value.*member : none; };
-  };
-  const auto error = [](double ParameterSet::* member) {
-    return [member](const Estimate& estimate) {
-      return estimate.outcome.ok() && estimate.std ? (*estimate.std).*member : none;
-    };
-  };
-  return {
+  Table table{
       "estimates",
       {text_column("method", estimates, &Estimate::method),
-       text_column("usable", estimates, [](const Estimate& estimate) { return estimate.usable ? "yes" : "no"; }),
-       column("zeta", "", estimates, value(&ParameterSet::zeta)),
-       column("zeta_std", "", estimates, error(&ParameterSet::zeta)),
-       column("c", "N.s/m", estimates, value(&ParameterSet::c)),
-       column("c_std", "N.s/m", estimates, error(&ParameterSet::c)),
-       column("x_f", "m", estimates, value(&ParameterSet::x_f)),
-       column("x_f_std", "m", estimates, error(&ParameterSet::x_f)),
-       column("F0", "N", estimates, value(&ParameterSet::F0)),
-       column("F0_std", "N", estimates, error(&ParameterSet::F0))}};
+       text_column("usable", estimates, [](const Estimate& estimate) { return estimate.usable ? "yes" : "no"; })},
+      true};
+  const auto add = [&](const std::string& name, const std::string& unit, Member member, Interval interval) {
+    const auto cell = [&](const std::string& suffix, auto get) {
+      table.columns.push_back(column(name + suffix, unit, estimates, [&](const Estimate& estimate) {
+        return estimate.outcome.ok() ? get(estimate) : none;
+      }));
+    };
+    cell("", [&](const Estimate& e) { return e.value.*member; });
+    cell("_std", [&](const Estimate& e) { return e.std ? (*e.std).*member : none; });
+    cell("_low", [&](const Estimate& e) { return e.interval95 ? ((*e.interval95).*interval)[0] : none; });
+    cell("_high", [&](const Estimate& e) { return e.interval95 ? ((*e.interval95).*interval)[1] : none; });
+  };
+  add("zeta", "", &ParameterSet::zeta, &ParameterIntervals::zeta);
+  add("c", "N.s/m", &ParameterSet::c, &ParameterIntervals::c);
+  add("x_f", "m", &ParameterSet::x_f, &ParameterIntervals::x_f);
+  add("F0", "N", &ParameterSet::F0, &ParameterIntervals::F0);
+  return table;
+}
+
+/// The same for a terminal: a number with its interval is one text.
+Table readable_estimates(const std::vector<identify::Estimate>& estimates) {
+  using identify::Estimate;
+  const auto digits = [](double value, int count) {
+    return std::isfinite(value) ? core::format_number(value, count) : std::string("-");
+  };
+  const auto text = [&](Member member, Interval interval) {
+    return [=](const Estimate& estimate) {
+      if (!estimate.outcome.ok()) return std::string("-");
+      constexpr int few = 5;
+      std::string cell = digits(estimate.value.*member, few);
+      if (estimate.interval95 && cell != "-") {
+        const auto& [low, high] = (*estimate.interval95).*interval;
+        cell += " (" + digits(low, few) + " to " + digits(high, few) + ")";
+      }
+      return cell;
+    };
+  };
+  using Set = identify::ParameterSet;
+  using Intervals = identify::ParameterIntervals;
+  Table table{"estimates",
+              {text_column("method", estimates, &Estimate::method),
+               text_column("usable", estimates, [](const Estimate& e) { return e.usable ? "yes" : "no"; }),
+               text_column("zeta (95 %)", estimates, text(&Set::zeta, &Intervals::zeta)),
+               text_column("c (95 %) [N.s/m]", estimates, text(&Set::c, &Intervals::c)),
+               text_column("F0 (95 %) [N]", estimates, text(&Set::F0, &Intervals::F0))}};
+  table.is_file = false;
+  return table;
 }
 
 /// e_0, e_1, ... of the decrement law.
@@ -216,6 +252,8 @@ Answer answer(const std::vector<identify::Estimate>& estimates, const identify::
   if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);
   answer.result["estimates"] = std::move(list);
   answer.result["fit"] = fit_json(estimates, record);
+  answer.result["verdict"] = identify::verdict(estimates);
+  answer.tables.push_back(readable_estimates(estimates));
   answer.tables.push_back(estimate_table(estimates));
   add_curves(estimates, answer);
   return answer;

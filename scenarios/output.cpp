@@ -218,8 +218,9 @@ std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
                                      std::shared_ptr<const RunResult> result) {
   std::vector<OutputFile> files;
   for (const Table& table : result->tables)
-    files.push_back(
-        {table.name + ".csv", [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); }});
+    if (table.is_file)
+      files.push_back({table.name + ".csv",
+                       [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); }});
   // Last: where result.json is, the tables are complete.
   files.push_back({"result.json", json_document(std::move(scenario), std::move(result))});
   return files;

@@ -171,7 +171,8 @@ Fields identify() {
   fields = joined(fields, parameters("estimates[].std.", "", "standard error of the "));
   fields = joined(fields, parameters("estimates[].interval95.", "[]", "95 % interval of the "));
   fields = joined(fields, diagnostics());
-  return joined(fields, {{"fit.method", "", "the method of the fit: the first usable one"},
+  return joined(fields, {{"verdict", "", "what all estimates say together"},
+                         {"fit.method", "", "the method of the fit: the first usable one"},
                          {"fit.points[].number", "1", "number of the datum"},
                          {"fit.points[].Y", "m", "measured input amplitude"},
                          {"fit.points[].x", "m", "measured output amplitude or extreme"},

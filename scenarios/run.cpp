@@ -133,7 +133,7 @@ class Runner {
 /// The numbers of the result that are no part of a list of records, in the order of the tables of the format.
 void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
-    if (value.is_structured()) return;
+    if (value.is_structured() || name == "verdict") return;
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
     table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(value.get<double>(), digits)
@@ -199,6 +199,7 @@ RunResult run(const Scenario& scenario) {
     return result;
   }
   result.result = answer.result.dump();
+  if (answer.result.contains("verdict")) result.verdict = answer.result.at("verdict").get<std::string>();
   summarise(scenario, answer.result, result.summary);
   result.tables = std::move(answer.tables);
   result.checks = compare(scenario.expect, answer.result, result.tables);

@@ -37,6 +37,7 @@ struct RunResult {
                  {.name = "value", .kind = CellKind::text},
                  {.name = "unit", .kind = CellKind::text}}};
   std::vector<Table> tables;  ///< its lists; each becomes a file
+  std::string verdict;        ///< what it means, in plain words; of an identification
   std::vector<Check> checks;
   core::Provenance provenance;
 };

@@ -36,6 +36,7 @@ struct Table {
   std::string name;  ///< of the file, without .csv
   std::vector<Column> columns;
   bool is_long = false;  ///< not for a terminal
+  bool is_file = true;   ///< false: only for a terminal
   std::string key = {};  ///< of the list in the result that the rows are; empty: they are only a file
 
   [[nodiscard]] std::size_t size() const { return columns.empty() ? 0 : columns.front().size(); }
