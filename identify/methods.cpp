@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "identify/acceleration_velocity_displacement.hpp"
 #include "identify/free_decay.hpp"
+#include "identify/output_error.hpp"
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
@@ -11,7 +13,9 @@ namespace dualdamp::identify {
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
+      acceleration_velocity_displacement_method,
       free_decay_method,
+      output_error_method,
       resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,

@@ -1,4 +1,4 @@
-// The examples of docs/methods/*.md give the numbers printed there.
+// The examples of docs/methods/*.md that hold their data give the numbers printed there.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -55,8 +55,13 @@ TEST_CASE("The examples of the method pages give the printed numbers") {
     const std::string name(method.name);
     CAPTURE(name);
     const std::string page = read_text(std::string(DUALDAMP_SOURCE_DIR) + "/docs/methods/" + name + ".md");
-    CHECK(page.find("--method " + name) != std::string::npos);
     const std::string csv = between(page, "```csv\n", "```");
+    if (csv.empty()) {
+      // Histories are too long for a page: there a scenario measures, and expects the printed numbers.
+      CHECK(page.find("scenarios/examples/") != std::string::npos);
+      continue;
+    }
+    CHECK(page.find("--method " + name) != std::string::npos);
     const identify::Record record = identify::parse_csv(csv, name).record;
     const identify::KnownConstants constants{option(page, "mass", "kg"), option(page, "stiffness", "N/m"),
                                              option(page, "frequency", "rad/s")};

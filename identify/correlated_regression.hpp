@@ -1,0 +1,47 @@
+#pragma once
+/// Linear least squares on samples of a motion, whose errors are not independent.
+///
+/// Residuals of neighbouring samples are alike, for noise went through a filter and what the model leaves out
+/// lasts. Covariance with Bartlett's weights (newey1987):
+///
+///   C = (W^T W)^-1 [ S_0 + sum_l (1 - l/(L+1)) (S_l + S_l^T) ] (W^T W)^-1,   S_l = sum_t r_t r_(t-l) w_t w_(t-l)^T
+///
+/// with L twice the lag at which the residuals' correlation has died down to chance. As many residuals count as
+/// independent as their correlation leaves: N/(1 + 2 sum (1 - l/(L+1)) rho_l).
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identify/estimate.hpp"
+
+namespace dualdamp::identify {
+
+struct CorrelatedFit {
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd residuals;
+  double deviation = 0.0;    ///< of the residuals
+  double independent = 0.0;  ///< residuals that count as such
+  double condition = 1.0;    ///< of the columns, scaled to equal length
+
+  /// Degrees of freedom left, at least one.
+  [[nodiscard]] double freedom() const;
+};
+
+/// `blocks`: rows at which another record begins, across which nothing correlates; 0 need not be named. Nothing
+/// when the columns depend on each other.
+[[nodiscard]] std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns,
+                                                          const Eigen::VectorXd& target,
+                                                          const std::vector<Eigen::Index>& blocks);
+
+/// Does one more column explain more than chance would? Student's t test of its coefficient, squared, with the
+/// covariance above. `range`: scale of the test's effect.
+[[nodiscard]] std::optional<LackOfFit> correlated_term_test(const Eigen::MatrixXd& columns,
+                                                            const Eigen::VectorXd& target,
+                                                            const Eigen::VectorXd& term,
+                                                            const std::vector<Eigen::Index>& blocks, double range,
+                                                            std::string name);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,35 @@
+#pragma once
+/// Results of methods that estimate forces: (m, c, k, F0) first, zeta = c/(2 sqrt(m k)) and x_f = F0/k from them.
+/// Without a spring (k = 0, a machine on a rail) zeta and x_f do not exist and are not a number.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identify/estimate.hpp"
+
+namespace dualdamp::identify {
+
+struct ForceParameters {
+  double m = 0.0;   ///< kg
+  double c = 0.0;   ///< N.s/m
+  double k = 0.0;   ///< N/m
+  double F0 = 0.0;  ///< N
+};
+
+[[nodiscard]] ParameterSet parameters(const ForceParameters& force);
+
+/// Value, standard errors, intervals value +- half_width std, covariance and correlation of (zeta, F0) from the
+/// covariance of (m, c, k, F0), whose rows of known constants are zero.
+void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen::Matrix4d& covariance,
+                  double half_width);
+
+/// A further parameter with its interval.
+[[nodiscard]] FurtherParameter further(std::string name, std::string unit, double value, double variance,
+                                       double half_width);
+
+/// Doubts about c and F0 by their signs, as `judge_signs` has them of zeta and x_f. `least`: shares of the forces'
+/// scale that rounding makes.
+void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults);
+
+}  // namespace dualdamp::identify
