@@ -110,9 +110,13 @@ class Parser {
     identify_command_ = app_.add_subcommand("identify", "Identify friction from measured data, without a scenario");
     CLI::App& command = *identify_command_;
     command.add_option("DATA", identify_.data, "CSV file: columns Y and x, or t and x")->required()->type_name("");
-    command.add_option("--mass", identify_.mass, "Mass, such as '1.042 kg'")->required()->type_name("QUANTITY");
-    command.add_option("--stiffness", identify_.stiffness, "Stiffness, such as '1568 N/m'")
-        ->required()
+    command
+        .add_option("--mass", identify_.mass,
+                    "Mass, such as '1.042 kg'; without it the methods that can estimate it")
+        ->type_name("QUANTITY");
+    command
+        .add_option("--stiffness", identify_.stiffness,
+                    "Stiffness, such as '1568 N/m'; '0 N/m' for a mass on a rail without spring")
         ->type_name("QUANTITY");
     command
         .add_option("--frequency", identify_.frequency,

@@ -245,9 +245,9 @@ std::string quoted(const std::string& text) {
 Scenario scenario_of(const IdentifyCommand& command) {
   LoadOptions options;
   options.data_anywhere = true;
-  options.set = {{"system.mass=" + command.mass, "--mass"},
-                 {"system.stiffness=" + command.stiffness, "--stiffness"},
-                 {"analysis.data=" + quoted(command.data), "DATA"}};
+  options.set = {{"analysis.data=" + quoted(command.data), "DATA"}};
+  if (!command.mass.empty()) options.set.push_back({"system.mass=" + command.mass, "--mass"});
+  if (!command.stiffness.empty()) options.set.push_back({"system.stiffness=" + command.stiffness, "--stiffness"});
   if (!command.frequency.empty()) {
     options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
     options.set.push_back({"excitation.frequency=" + command.frequency, "--frequency"});
@@ -257,8 +257,8 @@ Scenario scenario_of(const IdentifyCommand& command) {
     for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);
     options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
   }
-  Scenario scenario =
-      scenarios::parse_scenario("schema: dualdamp/1\nanalysis: {type: identify}\n", "command line", options);
+  Scenario scenario = scenarios::parse_scenario("schema: dualdamp/1\nsystem: {}\nanalysis: {type: identify}\n",
+                                                "command line", options);
   scenario.file = command.data;
   return scenario;
 }

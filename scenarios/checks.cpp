@@ -43,6 +43,7 @@ class Checker {
 
   std::optional<MeasuredData> run() {
     analysis_ = text_at("analysis", "type");
+    if (!stands_in_file("analysis", "data")) check_constants();
     if (analysis_.empty()) return std::nullopt;
     needs_ = find_needs();
     if (needs_ != nullptr) {
@@ -131,10 +132,23 @@ class Checker {
     }
     if (node("system") == nullptr) {
       complain(place_of("analysis.type"), "'system' is missing: " + subject() + " needs it");
-    } else if (needs_->damping && !stands_in_file("system", "damping") &&
+    } else if (needs_->whole_system && !stands_in_file("system", "damping") &&
                !stands_in_file("system", "damping_ratio")) {
       complain(node("system")->head(), "'system' needs one of damping, damping_ratio", "damping, damping_ratio");
     }
+  }
+
+  /// Only measured data do without them.
+  void check_constants() {
+    if (node("system") == nullptr) return;
+    const Section& section = scenario_format().find("system")->choice->variants.front().section;
+    for (const char* key : {"mass", "stiffness"})
+      if (!stands_in_file("system", key))
+        complain(node("system")->head(), "'system." + std::string(key) + "' is missing",
+                 describe_values(*section.find(key)));
+    if (number_at("system", "stiffness") == 0.0)
+      complain(place_of("system.stiffness"), "'system.stiffness' is out of range: a motion needs a spring",
+               "> 0 N/m", "0 N/m");
   }
 
   void check_excitation() {
@@ -174,7 +188,12 @@ class Checker {
     const auto m = number_at("system", "mass");
     const auto k = number_at("system", "stiffness");
     const auto word = frequency.get<std::string>();
-    if ((word != "natural" && word != "damped") || !m || !k) return;
+    if (word != "natural" && word != "damped") return;
+    for (const char* key : {"mass", "stiffness"})
+      if (!stands_in_file("system", key) && !needs_->whole_system)
+        complain(place_of("excitation.frequency"), "a " + word + " frequency needs the system's " + key,
+                 "a frequency");
+    if (!m || !k) return;
     const double natural = std::sqrt(*k / *m);
     double value = natural;
     if (word == "damped") {

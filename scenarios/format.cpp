@@ -55,14 +55,17 @@ Section system_section() {
       choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
   friction.listed = true;
   friction.max_items = 16;
-  return {{quantity("mass", {"kg"}, "sliding mass m").required().above(0),
-           quantity("stiffness", {"N/m"}, "spring k between mass and base").required().above(0),
-           quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
-           quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
-           quantity("cubic_stiffness", {"N/m^3"}, "of the spring's elongation cubed; any sign").with_fallback(0.0),
-           words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
-           std::move(friction)},
-          {{{"damping", "damping_ratio"}, false}}};
+  return {
+      {quantity("mass", {"kg"}, "sliding mass m; may be left out where measured data are to tell it").above(0),
+       quantity("stiffness", {"N/m"},
+                "spring k between mass and base; of measured data it may be left out, or 0 for a mass on a rail")
+           .at_least(0),
+       quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
+       quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
+       quantity("cubic_stiffness", {"N/m^3"}, "of the spring's elongation cubed; any sign").with_fallback(0.0),
+       words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
+       std::move(friction)},
+      {{{"damping", "damping_ratio"}, false}}};
 }
 
 Field amplitudes() {

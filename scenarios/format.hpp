@@ -29,7 +29,7 @@ struct Needs {
   std::string measurement;               ///< of identify: its type, or "data"; empty otherwise
   std::vector<std::string> excitations;  ///< types it works with; empty: it has no use for a system at all
   std::vector<std::string> drive;        ///< keys of a harmonic excitation that must be there
-  bool damping = true;                   ///< damping or damping_ratio must be there
+  bool whole_system = true;              ///< mass, stiffness above zero, and damping or damping_ratio must be there
   std::string reason;                    ///< why these excitations only, for messages
 };
 

@@ -64,7 +64,8 @@ std::vector<double> grid_values(const Json& grid) {
 }
 
 sim::Oscillator oscillator(const Json& system) {
-  return {number(system.at("mass")), number(system.at("stiffness")), number_or(system, "damping", 0.0),
+  return {number_or(system, "mass", identify::unknown), number_or(system, "stiffness", identify::unknown),
+          number_or(system, "damping", 0.0),
           system.at("damper_to") == "base" ? sim::DamperTo::base : sim::DamperTo::ground,
           number_or(system, "cubic_stiffness", 0.0)};
 }

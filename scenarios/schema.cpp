@@ -208,8 +208,10 @@ Json demands_of(const Needs& row) {
                   {"properties", {{"excitation", {{"properties", {{"type", {{"enum", row.excitations}}}}}}}}}};
   const bool may_be_free = std::ranges::find(row.excitations, "none") != row.excitations.end();
   if (!may_be_free) demands["required"].push_back("excitation");
-  if (row.damping)
-    demands["properties"]["system"] = {{"anyOf", {{{"required", {"damping"}}}, {{"required", {"damping_ratio"}}}}}};
+  if (row.whole_system)
+    demands["properties"]["system"] = {{"required", {"mass", "stiffness"}},
+                                       {"properties", {{"stiffness", {{"not", {{"const", 0}}}}}}},
+                                       {"anyOf", {{{"required", {"damping"}}}, {{"required", {"damping_ratio"}}}}}};
   Json drive = Json::array();
   for (const std::string& type : row.excitations)
     if (excitations().find(type)->section.find("frequency") != nullptr && !row.drive.empty())

@@ -228,7 +228,7 @@ class Refusals(Case):
 
     def test_wrong_usage(self):
         for arguments in [[], ["run"], ["fly"], ["run", "base.yaml", "--fly"], ["run", "base.yaml", "--jobs", "0"],
-                          ["run", "base.yaml", "--jobs", "two"], ["run", "base.yaml", "--out"], ["identify", "x.csv"],
+                          ["run", "base.yaml", "--jobs", "two"], ["run", "base.yaml", "--out"], ["identify"],
                           ["laws", "gravity"], ["methods", "guess"], ["run", "base.yaml", "--resume"],
                           ["run", "base.yaml", "--plugin", "x.so"], ["run", "base.yaml", "--out", ""]]:
             with self.subTest(arguments):
