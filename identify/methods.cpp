@@ -8,6 +8,7 @@
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
+#include "identify/resonance_within_sweep.hpp"
 
 namespace dualdamp::identify {
 
@@ -19,6 +20,7 @@ const std::vector<MethodEntry>& methods() {
       resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,
+      resonance_within_sweep_method,
   };
   return list;
 }

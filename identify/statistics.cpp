@@ -19,9 +19,9 @@ double quantile95(double freedom) {
 }
 
 std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
-                                         const Eigen::VectorXd& term, double range, std::string name) {
+                                         const Eigen::VectorXd& term, double range, std::string name, int spent) {
   const auto count = jacobian.rows();
-  const auto freedom = static_cast<int>(count - jacobian.cols() - 1);
+  const auto freedom = static_cast<int>(count - jacobian.cols() - 1) - spent;
   if (freedom < 1 || !(range > 0.0)) return std::nullopt;
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
   const Eigen::VectorXd explained = jacobian * qr.solve(term);

@@ -17,10 +17,11 @@ namespace dualdamp::identify {
 /// Does one more term explain more of the residuals than chance would? F test of a fit with the columns `jacobian`
 /// against the same fit with `term` added, both linearised at the estimate. `range` is that of the data: the scale
 /// of `effect`, and of the rounding below which residuals carry no information. Nothing when no degree of freedom
-/// would be left or the term depends linearly on the columns.
+/// would be left or the term depends linearly on the columns. `spent`: degrees of freedom that went into the
+/// residuals beside the columns.
 [[nodiscard]] std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian,
                                                        const Eigen::VectorXd& residual, const Eigen::VectorXd& term,
-                                                       double range, std::string name);
+                                                       double range, std::string name, int spent = 0);
 
 /// zeta and x_f [m] with what follows from them: c = 2 zeta sqrt(m k), F0 = k x_f.
 [[nodiscard]] ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants);

@@ -1,0 +1,44 @@
+#pragma once
+/// Within-sweep resonance method: one damping ratio for all sweeps, a Coulomb friction of its own for each.
+///
+///   x_ij = a_j + b Y_ij,   b = sum_j sum_i (Y_ij - mean_j Y)(x_ij - mean_j x)/sum_j sum_i (Y_ij - mean_j Y)^2
+///   zeta = 1/(2 b),   x_f,j = -a_j/G(zeta)
+///
+/// The paper's sweeps lie on parallel lines: its friction force drifted from one to the next. Parallel lines take
+/// the drift out of zeta, where a single line takes it for scatter. The friction reported is the mean over the
+/// sweeps.
+///
+/// Holds for small zeta near w = wn, without sticking, with errors in x alone and a friction that stays the same
+/// within a sweep; at least two sweeps of two pairs. Uncertainty: b from the scatter about the parallel lines, N -
+/// J
+/// - 1 degrees of freedom for N pairs in J sweeps (or from `sigma_x`, `sigma_Y`); the mean friction from the
+/// scatter of the sweeps, J - 1 degrees of freedom, and from b, the two combined after welch1947. Doubts: pairs
+/// that stick are left out, an F test of a common quadratic term, an F test of separate slopes. Source:
+/// liang2004identifying (the drift, section 4); the fit is the analysis of covariance, draper1998. Errors:
+/// `outcome`. Cost: n log n.
+
+#include "identify/method.hpp"
+
+namespace dualdamp::identify {
+
+[[nodiscard]] Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants,
+                                              const MethodOptions& options);
+
+/// Two sweeps with two pairs each are asked for.
+[[nodiscard]] std::string lacks_sweeps(const Record& record);
+
+inline constexpr MethodEntry resonance_within_sweep_method{
+    "resonance_within_sweep",
+    "one damping ratio and a friction force for each sweep from parallel lines",
+    "excitation at w = wn, zeta small, no sticking, errors in x alone, friction that may drift between sweeps but "
+    "not "
+    "within one; checked: sticking pairs are left out, quadratic term F-test, separate slopes F-test, what the "
+    "method "
+    "would make of its own estimate by the exact law",
+    "x = a_j + b Y, zeta = 1/(2 b), x_f,j = -a_j/G(zeta), G by Eq (4) at w = wn",
+    "liang2004identifying, draper1998, welch1947",
+    RecordKind::pairs,
+    lacks_sweeps,
+    resonance_within_sweep};
+
+}  // namespace dualdamp::identify
