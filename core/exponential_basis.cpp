@@ -17,6 +17,20 @@ constexpr double panel_angle = 3.2;
 /// Below this |z delta| ten Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
 constexpr double shift_limit = 0.1;
 
+/// exp(rate s). Far down a decay the rounding of the exponent would cost as many roundings of the result: it is
+/// given back.
+double real_exponential(double rate, double s) {
+  const double exponent = rate * s;
+  const double result = std::exp(exponent);
+  if (exponent > -8.0 || result == 0.0) return result;
+  return result * (1.0 + std::fma(rate, s, -exponent));
+}
+
+Complex exponential(Complex z, double s) {
+  const double size = z.real() == 0.0 ? 1.0 : real_exponential(z.real(), s);
+  return z.imag() == 0.0 ? Complex(size) : std::polar(size, z.imag() * s);
+}
+
 /// Nodes of one divided difference of z -> exp(z s).
 struct Nodes {
   std::array<Complex, max_nodes> z;
@@ -31,14 +45,12 @@ Nodes without(const Nodes& nodes, int removed) {
   return rest;
 }
 
-/// Close nodes: Taylor series about their mean. With w_i = (z_i - mean) s the divided difference is
-/// s^n exp(mean s) sum_k h_k(w)/(n + k)!, h_k the complete homogeneous symmetric polynomials, built up column by
+/// Close nodes: Taylor series about the first one. With w_i = (z_i - z_0) s the divided difference is
+/// s^n exp(z_0 s) sum_k h_k(w)/(n + k)!, h_k the complete homogeneous symmetric polynomials, built up column by
 /// column of the bidiagonal matrix that has the nodes on its diagonal.
 Complex close_nodes(const Nodes& nodes, double s) {
   const int n = nodes.count - 1;
-  Complex mean = 0.0;
-  for (int i = 0; i <= n; ++i) mean += nodes.z[static_cast<std::size_t>(i)];
-  mean /= static_cast<double>(nodes.count);
+  const Complex first = nodes.z[0];
   // power[i] = h_k of the first i + 1 nodes; starts as h_0 = 1.
   std::array<Complex, max_nodes> power;
   power.fill(1.0);
@@ -50,16 +62,16 @@ Complex close_nodes(const Nodes& nodes, double s) {
     factorial *= n + k + 1;
     Complex before = 0.0;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(n); ++i) {
-      before += (nodes.z[i] - mean) * s * power[i];
+      before += (nodes.z[i] - first) * s * power[i];
       power[i] = before;
     }
   }
-  return sum * std::exp(mean * s) * std::pow(s, n);
+  return sum * exponential(first, s) * std::pow(s, n);
 }
 
 /// Divided difference of z -> exp(z s). The farthest pair is taken apart as long as that loses no digits.
 Complex divided_exponential(const Nodes& nodes, double s) {
-  if (nodes.count == 1) return std::exp(nodes.z[0] * s);
+  if (nodes.count == 1) return exponential(nodes.z[0], s);
   int far_a = 0;
   int far_b = 1;
   double spread = -1.0;
@@ -137,8 +149,7 @@ void ExponentialBasis::evaluate(double s, Values& values) const {
       values.im[k] = value.imag();
       continue;
     }
-    const double size = re_[k] == 0.0 ? 1.0 : std::exp(re_[k] * s);
-    const Complex value = im_[k] == 0.0 ? Complex(size) : std::polar(size, im_[k] * s);
+    const Complex value = exponential({re_[k], im_[k]}, s);
     values.re[k] = value.real();
     values.im[k] = value.imag();
   }

@@ -143,13 +143,11 @@ class PanelSearch {
     return std::isfinite(sixth_ + std::abs(end.value) + std::abs(end.slope) + std::abs(end.curvature));
   }
 
-  /// Whether contacts with zero at s < t are one: between them the guard does not clearly stand out of rounding.
+  /// Whether the guard does not clearly stand out of rounding.
+  [[nodiscard]] bool in_contact(double s) { return std::abs(jet(s).value) <= 1.5 * rounding(s); }
+  /// Whether contacts with zero at s < t are one.
   [[nodiscard]] bool same_contact(double s, double t) {
-    for (const double part : {0.5, 0.25, 0.75}) {
-      const double between = s + part * (t - s);
-      if (std::abs(jet(between).value) > 1.5 * rounding(between)) return false;
-    }
-    return true;
+    return in_contact(0.5 * (s + t)) && in_contact(s + 0.25 * (t - s)) && in_contact(s + 0.75 * (t - s));
   }
   void record_grazing(double s) {
     if (rounding(s) <= graze * vanished) return;
@@ -157,10 +155,11 @@ class PanelSearch {
     if (nearest != grazings_.end() && same_contact(std::min(nearest->s, s), std::max(nearest->s, s))) return;
     grazings_.push_back({index_, s});
   }
-  /// The contact of which a crossing is the end is not a grazing of its own.
-  void drop_contact(double root) {
-    for (auto last = nearest_grazing(root); last != grazings_.end() && same_contact(last->s, root);
-         last = nearest_grazing(root)) {
+  /// A contact that lasts until the search ends at a crossing is no grazing: it is part of that crossing, or the
+  /// next search's.
+  void drop_contact(double end) {
+    for (auto last = nearest_grazing(end); last != grazings_.end() && same_contact(last->s, end);
+         last = nearest_grazing(end)) {
       grazings_.erase(last);
     }
   }
@@ -547,6 +546,17 @@ bool crosses_as_expected(const ExponentialBasis& basis, const Guard& guard, doub
   return true;
 }
 
+/// Grazings behind the crossing that ends the search, and contacts that are not over there.
+void drop_unfinished(const ExponentialBasis& basis, std::span<const Guard> guards, const Crossing& crossing,
+                     std::vector<Grazing>& grazings, std::ptrdiff_t earlier, SearchCount& count) {
+  const auto late = [&](const Grazing& grazing) { return grazing.s > crossing.s; };
+  grazings.erase(std::remove_if(grazings.begin() + earlier, grazings.end(), late), grazings.end());
+  for (int g = 0; std::ssize(grazings) > earlier && g < static_cast<int>(guards.size()); ++g) {
+    PanelSearch search(basis, guards[static_cast<std::size_t>(g)], g, grazings, earlier, count);
+    if (g == crossing.guard || search.in_contact(crossing.s)) search.drop_contact(crossing.s);
+  }
+}
+
 /// Those of this search, in order of time.
 void finish_grazings(std::vector<Grazing>& grazings, std::ptrdiff_t earlier, SearchCount& count) {
   count.grazings += static_cast<long>(grazings.size()) - earlier;
@@ -630,9 +640,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
       }
       const double root = search.first_root(begin, end);
       if (root < 0.0 && touched && b < horizon) search.record_grazing(b);
-      if (root < 0.0) continue;
-      search.drop_contact(root);
-      if (first < 0.0 || root < first) {
+      if (root >= 0.0 && (first < 0.0 || root < first)) {
         first = root;
         crossing.guard = static_cast<int>(g);
         search.values_at(root, crossing.values);
@@ -641,8 +649,7 @@ void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards
     if (first >= 0.0) {
       crossing.found = true;
       crossing.s = first;
-      const auto late = [&](const Grazing& grazing) { return grazing.s > first; };
-      grazings.erase(std::remove_if(grazings.begin() + earlier, grazings.end(), late), grazings.end());
+      drop_unfinished(basis, guards, crossing, grazings, earlier, count);
       finish_grazings(grazings, earlier, count);
       return;
     }

@@ -10,7 +10,8 @@
 ///   s = 0        The caller states how many zeros g has there (`known_zeros`: value, slope, curvature, ...).
 ///                They are factored out of the first panel, never stepped over; g is taken positive just after 0.
 ///   s = horizon  Belongs to the next search: a guard that reaches zero there within rounding is not reported here
-///                and the caller's check at the start of the next mode finds it.
+///                and the caller's check at the start of the next mode finds it. So does a contact of one guard
+///                that is not over where another one crosses.
 /// Tangency. Rounding of g at s is taken as (16 eps + eps max|Im z| s) times the sum of the guard's amplitudes
 ///   |c_k E_k(s)|, the second part from the phases z s; with n known zeros and s < T/2, T = 1/max|z|, as that at T
 ///   times (s/T)^n. A minimum within it of zero is one grazing contact: reported, not a crossing. Deeper dips are

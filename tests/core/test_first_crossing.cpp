@@ -312,6 +312,24 @@ TEST_CASE("Grazings of an earlier search stay in the list") {
   CHECK(result.grazings[0].guard == 5);
 }
 
+TEST_CASE("A contact that is not over where another guard crosses is no grazing") {
+  // One guard sinks into rounding at s = 0.033 and leaves it, below zero, when (turn s)^2/2 > 32 eps: behind 1.2,
+  // or never. In the middle of that contact the other guard crosses.
+  for (const double turn : {0.0, 1e-7}) {
+    const Terms sinking = {{-1e3, 1.0}, cosine(1.0, turn), constant(-1.0)};
+    for (const double s : {0.034, 0.04, 0.05, 0.3}) {
+      for (const int crossing : {0, 1}) {
+        std::vector<Terms> guards = {polynomial({s, -1.0}), sinking};
+        if (crossing == 1) std::swap(guards[0], guards[1]);
+        const Result result = search(Problem(guards), 10.0);
+        CAPTURE(turn, s, crossing);
+        check_crossing(result, crossing, s, 8 * epsilon * s);
+        CHECK(result.grazings.empty());
+      }
+    }
+  }
+}
+
 TEST_CASE("A root pair is two events down to a gap of 1e-7 of the period, and one grazing below") {
   // cos s + cos(gap/2) vanishes at pi -+ gap/2 and dips by gap^2/8. g is known to e = 2 eps A, A = 2, hence the
   // root to e/|g'| = 2 e/gap, and the reported dip has depth above 16 eps A = 7e-15 while gap > 2.4e-7.
@@ -389,6 +407,21 @@ TEST_CASE("A crossing far down a decay is found") {
   check_crossing(search({{-1.0, 1.0}, {-1.0, -1.0 / 60.0, 0}}, 100.0), 0, 60.0, 256 * epsilon * 60.0);
   // e^-s - 1e-15 e^(-s/2) at 2 ln 1e15.
   check_crossing(search({{-1.0, 1.0}, {-0.5, -1e-15}}, 100.0), 0, 2.0 * std::log(1e15), 256 * epsilon * 70.0);
+}
+
+TEST_CASE("Far down a decay a zero behind the horizon is not taken for one before it") {
+  // Decayed by e^-225 at the horizon. The root lies 3e-15 behind it, less than a hundredth of an ulp; rounding of
+  // -0.046 s in the exponent would be 2 roundings of the guard and put it before.
+  const Terms terms = {{-2.8412283360639235e-05, -8.1813949472038238e-101},
+                       {-0.046369285302411467, 0.0032136842669512294},
+                       constant(0.0),
+                       cosine(0.0, 0.0012455067006126768)};
+  const double horizon = 4849.2589766104156;
+  const auto level = reference(terms).level(horizon);
+  REQUIRE((level > 0 && level < 0.1L));
+  CHECK_FALSE(search(terms, horizon).crossing.found);
+  const double behind = 2.0 * horizon;
+  check_crossing(search(terms, behind), 0, horizon, 2 * epsilon * horizon);
 }
 
 TEST_CASE("Growing guards") {
