@@ -34,7 +34,7 @@ target_compile_options(dualdamp_options INTERFACE
 set(DUALDAMP_LINK_TIME_FOLDERS core friction_models sim)
 set(DUALDAMP_SHORT_LOOPS "-fno-tree-vectorize;-fno-tree-loop-distribute-patterns")
 set(DUALDAMP_LINK_TIME "$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>")
-target_link_options(dualdamp_options INTERFACE "$<${DUALDAMP_LINK_TIME}:-flto=auto;-Wno-stringop-overflow>")
+target_link_options(dualdamp_options INTERFACE "$<${DUALDAMP_LINK_TIME}:-flto=auto;-fcx-limited-range;-Wno-stringop-overflow>")
 
 if(DUALDAMP_SANITIZE)
   target_compile_options(dualdamp_options INTERFACE

@@ -113,7 +113,7 @@ int ExponentialBasis::add(Complex exponent, int parent) {
   im_[k] = exponent.imag();
   parent_[k] = parent;
   square_[k] = std::norm(exponent);
-  fastest_ = std::max(fastest_, std::abs(exponent));
+  fastest_ = std::max(fastest_, modulus_bound(exponent.real(), exponent.imag()));
   turning_ = std::max({turning_, exponent.real(), std::abs(exponent.imag())});
   has_chains_ = has_chains_ || parent != no_parent;
   return size_++;
@@ -124,7 +124,7 @@ void ExponentialBasis::finish(double expected) {
   if (!has_chains_) evaluate(panel_, rotor_);
   even_ = !has_chains_;
   for (int k = 0; k < size_; ++k) {
-    const double rate = std::abs(exponent(k));
+    const double rate = modulus_bound(re_[index(k)], im_[index(k)]);
     even_ = even_ && growth(k) == 0.0 && (rate == 0.0 || 4.0 * rate >= fastest_);
   }
   if (!even_ || !(expected > 0.0)) return;

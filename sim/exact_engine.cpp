@@ -66,12 +66,11 @@ class ExactEngine::PhaseInterval final : public Interval {
 
   [[nodiscard]] double resolution(double s) const override {
     const core::ExponentialBasis& basis = engine_.mode_->basis();
-    double rate = 0.0;
+    double square = 0.0;
     for (int k = 0; k < basis.size(); ++k) {
-      const core::Complex z = basis.exponent(k);
-      if (-z.real() * s < gone) rate = std::max(rate, std::abs(z));
+      if (-basis.exponent(k).real() * s < gone) square = std::max(square, basis.square(k));
     }
-    return rate > 0.0 ? 1.6 / rate : duration;
+    return square > 0.0 ? 1.6 / std::sqrt(square) : duration;
   }
 
   [[nodiscard]] const ClosedForm* closed_form() const override {

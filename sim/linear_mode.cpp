@@ -23,6 +23,8 @@ constexpr double ramp_slow_beside_decay = 1e-4;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
+double modulus(Complex z) { return core::modulus_bound(z.real(), z.imag()); }
+
 void add(ModeFunction& f, int k, Complex coefficient) {
   f.re[at(k)] += coefficient.real();
   f.im[at(k)] += coefficient.imag();
@@ -84,10 +86,10 @@ void LinearMode::lay_own_motion() {
 }
 
 bool LinearMode::close_to_own(Complex z, double slow) const {
-  const Complex own = std::abs(z - first_) <= std::abs(z - second_) ? first_ : second_;
-  const double distance = std::abs(z - own);
-  return distance <= closeness * std::max(std::abs(z), std::abs(own)) ||
-         distance <= slow_beside_drive * fastest_drive_ || distance <= slow * std::abs(second_);
+  const Complex own = modulus(z - first_) <= modulus(z - second_) ? first_ : second_;
+  const double distance = modulus(z - own);
+  return distance <= closeness * std::max(modulus(z), modulus(own)) ||
+         distance <= slow_beside_drive * fastest_drive_ || distance <= slow * modulus(second_);
 }
 
 /// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z.

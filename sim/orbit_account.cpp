@@ -3,71 +3,78 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "sim/observers.hpp"
+#include <utility>
 
 namespace dualdamp::sim {
 
 using friction::Direction;
 
-namespace {
+OrbitAccount::OrbitAccount(const Model& model, bool full)
+    : full_(full),
+      drive_phase_(model.excitation.phase),
+      energy_(model.oscillator),
+      fundamental_(model.excitation.frequency) {}
 
-/// Merges rest intervals into sticks; one that crosses the period boundary counts once and starts in the period
-/// before.
-void collect_stick(std::vector<Stick>& sticks, const Interval& interval, bool continues, double x) {
-  if (continues && !sticks.empty()) {
-    sticks.back().duration += interval.duration;
+void OrbitAccount::begin(const State& start) {
+  peak_ = trough_ = start.x;
+  rests_at_start_ = start.direction == Direction::rest;
+}
+
+void OrbitAccount::observe(const Interval& interval, double x) {
+  // The velocity keeps its sign within an interval.
+  peak_ = std::max(peak_, x);
+  trough_ = std::min(trough_, x);
+  if (full_) {
+    extremes_.observe(interval);
+    energy_.observe(interval);
+    fundamental_.observe(interval);
+  }
+  const bool rest = interval.direction == Direction::rest;
+  if (rest) collect_stick(interval, x);
+  resting_ = rest;
+  if (interval.ending == EventKind::stop) ++stops_;
+  if (interval.ending) sequence_.push_back(*interval.ending);
+}
+
+/// Merges rest intervals into sticks.
+void OrbitAccount::collect_stick(const Interval& interval, double x) {
+  if (resting_ && !sticks_.empty()) {
+    sticks_.back().duration += interval.duration;
   } else {
-    sticks.push_back({interval.begin, interval.duration, x});
+    sticks_.push_back({interval.begin, interval.duration, x});
   }
 }
 
-void join_across_boundary(std::vector<Stick>& sticks) {
-  if (sticks.size() < 2) return;
-  sticks.back().duration += sticks.front().duration;
-  sticks.erase(sticks.begin());
+/// A stick that crosses the period boundary counts once and starts in the period before.
+void OrbitAccount::join_stick_across_boundary() {
+  if (!resting_ || !rests_at_start_ || sticks_.size() < 2) return;
+  sticks_.back().duration += sticks_.front().duration;
+  sticks_.erase(sticks_.begin());
 }
 
-}  // namespace
-
-void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result) {
-  Engine& engine = map.engine();
-  engine.track_sensitivity(false);
-  engine.restart(result.start);
-  Extremes extremes;
-  EnergyAudit energy(model.oscillator);
-  Fundamental fundamental(model.excitation.frequency);
-  result.peak = result.trough = result.start.x;
-  bool resting = false;
-  const bool rests_at_start = result.start.direction == Direction::rest;
-  while (engine.cycle() == 0) {
-    const Interval* interval = engine.next_in_period();
-    if (interval == nullptr) break;
-    // The velocity keeps its sign within an interval.
-    result.peak = std::max(result.peak, engine.position());
-    result.trough = std::min(result.trough, engine.position());
-    if (full) {
-      extremes.observe(*interval);
-      energy.observe(*interval);
-      fundamental.observe(*interval);
-    }
-    const bool rest = interval->direction == Direction::rest;
-    if (rest) collect_stick(result.sticks, *interval, resting, engine.position());
-    resting = rest;
-    if (interval->ending == EventKind::stop) ++result.stops_per_cycle;
-    if (interval->ending) result.sequence.push_back(*interval->ending);
-  }
-  if (resting && rests_at_start) join_across_boundary(result.sticks);
-  result.amplitude = 0.5 * (result.peak - result.trough);
-  if (result.sticks.size() == 1 && result.stops_per_cycle == 0) {
+void OrbitAccount::write(SteadyState& result) {
+  join_stick_across_boundary();
+  result.peak = peak_;
+  result.trough = trough_;
+  result.amplitude = 0.5 * (peak_ - trough_);
+  result.stops_per_cycle = stops_;
+  result.sticks = std::move(sticks_);
+  result.sequence = std::move(sequence_);
+  if (result.sticks.size() == 1 && stops_ == 0) {
     result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
   }
-  if (!full) return;
-  result.max_speed = extremes.max_speed();
-  result.energy = energy.account();
-  const double lag = model.excitation.phase - std::arg(fundamental.coefficient());
+  if (!full_) return;
+  result.max_speed = extremes_.max_speed();
+  result.energy = energy_.account();
+  const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
   constexpr double turn = 2.0 * std::numbers::pi;
   result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;
+}
+
+void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result) {
+  OrbitAccount account(model, full);
+  (void)map.from(result.start, Derivative::without, &account);
+  account.write(result);
 }
 
 }  // namespace dualdamp::sim

@@ -13,7 +13,9 @@ using friction::Direction;
 double Passage::closure(double omega) const {
   const double scale = std::max(size, std::abs(begin.v) / omega);
   if (!same_mode(begin, end)) return std::numeric_limits<double>::infinity();
-  double result = scale > 0.0 ? std::hypot(end.x - begin.x, (end.v - begin.v) / omega) / scale : 0.0;
+  const double x_gap = (end.x - begin.x) / scale;
+  const double v_gap = (end.v - begin.v) / omega / scale;
+  double result = scale > 0.0 ? std::sqrt(x_gap * x_gap + v_gap * v_gap) : 0.0;
   for (std::size_t i = 0; i < begin.memories.size(); ++i) {
     const std::vector<double>& before = begin.memories[i].state;
     const std::vector<double>& after = end.memories[i].state;
@@ -58,17 +60,19 @@ double Passage::free_radius() const {
   return derivative(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
 }
 
-Passage PeriodMap::pass(Derivative derivative) {
+Passage PeriodMap::pass(Derivative derivative, PeriodObserver* observer) {
   Passage passage;
   passage.begin = engine_->state();
   passage.size = std::abs(engine_->position());
   engine_->track_sensitivity(derivative == Derivative::with);
+  if (observer != nullptr) observer->begin(passage.begin);
   const long cycle = engine_->cycle();
   while (engine_->cycle() == cycle) {
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
     passage.moves = passage.moves || interval->direction != Direction::rest;
     passage.size = std::max(passage.size, std::abs(engine_->position()));
+    if (observer != nullptr) observer->observe(*interval, engine_->position());
   }
   passage.end = engine_->state();
   if (derivative == Derivative::with) passage.derivative = engine_->sensitivity();
@@ -80,9 +84,9 @@ Passage PeriodMap::from_start(double x, double v, Derivative derivative) {
   return pass(derivative);
 }
 
-Passage PeriodMap::from(const State& state, Derivative derivative) {
+Passage PeriodMap::from(const State& state, Derivative derivative, PeriodObserver* observer) {
   engine_->restart(state);
-  return pass(derivative);
+  return pass(derivative, observer);
 }
 
 Passage PeriodMap::next(Derivative derivative) { return pass(derivative); }

@@ -39,13 +39,22 @@ struct Passage {
 
 enum class Derivative { without, with };
 
+/// Is told of the period on the way.
+class PeriodObserver {
+ public:
+  virtual ~PeriodObserver() = default;
+  virtual void begin(const State& start) = 0;
+  /// `x`: where the interval ends [m].
+  virtual void observe(const Interval& interval, double x) = 0;
+};
+
 class PeriodMap {
  public:
   explicit PeriodMap(const Model& model) : engine_(make_engine(model)) {}
 
   /// From the model's initial state, laws at their start.
   [[nodiscard]] Passage from_start(double x, double v, Derivative derivative);
-  [[nodiscard]] Passage from(const State& state, Derivative derivative);
+  [[nodiscard]] Passage from(const State& state, Derivative derivative, PeriodObserver* observer = nullptr);
   /// From where the last one ended.
   [[nodiscard]] Passage next(Derivative derivative);
 
@@ -53,7 +62,7 @@ class PeriodMap {
   [[nodiscard]] Engine& engine() { return *engine_; }
 
  private:
-  Passage pass(Derivative derivative);
+  Passage pass(Derivative derivative, PeriodObserver* observer = nullptr);
 
   std::unique_ptr<Engine> engine_;
 };

@@ -55,7 +55,7 @@ class OrbitFinder {
     core::SearchCount sum = searched_;
     return sum += map_.engine().count();
   }
-  void describe(SteadyState& result) { account_for_orbit(model_, map_, options_.full_account, result); }
+  void describe(SteadyState& result);
 
  private:
   bool begin_on_sliding_orbit(Passage& passage);
@@ -68,7 +68,8 @@ class OrbitFinder {
   SteadyStateOptions options_;
   double omega_;
   PeriodMap map_;
-  core::SearchCount searched_;  ///< beside those of the engine
+  std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
+  core::SearchCount searched_;           ///< beside those of the engine
   double rounding_closure_ = 0.0;
   double first_half_ = 0.0;  ///< largest |x| in either half of the periods followed [m]
   double second_half_ = 0.0;
@@ -93,10 +94,11 @@ bool OrbitFinder::follow(Passage& passage, double closure, int periods, SteadySt
 
 /// Newton on the period map; a step that does not bring the orbit closer is replaced by one period of transient.
 bool OrbitFinder::newton(Passage& passage, SteadyState& result) {
-  passage = map_.from(passage.begin, Derivative::with);
+  passage = map_.from(passage.begin, Derivative::with, account_ ? &*account_ : nullptr);
   for (int i = 0; i < max_newton && map_.outcome().ok(); ++i) {
     const double closure = passage.closure(omega_);
     if (closure <= options_.tolerance) return true;
+    account_.reset();
     const Eigen::VectorXd step = newton_step(passage);
     ++result.newton_steps;
     const State fallback = passage.end;
@@ -151,15 +153,20 @@ bool OrbitFinder::follow_to_orbit(Passage& passage, SteadyState& result) {
 /// An orbit without sticking that attracts every motion is found without following any; Newton's method then has
 /// nothing left to do.
 bool OrbitFinder::begin_on_sliding_orbit(Passage& passage) {
-  const std::optional<OscillatorBatch> batch = may_coexist_ ? std::nullopt : batch_of(model_, 1);
-  if (!batch) return false;
-  const std::optional<SlidingOrbit> orbit = sliding_orbits(*batch).front();
+  const std::optional<SlidingOrbit> orbit = may_coexist_ ? std::nullopt : sliding_orbit(model_);
   if (!orbit) return false;
   const std::optional<State> start = start_of(*orbit, model_);
   if (!start) return false;
   passage.begin = *start;
+  // Newton's method will find nothing left to do: one walk along the orbit is enough.
+  account_.emplace(model_, options_.full_account);
   searched_ += orbit->certificate;
   return true;
+}
+
+void OrbitFinder::describe(SteadyState& result) {
+  if (account_) return account_->write(result);
+  account_for_orbit(model_, map_, options_.full_account, result);
 }
 
 void OrbitFinder::find(SteadyState& result) {
@@ -177,6 +184,7 @@ void OrbitFinder::find(SteadyState& result) {
       has_past ? follow(passage, options_.tolerance, options_.max_periods, result) : newton(passage, result);
   const bool attracting = found && (has_past || passage.radius() < 1.0 - neutral_margin);
   if (!attracting && map_.outcome().ok()) {
+    account_.reset();
     found = follow_to_orbit(passage, result);
     if (found && passage.moves && passage.radius() >= 1.0 - neutral_margin) {
       result.warnings.emplace_back(

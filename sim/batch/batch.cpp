@@ -10,9 +10,7 @@
 
 #include "friction_models/coulomb.hpp"
 #include "sim/batch/kernels.hpp"
-#include "sim/drive.hpp"
 #include "sim/exact_engine.hpp"
-#include "sim/linear_mode.hpp"
 #include "sim/parallel.hpp"
 #include "sim/steady_state.hpp"
 
@@ -21,6 +19,7 @@ namespace dualdamp::sim {
 namespace {
 
 using batch::Kernels;
+using core::Complex;
 
 /// Oscillators of one task. A multiple of every width, so that only the last task is filled up.
 constexpr std::size_t chunk = 512;
@@ -49,10 +48,10 @@ const Kernels& kernels_of(int width) {
   return fits == list.end() ? *list.back() : **fits;
 }
 
-batch::DriveOn drive_on(const OscillatorBatch& batch) {
-  assert(batch.type == ExcitationType::base_harmonic || batch.type == ExcitationType::force_harmonic);
-  if (batch.type == ExcitationType::force_harmonic) return batch::DriveOn::mass;
-  return batch.damper_to == DamperTo::base ? batch::DriveOn::base_and_damper : batch::DriveOn::base;
+batch::DriveOn drive_on(ExcitationType type, DamperTo damper_to) {
+  assert(type == ExcitationType::base_harmonic || type == ExcitationType::force_harmonic);
+  if (type == ExcitationType::force_harmonic) return batch::DriveOn::mass;
+  return damper_to == DamperTo::base ? batch::DriveOn::base_and_damper : batch::DriveOn::base;
 }
 
 /// One column of a task's oscillators: the caller's own, or a copy whose last entry is repeated up to a whole pack.
@@ -89,7 +88,7 @@ class Task {
         static_level_(batch.static_level, first, count, padded_),
         amplitude_(batch.amplitude, first, count, padded_),
         frequency_(batch.frequency, first, count, padded_),
-        drive_(drive_on(batch)) {}
+        drive_(drive_on(batch.type, batch.damper_to)) {}
 
   [[nodiscard]] std::size_t padded() const { return padded_; }
   [[nodiscard]] batch::Oscillators oscillators() const {
@@ -134,6 +133,7 @@ void steady_state_by_engine(const OscillatorBatch& batch, std::size_t i, BatchSt
 }
 
 /// What the kernel writes, a column for each member of batch::Orbits.
+template <std::size_t length>
 class OrbitColumns {
  public:
   [[nodiscard]] batch::Orbits all() {
@@ -159,14 +159,14 @@ class OrbitColumns {
   }
 
  private:
-  std::array<double, chunk> peak_, lag_, turned_re_, turned_im_, radius_, searches_, panels_, splits_, certified_;
+  std::array<double, length> peak_, lag_, turned_re_, turned_im_, radius_, searches_, panels_, splits_, certified_;
 };
 
 /// Of the oscillators from `first` on, at most a chunk of them.
 void find_orbits(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first,
                  std::span<std::optional<SlidingOrbit>> orbits) {
   const Task task(batch, first, orbits.size());
-  OrbitColumns columns;
+  OrbitColumns<chunk> columns;
   kernels.find_orbits(task.oscillators(), columns.all());
   for (std::size_t lane = 0; lane < orbits.size(); ++lane) orbits[lane] = columns.orbit(lane);
 }
@@ -260,9 +260,8 @@ std::optional<Levels> coulomb_levels(const friction::Law& law) {
   return Levels{forward.constant, limit.constant};
 }
 
-}  // namespace
-
-std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
+/// Of a model that packs can follow.
+std::optional<Levels> coulomb_levels(const Model& model) {
   const Excitation& drive = model.excitation;
   if (!is_exact(model)) return std::nullopt;
   if (!drive.is_harmonic() || !drive.harmonics.empty() || drive.offset != 0.0) return std::nullopt;
@@ -272,43 +271,59 @@ std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
     if (!levels) return std::nullopt;
     sum += *levels;
   }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
+  const std::optional<Levels> levels = coulomb_levels(model);
+  if (!levels) return std::nullopt;
+  const Excitation& drive = model.excitation;
   const auto column = [size](double value) { return std::vector<double>(size, value); };
   return OscillatorBatch{.type = drive.type,
                          .damper_to = model.oscillator.damper_to,
                          .mass = column(model.oscillator.mass),
                          .damping = column(model.oscillator.damping),
                          .stiffness = column(model.oscillator.stiffness),
-                         .kinetic = column(sum.kinetic),
-                         .static_level = column(sum.static_level),
+                         .kinetic = column(levels->kinetic),
+                         .static_level = column(levels->static_level),
                          .amplitude = column(drive.amplitude),
                          .frequency = column(drive.frequency)};
 }
 
 std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model) {
-  Excitation from_peak = model.excitation;
-  from_peak.phase = std::arg(orbit.drive_at_peak);
+  const Oscillator& o = model.oscillator;
+  const Excitation& drive = model.excitation;
+  const double omega = drive.frequency;
   const double turn = 2.0 * std::numbers::pi;
-  const double angle = model.excitation.phase - from_peak.phase;
+  const double angle = drive.phase - std::arg(orbit.drive_at_peak);
   // The half cycle from the trough on is the mirror image of that from the peak on.
   const double after_peak = angle - turn * std::floor(angle / turn);
   const double mirror = after_peak < std::numbers::pi ? 1.0 : -1.0;
-  const double s = (after_peak - (mirror > 0.0 ? 0.0 : std::numbers::pi)) / model.excitation.frequency;
+  const double s = (after_peak - (mirror > 0.0 ? 0.0 : std::numbers::pi)) / omega;
 
-  const Oscillator& o = model.oscillator;
-  const Drive drive(o, from_peak);
-  const LinearMode mode(o.mass, o.damping, o.stiffness, drive.frequencies(), false);
-  ModeForcing forcing{.phasors = {drive.force_phasor(0)}};
+  // From rest at the peak back: friction's offset, what the drive forces, and the own motion that makes up for
+  // both.
+  double offset = 0.0;
   for (const friction::Law& law : model.friction)
-    forcing.constant -= law.affine_force({}, {}, friction::Direction::backward).constant;
-  core::ModeFunction x;
-  core::ModeFunction v;
-  mode.solve(forcing, orbit.peak, 0.0, x);
-  core::differentiate(mode.basis(), x, v);
-  core::ExponentialBasis::Values values;
-  mode.basis().evaluate(s, values);
-  const double speed = -core::evaluate(mode.basis(), v, values);
+    offset -= law.affine_force({}, {}, friction::Direction::backward).constant / o.stiffness;
+  const bool base = drive.type == ExcitationType::base_harmonic;
+  const double through_damper = base && o.damper_to == DamperTo::base ? o.damping : 0.0;
+  const Complex force =
+      drive.amplitude * orbit.drive_at_peak * (base ? Complex(o.stiffness, through_damper * omega) : Complex(1.0));
+  const Complex forced = force / Complex(o.stiffness - o.mass * omega * omega, o.damping * omega);
+  const double decay = o.damping / (2.0 * o.mass);
+  const Complex z(-decay, std::sqrt(o.stiffness / o.mass - decay * decay));
+  const double own_x = orbit.peak - offset - forced.real();
+  const double own_v = omega * forced.imag();
+  const Complex own(own_x, (z.real() * own_x - own_v) / z.imag());
+
+  const Complex forced_now = forced * std::polar(1.0, omega * s);
+  const Complex own_now = own * std::polar(std::exp(z.real() * s), z.imag() * s);
+  const double speed = omega * forced_now.imag() - (z * own_now).real();
   if (!(speed > 0.0)) return std::nullopt;
-  return State{.x = mirror * core::evaluate(mode.basis(), x, values),
+  return State{.x = mirror * (offset + forced_now.real() + own_now.real()),
                .v = -mirror * speed,
                .direction = mirror > 0.0 ? friction::Direction::backward : friction::Direction::forward,
                .memories = std::vector<friction::Memory>(model.friction.size())};
@@ -326,6 +341,24 @@ std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& b
   for (std::size_t first = 0; first < orbits.size(); first += chunk)
     find_orbits(batch, kernels, first, std::span(orbits).subspan(first, std::min(chunk, orbits.size() - first)));
   return orbits;
+}
+
+std::optional<SlidingOrbit> sliding_orbit(const Model& model) {
+  const std::optional<Levels> levels = coulomb_levels(model);
+  if (!levels) return std::nullopt;
+  const Oscillator& o = model.oscillator;
+  OrbitColumns<1> column;
+  batch::scalar_kernels.find_orbits({.drive = drive_on(model.excitation.type, o.damper_to),
+                                     .count = 1,
+                                     .mass = &o.mass,
+                                     .damping = &o.damping,
+                                     .stiffness = &o.stiffness,
+                                     .kinetic = &levels->kinetic,
+                                     .static_level = &levels->static_level,
+                                     .amplitude = &model.excitation.amplitude,
+                                     .frequency = &model.excitation.frequency},
+                                    column.all());
+  return column.orbit(0);
 }
 
 BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options) {

@@ -74,6 +74,9 @@ inline constexpr double sliding_closure = 1e-14;
 /// half-period map and certified by that map (`sim/batch/find_orbits.hpp`). `width` as in BatchOptions.
 [[nodiscard]] std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width = 0);
 
+/// The same of one model; nothing where batch_of() gives nothing.
+[[nodiscard]] std::optional<SlidingOrbit> sliding_orbit(const Model& model);
+
 /// Where the orbit of this model is at t = 0; nothing where it turns just then.
 [[nodiscard]] std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model);
 

@@ -1,8 +1,9 @@
 #pragma once
 /// The loops over packs, compiled once for each width of vector register.
 ///
-/// Arrays have one entry for each oscillator; `count` is a multiple of every width. What a kernel cannot certify by
-/// its simple path it leaves to the exact engine and says so: certified = 0, the numbers then mean nothing.
+/// Arrays have one entry for each oscillator; `count` is a multiple of the kernel's width. What a kernel cannot
+/// certify by its simple path it leaves to the exact engine and says so: certified = 0, the numbers then mean
+/// nothing.
 
 #include <cstddef>
 
@@ -58,7 +59,7 @@ struct Kernels {
 /// Relative closure of an orbit.
 inline constexpr double closure = 1e-14;
 
-/// The largest width: `count` is a multiple of it.
+/// The largest width, a multiple of all others.
 inline constexpr std::size_t widest = 8;
 
 extern const Kernels scalar_kernels;
