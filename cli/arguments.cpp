@@ -109,7 +109,10 @@ class Parser {
   void add_identify() {
     identify_command_ = app_.add_subcommand("identify", "Identify friction from measured data, without a scenario");
     CLI::App& command = *identify_command_;
-    command.add_option("DATA", identify_.data, "CSV file: columns Y and x, or t and x")->required()->type_name("");
+    command
+        .add_option("DATA", identify_.data, "Data file: CSV, MATLAB .mat or universal file (docs/data-files.md)")
+        ->required()
+        ->type_name("");
     command
         .add_option("--mass", identify_.mass,
                     "Mass, such as '1.042 kg'; without it the methods that can estimate it")
@@ -125,6 +128,14 @@ class Parser {
     command.add_option("--method", identify_.methods, "A method to use; default: all that fit the data")
         ->allow_extra_args(false)
         ->type_name("NAME");
+    command.add_option("--unit", identify_.units, "Unit of a column that the file does not state: --unit x=mm")
+        ->allow_extra_args(false)
+        ->type_name("COLUMN=UNIT");
+    command
+        .add_option("--column", identify_.columns,
+                    "What the file calls a column, or its number: --column x='LVDT 2'")
+        ->allow_extra_args(false)
+        ->type_name("COLUMN=NAME");
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }
 

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <tuple>
 
 #include "cli/conformance.hpp"
 #include "cli/interrupt.hpp"
@@ -252,6 +253,14 @@ Scenario scenario_of(const IdentifyCommand& command) {
     options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
     options.set.push_back({"excitation.frequency=" + command.frequency, "--frequency"});
   }
+  for (const auto& [option, key, list] :
+       {std::tuple{"--unit", "units", &command.units}, {"--column", "columns", &command.columns}})
+    for (const std::string& text : *list) {
+      const std::size_t sign = std::min(text.find('='), text.size());
+      options.set.push_back({std::string("analysis.") + key + "." + text.substr(0, sign) + "=" +
+                                 quoted(sign < text.size() ? text.substr(sign + 1) : std::string()),
+                             option});
+    }
   if (!command.methods.empty()) {
     std::string names;
     for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);

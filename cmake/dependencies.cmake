@@ -16,6 +16,8 @@ set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # SuiteSparse lists twenty files, QUIET or
 find_package(Ceres REQUIRED)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
+pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
+pkg_check_modules(matio REQUIRED IMPORTED_TARGET matio)
 pkg_check_modules(sleef REQUIRED IMPORTED_TARGET sleef)
 find_path(RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 
@@ -23,4 +25,4 @@ find_path(RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 set(DUALDAMP_LIBRARIES
   "Boost ${Boost_VERSION}" "CLI11 ${CLI11_VERSION}" "Ceres ${Ceres_VERSION}" "Eigen ${Eigen3_VERSION}"
   "OpenSSL ${OPENSSL_VERSION}" "SLEEF ${sleef_VERSION}" "TBB ${TBB_VERSION}" "fmt ${fmt_VERSION}"
-  "nlohmann-json ${nlohmann_json_VERSION}" "udunits2 ${udunits_VERSION}" "yaml-cpp ${yaml-cpp_VERSION}")
+  "matio ${matio_VERSION}" "nlohmann-json ${nlohmann_json_VERSION}" "udunits2 ${udunits_VERSION}" "yaml-cpp ${yaml-cpp_VERSION}")

@@ -1,54 +1,22 @@
 #include "identify/csv_reader.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
 
-#include "core/diagnostics.hpp"
 #include "core/units.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{256} << 20;
-constexpr std::size_t most_problems = 20;
-constexpr std::size_t most_lines = 10'000'000;
 constexpr std::size_t most_columns = 1000;
+constexpr std::size_t most_rows = 20'000'000;
 constexpr std::size_t longest_excerpt = 200;  ///< bytes of the file quoted in one message
-
-/// A column a record may have.
-struct KnownColumn {
-  std::string_view name;
-  std::string_view alias;
-  std::string_view unit;  ///< SI; empty for a label
-};
-
-constexpr std::array<KnownColumn, 8> known_columns = {{{"t", "time", "s"},
-                                                       {"Y", "", "m"},
-                                                       {"x", "position", "m"},
-                                                       {"y", "", "m"},
-                                                       {"v", "", "m/s"},
-                                                       {"a", "", "m/s^2"},
-                                                       {"force", "", "N"},
-                                                       {"sweep", "", ""}}};
-
-constexpr std::string_view allowed_columns = "Y and x (with or without sweep), or x alone (with or without t)";
-
-const KnownColumn* known_column(std::string_view name) {
-  const auto found = std::find_if(known_columns.begin(), known_columns.end(), [name](const KnownColumn& known) {
-    return name == known.name || (!known.alias.empty() && name == known.alias);
-  });
-  return found == known_columns.end() ? nullptr : &*found;
-}
 
 /// The beginning of `text` that fits into a message, cut between characters.
 std::string excerpt(std::string_view text) {
@@ -59,59 +27,6 @@ std::string excerpt(std::string_view text) {
 }
 
 std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
-
-/// Collects problems and ends the reading when there are too many to be read by anyone.
-class Problems {
- public:
-  void add(core::Diagnostic diagnostic) {
-    diagnostics_.push_back(std::move(diagnostic));
-    if (diagnostics_.size() < most_problems) return;
-    core::Diagnostic end;
-    end.place.file = diagnostics_.back().place.file;
-    end.message = "too many problems; those after the first " + std::to_string(most_problems) + " are not listed";
-    diagnostics_.push_back(std::move(end));
-    throw core::InputError(diagnostics_);
-  }
-
-  void throw_if_any() const {
-    if (!diagnostics_.empty()) throw core::InputError(diagnostics_);
-  }
-
- private:
-  std::vector<core::Diagnostic> diagnostics_;
-};
-
-[[noreturn]] void refuse_file(const std::string& path, std::string message) {
-  core::Diagnostic problem;
-  problem.place.file = path;
-  problem.message = std::move(message);
-  throw core::InputError(std::move(problem));
-}
-
-struct SourceLine {
-  std::string_view text;  ///< without its line end
-  int number = 0;
-};
-
-/// One field of a line; `column` counts from 1 where its content begins.
-struct Field {
-  std::string text;
-  int column = 1;
-};
-
-/// A named file and the line at hand, for messages.
-class Places {
- public:
-  explicit Places(std::string file) : file_(std::move(file)) {}
-
-  [[nodiscard]] core::SourcePlace at(const SourceLine& line, int column) const {
-    return {file_, line.number, column, excerpt(line.text)};
-  }
-  [[nodiscard]] const std::string& file() const { return file_; }
-
- private:
-  std::string file_;
-};
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -136,345 +51,515 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
-/// Text means UTF-8 without control characters: anything else would end up in messages and in JSON.
-void refuse_binary(std::string_view text, const std::string& name) {
-  int line = 1;
-  std::size_t line_start = 0;
-  for (std::size_t i = 0; i < text.size();) {
-    const char c = text[i];
-    const bool control = (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
-    const std::size_t length = control ? 0 : utf8_length(text.substr(i));
-    if (length == 0) {
-      core::Diagnostic problem;
-      problem.place = {name, line, static_cast<int>(std::min<std::size_t>(i - line_start, 1'000'000)) + 1, {}};
-      problem.message = control ? "the file is not text: it holds a control character" : "the text is not UTF-8";
-      problem.allowed = "a text file in UTF-8";
-      throw core::InputError(std::move(problem));
-    }
-    if (c == '\n') {
-      ++line;
-      line_start = i + 1;
-    }
-    i += length;
-  }
-}
+struct SourceLine {
+  std::string_view text;  ///< without its line end
+  int number = 0;
+};
 
-std::vector<SourceLine> split_lines(std::string_view text, const std::string& name) {
-  std::vector<SourceLine> lines;
-  int number = 1;
-  for (std::size_t start = 0; start < text.size(); ++number) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    std::string_view line = text.substr(start, end - start);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    lines.push_back({line, number});
-    start = end + 1;
-    if (lines.size() > most_lines) refuse_file(name, "the file has more than ten million lines");
+/// Lines of a text one after the other, whose ends are LF, CRLF or (where there is no LF at all) CR.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : text_(text) {
+    if (text.find('\n') == std::string_view::npos) end_mark_ = '\r';
+    // Blank lines at the end are no rows.
+    text_ = text_.substr(0, text_.find_last_not_of(" \t\r\n") + 1);
   }
-  while (!lines.empty() && trimmed(lines.back().text).empty()) lines.pop_back();
-  return lines;
-}
+
+  [[nodiscard]] bool at_end() const { return start_ >= text_.size(); }
+
+  SourceLine next() {
+    const std::size_t end = std::min(text_.find(end_mark_, start_), text_.size());
+    std::string_view line = text_.substr(start_, end - start_);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    start_ = end + 1;
+    return {line, ++number_};
+  }
+
+  /// Lines still to come.
+  [[nodiscard]] std::size_t count() const {
+    if (at_end()) return 0;
+    return static_cast<std::size_t>(
+               std::count(text_.begin() + static_cast<std::ptrdiff_t>(start_), text_.end(), end_mark_)) +
+           1;
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t start_ = 0;
+  int number_ = 0;
+  char end_mark_ = '\n';
+};
 
 /// The separator that stands in the header: a tab, else a semicolon, else a comma.
 char separator_of(std::string_view header) {
   for (const char candidate : {'\t', ';'}) {
-    bool quoted = false;
+    bool inside = false;
     for (const char c : header) {
-      if (c == '"') quoted = !quoted;
-      if (c == candidate && !quoted) return candidate;
+      if (c == '"') inside = !inside;
+      if (c == candidate && !inside) return candidate;
     }
   }
   return ',';
 }
 
-/// Fields of a line; a field in double quotes may hold the separator, and a quote as two quotes.
-std::optional<std::vector<Field>> split_fields(const SourceLine& line, char separator, const Places& places,
-                                               Problems& problems) {
-  std::vector<Field> fields;
-  const std::string_view text = line.text;
-  std::size_t at = 0;
-  while (true) {
-    while (at < text.size() && (text[at] == ' ' || (text[at] == '\t' && separator != '\t'))) ++at;
-    Field field;
-    field.column = static_cast<int>(at) + 1;
-    if (at < text.size() && text[at] == '"') {
-      bool closed = false;
-      for (++at; at < text.size() && !closed; ++at) {
-        const bool doubled = text[at] == '"' && at + 1 < text.size() && text[at + 1] == '"';
-        closed = text[at] == '"' && !doubled;
-        if (!closed) field.text += text[at];
-        if (doubled) ++at;
-      }
-      const std::size_t end = std::min(text.find(separator, at), text.size());
-      if (!closed || !trimmed(text.substr(at, end - at)).empty()) {
-        problems.add({places.at(line, field.column), "a quoted field does not end with its quote", {}, {}, {}});
-        return std::nullopt;
-      }
-      at = end;
-    } else {
-      const std::size_t end = std::min(text.find(separator, at), text.size());
-      field.text = std::string(trimmed(text.substr(at, end - at)));
-      at = end;
-    }
-    fields.push_back(std::move(field));
-    if (at >= text.size()) return fields;
-    if (fields.size() == most_columns) {
-      problems.add({places.at(line, 1), "the line has more than 1000 fields", {}, {}, {}});
-      return std::nullopt;
-    }
-    ++at;
-  }
-}
+/// The fields of a line from left to right; one in double quotes may hold the separator, and a quote as two quotes.
+class Fields {
+ public:
+  Fields(std::string_view line, char separator) : line_(line), separator_(separator) {}
 
-/// A column of the file: which known column it is and the factor to SI.
-struct Column {
-  const KnownColumn* known = nullptr;
-  double factor = 1.0;
+  /// False when there is no further field.
+  bool next() {
+    if (done_) return false;
+    const bool tabs = separator_ == '\t';
+    while (at_ < line_.size() && (line_[at_] == ' ' || (line_[at_] == '\t' && !tabs))) ++at_;
+    column = static_cast<int>(at_) + 1;
+    if (at_ < line_.size() && line_[at_] == '"') {
+      read_quoted();
+    } else {
+      const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
+      text = trimmed(line_.substr(at_, end - at_));
+      at_ = end;
+    }
+    done_ = at_ >= line_.size();
+    ++at_;
+    return true;
+  }
+
+  std::string_view text;     ///< valid until the next call
+  int column = 1;            ///< where the content begins, from 1
+  bool is_unclosed = false;  ///< a quoted field did not end with its quote
+
+ private:
+  void read_quoted() {
+    unquoted_.clear();
+    bool closed = false;
+    for (++at_; at_ < line_.size() && !closed; ++at_) {
+      const bool doubled = line_[at_] == '"' && at_ + 1 < line_.size() && line_[at_ + 1] == '"';
+      closed = line_[at_] == '"' && !doubled;
+      if (!closed) unquoted_ += line_[at_];
+      if (doubled) ++at_;
+    }
+    const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
+    is_unclosed = is_unclosed || !closed || !trimmed(line_.substr(at_, end - at_)).empty();
+    text = unquoted_;
+    at_ = end;
+  }
+
+  std::string_view line_;
+  char separator_;
+  std::size_t at_ = 0;
+  bool done_ = false;
+  std::string unquoted_;
 };
 
-/// "x [mm]" taken apart.
+/// "x [mm]" or "x (mm)" taken apart.
 struct Heading {
+  std::string text;  ///< the whole of it
   std::string name;
   std::string unit;
+  int column = 1;
   bool well_formed = true;
 };
 
-Heading parse_heading(std::string_view text) {
-  const std::size_t open = text.find('[');
-  if (open == std::string_view::npos)
-    return {std::string(trimmed(text)), {}, text.find(']') == std::string_view::npos};
+Heading parse_heading(std::string_view text, int column) {
+  Heading heading{std::string(text), std::string(trimmed(text)), {}, column, true};
+  const std::size_t open = text.find_first_of("[(");
+  if (open == std::string_view::npos) {
+    heading.well_formed = text.find_first_of("])") == std::string_view::npos;
+    return heading;
+  }
   const std::string_view rest = text.substr(open + 1);
-  const std::size_t close = rest.find(']');
-  return {std::string(trimmed(text.substr(0, open))),
-          close == std::string_view::npos ? std::string{} : std::string(trimmed(rest.substr(0, close))),
-          close != std::string_view::npos && close + 1 == rest.size()};
+  const std::size_t close = rest.find(text[open] == '[' ? ']' : ')');
+  heading.name = trimmed(text.substr(0, open));
+  if (close != std::string_view::npos) heading.unit = trimmed(rest.substr(0, close));
+  heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
+  return heading;
 }
 
-class Table {
+/// What a field of every row is for.
+struct Target {
+  const KnownColumn* known = nullptr;  ///< nullptr: ignored
+  double factor = 1.0;
+  std::vector<double>* values = nullptr;  ///< nullptr: a label
+};
+
+/// Significant digits and the place of the last one of a decimal number, written with or without exponent.
+struct Digits {
+  int significant = 0;
+  int decimals = 0;  ///< of the last digit: 3 means thousandths
+};
+
+Digits digits_of(std::string_view text) {
+  Digits digits;
+  bool point = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '.') point = true;
+    if (c >= '0' && c <= '9') {
+      if (c != '0' || digits.significant > 0) ++digits.significant;
+      if (point) ++digits.decimals;
+    }
+    if (c == 'e' || c == 'E') {
+      int exponent = 0;
+      const std::size_t sign = i + 1 < text.size() && text[i + 1] == '+' ? 1 : 0;
+      std::from_chars(text.data() + i + 1 + sign, text.data() + text.size(), exponent);
+      digits.decimals -= exponent;
+      return digits;
+    }
+  }
+  return digits;
+}
+
+class Parser {
  public:
-  Table(std::string_view text, const std::string& name) : places_(name) {
-    refuse_binary(text, name);
-    lines_ = split_lines(text, name);
+  Parser(std::string_view text, std::string file, const ReadOptions& options, Problems& problems,
+         std::vector<std::string>& warnings)
+      : lines_(text), file_(std::move(file)), options_(options), problems_(problems), warnings_(warnings) {}
+
+  DataTable run() {
+    table_.file = file_;
+    check_names(options_.units, "unit", file_, problems_);
+    check_names(options_.columns, "column", file_, problems_);
     read_header();
     problems_.throw_if_any();
-  }
-
-  [[nodiscard]] bool has(std::string_view name) const { return index_of(name).has_value(); }
-
-  CsvRecord read() {
-    CsvRecord result;
-    result.warnings = std::move(warnings_);
-    if (has("Y")) {
-      warn_unused({"Y", "x", "sweep"}, result.warnings);
-      result.record.pairs = read_pairs();
-    } else {
-      warn_unused({"x", "t"}, result.warnings);
-      result.record.decay = read_decay();
-    }
-    problems_.throw_if_any();
-    return result;
+    first_row_ = lines_;
+    read_rows();
+    table_.time_digits = std::max(time_digits_, 1);
+    if (time_decimals_) table_.time_quantum = std::pow(10.0, -*time_decimals_) * time_factor_;
+    table_.show = [rows = first_row_, file = file_, separator = separator_, targets = targets_](
+                      std::size_t row, const KnownColumn& known) {
+      return show(rows, file, separator, targets, row, known);
+    };
+    return std::move(table_);
   }
 
  private:
+  [[nodiscard]] core::SourcePlace at(const SourceLine& line, int column) const {
+    return {file_, line.number, column, excerpt(line.text)};
+  }
+
+  static core::Diagnostic show(Lines lines, const std::string& file, char separator,
+                               const std::vector<Target>& targets, std::size_t row, const KnownColumn& known) {
+    SourceLine line = lines.next();
+    for (; row > 0; --row) line = lines.next();
+    core::Diagnostic result;
+    result.place = {file, line.number, 1, excerpt(line.text)};
+    Fields fields(line.text, separator);
+    for (const Target& target : targets) {
+      if (!fields.next()) break;
+      if (target.known != &known) continue;
+      result.place.column = fields.column;
+      result.found = quoted(fields.text);
+    }
+    return result;
+  }
+
   void read_header() {
-    while (header_ < lines_.size() && (trimmed(lines_[header_].text).empty() || lines_[header_].text[0] == '#'))
-      ++header_;
-    if (header_ >= lines_.size()) {
-      problems_.add({{places_.file(), 0, 0, {}}, "the file holds no header", std::string(allowed_columns), {}, {}});
+    SourceLine line = first_line();
+    if (line.number == 0) {
+      problems_.add({{file_, 0, 0, {}}, "the file holds no header", std::string(allowed_columns), {}, {}});
       return;
     }
-    const SourceLine& line = lines_[header_];
-    separator_ = separator_of(line.text);
-    const auto fields = split_fields(line, separator_, places_, problems_);
-    if (!fields) return;
-    for (const Field& field : *fields) columns_.push_back(read_heading(line, field));
-    if (!has("x")) {
-      problems_.add(
-          {places_.at(line, 1), "there is no column x", std::string(allowed_columns), excerpt(line.text), {}});
+    Fields fields(line.text, separator_);
+    std::vector<Heading> headings;
+    while (fields.next()) {
+      if (headings.size() == most_columns) {
+        problems_.add({at(line, 1), "the line has more than 1000 fields", {}, {}, {}});
+        return;
+      }
+      headings.push_back(parse_heading(fields.text, fields.column));
     }
-    if (header_ + 1 == lines_.size())
-      problems_.add({places_.at(line, 0), "there is a header and no data below it", {}, {}, {}});
+    if (fields.is_unclosed) {
+      problems_.add({at(line, 1), "a quoted field does not end with its quote", {}, {}, {}});
+      return;
+    }
+    choose_columns(line, headings);
+    if (lines_.at_end()) problems_.add({at(line, 0), "there is a header and no data below it", {}, {}, {}});
   }
 
-  Column read_heading(const SourceLine& line, const Field& field) {
-    const Heading heading = parse_heading(field.text);
-    const KnownColumn* known = known_column(heading.name);
-    if (!known) {
-      warnings_.push_back("column '" + excerpt(field.text) + "' is not known and is ignored");
-      return {};
+  /// The header; number 0 when there is none. Excel's own first line `sep=;` names the separator.
+  SourceLine first_line() {
+    while (!lines_.at_end()) {
+      const SourceLine line = lines_.next();
+      if (line.number == 1 && line.text.size() == 5 && line.text.starts_with("sep=")) {
+        separator_ = line.text.back();
+        continue;
+      }
+      if (trimmed(line.text).empty() || line.text[0] == '#') continue;
+      if (separator_ == 0) separator_ = separator_of(line.text);
+      return line;
     }
-    const core::SourcePlace place = places_.at(line, field.column);
-    if (!heading.well_formed) {
-      problems_.add({place,
+    return {};
+  }
+
+  void choose_columns(const SourceLine& line, const std::vector<Heading>& headings) {
+    targets_.resize(headings.size());
+    table_.columns.reserve(known_columns.size());  // targets point into it
+    for (const auto& [name, called] : options_.columns)
+      if (const KnownColumn* known = known_column(name)) rename(line, headings, *known, called);
+    for (std::size_t i = 0; i < headings.size(); ++i)
+      if (targets_[i].known == nullptr) take_by_name(line, headings[i], targets_[i]);
+    const bool any = std::any_of(targets_.begin(), targets_.end(), [](const Target& target) {
+      return target.known != nullptr && (target.known->is_signal || target.known->name == "Y");
+    });
+    const bool pairs_without_x = is_taken(*known_column("Y")) && !is_taken(*known_column("x"));
+    if (!any || pairs_without_x) report_missing(line, headings);
+  }
+
+  void report_missing(const SourceLine& line, const std::vector<Heading>& headings) {
+    double number = 0.0;
+    const bool numbers = std::any_of(headings.begin(), headings.end(), [&number](const Heading& heading) {
+      const auto end = heading.text.data() + heading.text.size();
+      return !heading.text.empty() && std::from_chars(heading.text.data(), end, number).ptr == end;
+    });
+    problems_.add({at(line, 1),
+                   numbers ? "there is no column x: the first row holds numbers instead of the names of the columns"
+                           : "there is no column x",
+                   std::string(allowed_columns),
+                   excerpt(line.text),
+                   {}});
+  }
+
+  /// The column that the caller knows by what the file calls it.
+  void rename(const SourceLine& line, const std::vector<Heading>& headings, const KnownColumn& known,
+              const std::string& called) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < headings.size(); ++i)
+      if (headings[i].text == called || headings[i].name == called) found.push_back(i);
+    std::size_t number = 0;
+    const auto [end, fault] = std::from_chars(called.data(), called.data() + called.size(), number);
+    if (found.empty() && fault == std::errc{} && end == called.data() + called.size() && number >= 1 &&
+        number <= headings.size())
+      found.push_back(number - 1);
+    if (is_taken(known)) {
+      problems_.add({{file_, 0, 0, {}}, "column " + std::string(known.name) + " is asked for twice", {}, {}, {}});
+      return;
+    }
+    if (found.size() == 1 && targets_[found.front()].known == nullptr) {
+      take(line, headings[found.front()], known, targets_[found.front()]);
+      return;
+    }
+    std::string names;
+    for (const Heading& heading : headings) names += (names.empty() ? "" : ", ") + quoted(heading.text);
+    problems_.add({at(line, 1),
+                   found.empty()
+                       ? "there is no column " + quoted(called) + " to be used as " + std::string(known.name)
+                   : found.size() == 1 ? "column " + quoted(called) + " is asked for twice"
+                                       : "there are several columns " + quoted(called),
+                   excerpt(names),
+                   {},
+                   {}});
+  }
+
+  void take_by_name(const SourceLine& line, const Heading& heading, Target& target) {
+    const KnownColumn* known = known_column(heading.name);
+    if (known == nullptr) {
+      warnings_.push_back("column '" + excerpt(heading.text) + "' is not known and is ignored");
+    } else if (options_.columns.contains(std::string(known->name)) ||
+               options_.columns.contains(std::string(known->alias))) {
+      warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
+    } else if (!heading.well_formed) {
+      problems_.add({at(line, heading.column),
                      "the unit of column " + heading.name + " is not in square brackets",
                      "'name' or 'name [unit]'",
-                     excerpt(field.text),
+                     excerpt(heading.text),
                      {}});
-    } else if (index_of(known->name)) {
-      problems_.add(
-          {place, "column " + std::string(known->name) + " stands there twice", {}, excerpt(field.text), {}});
+      target.known = known;
+    } else if (is_taken(*known)) {
+      problems_.add({at(line, heading.column),
+                     "column " + std::string(known->name) + " stands there twice",
+                     {},
+                     excerpt(heading.text),
+                     {}});
     } else {
-      return {known, factor_of(*known, heading, field, place)};
+      take(line, heading, *known, target);
     }
-    return {known, 1.0};
   }
 
-  double factor_of(const KnownColumn& known, const Heading& heading, const Field& field,
-                   const core::SourcePlace& place) {
-    if (heading.unit.empty()) return 1.0;
+  [[nodiscard]] bool is_taken(const KnownColumn& known) const {
+    return std::any_of(targets_.begin(), targets_.end(),
+                       [&](const Target& target) { return target.known == &known; });
+  }
+
+  void take(const SourceLine& line, const Heading& heading, const KnownColumn& known, Target& target) {
+    target.known = &known;
+    target.factor = factor_of(line, heading, known);
+    if (known.unit.empty()) return;
+    table_.columns.push_back({&known, {}});
+    target.values = &table_.columns.back().values;
+  }
+
+  double factor_of(const SourceLine& line, const Heading& heading, const KnownColumn& known) {
+    const std::string name(known.name);
+    std::string unit = heading.unit;
+    if (const std::string* given = find_unit(options_.units, known)) {
+      if (!unit.empty() && unit != *given)
+        warnings_.push_back("column " + name + " is read in " + *given + ", not in " + excerpt(unit) +
+                            " as the file states");
+      unit = *given;
+    }
+    const bool needs_unit = known.unit == "rad/s" || known.unit == "rad";
+    if (unit.empty() && !needs_unit) return 1.0;
+    const core::SourcePlace place = at(line, heading.column);
     if (known.unit.empty()) {
-      problems_.add(
-          {place, "column " + heading.name + " is a label and has no unit", heading.name, excerpt(field.text), {}});
+      problems_.add({place,
+                     "column " + heading.name + " is a label and has no unit",
+                     heading.name,
+                     excerpt(heading.text),
+                     {}});
       return 1.0;
     }
-    const core::QuantityText factor = core::unit_factor(heading.unit, known.unit);
+    const core::QuantityText factor = core::unit_factor(unit, known.unit);
     if (factor.value) return *factor.value;
-    problems_.add({place, "the unit of column " + heading.name + ": " + factor.fault,
-                   core::describe_dimension(known.unit), excerpt(field.text), factor.suggestion});
+    problems_.add({place, "the unit of column " + name + ": " + factor.fault, core::describe_dimension(known.unit),
+                   excerpt(heading.text), factor.suggestion});
     return 1.0;
   }
 
-  [[nodiscard]] std::optional<std::size_t> index_of(std::string_view name) const {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (columns_[i].known && columns_[i].known->name == name) return i;
-    return std::nullopt;
+  void read_rows() {
+    const std::size_t rows = lines_.count();
+    if (rows > most_rows) refuse_file(file_, "the file has more than 20 million rows");
+    for (DataColumn& column : table_.columns) column.values.reserve(rows);
+    while (!lines_.at_end()) read_row(lines_.next());
   }
 
-  void warn_unused(std::initializer_list<std::string_view> used, std::vector<std::string>& warnings) const {
-    for (const Column& column : columns_) {
-      if (!column.known || std::find(used.begin(), used.end(), column.known->name) != used.end()) continue;
-      warnings.push_back("column " + std::string(column.known->name) + " is not used");
+  void read_row(const SourceLine& line) {
+    const std::size_t row = table_.rows();
+    if (!has_all_fields(line)) {
+      // The row keeps its place, so that later messages name the right line.
+      for (DataColumn& column : table_.columns) column.values.push_back(std::nan(""));
+      return;
+    }
+    Fields fields(line.text, separator_);
+    for (const Target& target : targets_) {
+      fields.next();
+      if (target.values != nullptr)
+        target.values->push_back(number(line, fields, target));
+      else if (target.known != nullptr)
+        take_label(fields.text, row);
     }
   }
 
-  /// Calls `take(line, fields)` for every row with as many fields as the header.
-  template <typename Take>
-  void for_each_row(Take take) {
-    for (std::size_t i = header_ + 1; i < lines_.size(); ++i) {
-      const SourceLine& line = lines_[i];
-      const auto fields = split_fields(line, separator_, places_, problems_);
-      if (!fields) continue;
-      if (fields->size() != columns_.size()) {
-        problems_.add({places_.at(line, 1),
-                       "the row does not have as many fields as the header",
-                       std::to_string(columns_.size()) + " fields",
-                       std::to_string(fields->size()) + " fields",
-                       {}});
-        continue;
+  bool has_all_fields(const SourceLine& line) {
+    std::size_t count = 0;
+    if (line.text.find('"') == std::string_view::npos) {
+      count = static_cast<std::size_t>(std::count(line.text.begin(), line.text.end(), separator_)) + 1;
+    } else {
+      Fields fields(line.text, separator_);
+      while (fields.next()) ++count;
+      if (fields.is_unclosed) {
+        problems_.add({at(line, fields.column), "a quoted field does not end with its quote", {}, {}, {}});
+        return false;
       }
-      take(line, *fields);
     }
+    if (count == targets_.size()) return true;
+    problems_.add({at(line, 1),
+                   "the row does not have as many fields as the header",
+                   std::to_string(targets_.size()) + " fields",
+                   std::to_string(count) + " fields",
+                   {}});
+    return false;
+  }
+
+  void take_label(std::string_view label, std::size_t row) {
+    if (table_.sweeps.empty() || table_.sweeps.back().label != label)
+      table_.sweeps.push_back({std::string(label), row});
   }
 
   /// The number of a field in SI; NaN after a problem, which keeps the record from being used.
-  double number(const SourceLine& line, const Field& field, std::size_t column) {
-    const double problem = std::nan("");
+  double number(const SourceLine& line, const Fields& field, const Target& target) {
     std::string_view text = field.text;
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     double value = 0.0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const std::string name(columns_[column].known->name);
-    const bool comma = field.text.find(',') != std::string::npos;
     if (fault == std::errc::invalid_argument || end != text.data() + text.size()) {
-      problems_.add({places_.at(line, field.column),
-                     "the field of column " + name + " is not a number",
-                     comma ? "a decimal number with a point" : "a decimal number",
+      const bool comma = field.text.find(',') != std::string_view::npos;
+      problems_.add({at(line, field.column),
+                     "the field of column " + std::string(target.known->name) + " is not a number",
+                     comma ? "a decimal number with a point, not with a comma" : "a decimal number",
                      field.text.empty() ? "an empty field" : quoted(field.text),
                      {}});
-      return problem;
+      return std::nan("");
     }
-    value *= columns_[column].factor;
+    value *= target.factor;
     if (fault == std::errc::result_out_of_range || !std::isfinite(value)) {
-      problems_.add({places_.at(line, field.column),
-                     "the field of column " + name + " is not a finite number",
+      problems_.add({at(line, field.column),
+                     "the field of column " + std::string(target.known->name) + " is not a finite number",
                      "a number of double precision",
                      quoted(field.text),
                      {}});
-      return problem;
+      return std::nan("");
     }
+    if (target.known->name == "t") note_rounding(text, target.factor);
     return value;
   }
 
-  double positive_amplitude(const SourceLine& line, const Field& field, std::size_t column) {
-    const double value = number(line, field, column);
-    if (value < 0.0) {
-      problems_.add({places_.at(line, field.column),
-                     "the amplitude of column " + std::string(columns_[column].known->name) + " is negative",
-                     "a number not below zero",
-                     quoted(field.text),
-                     {}});
-    }
-    return value;
+  void note_rounding(std::string_view text, double factor) {
+    const Digits digits = digits_of(text);
+    time_digits_ = std::max(time_digits_, digits.significant);
+    time_decimals_ = std::max(time_decimals_.value_or(digits.decimals), digits.decimals);
+    time_factor_ = factor;
   }
 
-  PairRecord read_pairs() {
-    const std::size_t Y = *index_of("Y");
-    const std::size_t x = *index_of("x");
-    const std::optional<std::size_t> sweep = index_of("sweep");
-    PairRecord record;
-    for_each_row([&](const SourceLine& line, const std::vector<Field>& fields) {
-      Pair pair;
-      pair.Y = positive_amplitude(line, fields[Y], Y);
-      pair.x = positive_amplitude(line, fields[x], x);
-      if (sweep) pair.sweep = fields[*sweep].text;
-      pair.number = static_cast<int>(record.pairs.size()) + 1;
-      record.pairs.push_back(std::move(pair));
-    });
-    return record;
-  }
-
-  DecayRecord read_decay() {
-    const std::size_t x = *index_of("x");
-    const std::optional<std::size_t> t = index_of("t");
-    DecayRecord record;
-    for_each_row([&](const SourceLine& line, const std::vector<Field>& fields) {
-      record.extremes.push_back(number(line, fields[x], x));
-      if (!t) return;
-      const double time = number(line, fields[*t], *t);
-      if (!record.times.empty() && time <= record.times.back()) {
-        problems_.add({places_.at(line, fields[*t].column),
-                       "the time does not increase",
-                       "a time after the row above",
-                       "'" + fields[*t].text + "'",
-                       {}});
-      }
-      record.times.push_back(time);
-    });
-    return record;
-  }
-
-  Places places_;
-  Problems problems_;
-  std::vector<SourceLine> lines_;
-  std::size_t header_ = 0;  ///< index of the header line
-  char separator_ = ',';
-  std::vector<Column> columns_;
-  std::vector<std::string> warnings_;
+  Lines lines_;
+  Lines first_row_{{}};
+  std::string file_;
+  const ReadOptions& options_;
+  Problems& problems_;
+  std::vector<std::string>& warnings_;
+  char separator_ = 0;
+  std::vector<Target> targets_;
+  DataTable table_;
+  int time_digits_ = 0;
+  std::optional<int> time_decimals_;
+  double time_factor_ = 1.0;
 };
 
-/// Reads at most `largest_file` bytes, from pipes as well as from files.
-std::string load(const std::string& path) {
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file) refuse_file(path, "the file cannot be opened: " + std::generic_category().message(errno));
-  std::string text;
-  std::array<char, 1 << 16> buffer{};
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
-    text.append(buffer.data(), count);
-    if (text.size() > largest_file) refuse_file(path, "the file is larger than 256 MiB");
+}  // namespace
+
+DataTable parse_csv(std::string_view text, const std::string& file, const ReadOptions& options, Problems& problems,
+                    std::vector<std::string>& warnings) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  refuse_binary(text, file);
+  return Parser(text, file, options, problems, warnings).run();
+}
+
+namespace {
+
+bool is_control(char c) {
+  return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
+}
+
+/// Bytes of `text` before the first one that is a control character or no UTF-8.
+std::size_t length_of_text(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const std::size_t length = is_control(text[i]) ? 0 : utf8_length(text.substr(i));
+    if (length == 0) break;
+    i += length;
   }
-  if (std::ferror(file.get()) != 0)
-    refuse_file(path, "the file cannot be read: " + std::generic_category().message(errno));
-  return text;
+  return i;
 }
 
 }  // namespace
 
-CsvRecord parse_csv(std::string_view text, const std::string& name) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) text.remove_prefix(byte_order_mark.size());
-  return Table(text, name).read();
-}
+bool is_utf8(std::string_view text) { return length_of_text(text) == text.size(); }
 
-CsvRecord read_csv(const std::string& path) { return parse_csv(load(path), path); }
+void refuse_binary(std::string_view text, const std::string& file) {
+  const std::size_t end = length_of_text(text);
+  if (end == text.size()) return;
+  const std::string_view before = text.substr(0, end);
+  const std::size_t line_start = before.rfind('\n') + 1;  // 0 without one
+  core::Diagnostic problem;
+  problem.place = {file,
+                   static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+                   static_cast<int>(std::min<std::size_t>(end - line_start, 1'000'000)) + 1,
+                   {}};
+  problem.message =
+      is_control(text[end]) ? "the file is not text: it holds a control character" : "the text is not UTF-8";
+  problem.allowed = "a text file in UTF-8";
+  throw core::InputError(std::move(problem));
+}
 
 }  // namespace dualdamp::identify

@@ -7,9 +7,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
-#include "core/provenance.hpp"
 #include "identify/methods.hpp"
-#include "scenarios/files.hpp"
 #include "scenarios/format.hpp"
 #include "scenarios/formulas.hpp"
 #include "scenarios/result_fields.hpp"
@@ -41,7 +39,7 @@ class Checker {
   Checker(const Document& document, Reading& reading, const CheckOptions& options)
       : document_(document), reading_(reading), values_(reading.values), options_(options) {}
 
-  std::optional<MeasuredData> run() {
+  std::optional<identify::MeasuredRecord> run() {
     analysis_ = text_at("analysis", "type");
     if (!stands_in_file("analysis", "data")) check_constants();
     if (analysis_.empty()) return std::nullopt;
@@ -54,7 +52,7 @@ class Checker {
     resolve_frequency();
     if (analysis_ == "simulate") check_work();
     if (analysis_ == "regime_map") check_map();
-    std::optional<MeasuredData> data = read_data();
+    std::optional<identify::MeasuredRecord> data = read_data();
     if (analysis_ == "identify") resolve_methods(data);
     check_expectations();
     return data;
@@ -290,25 +288,40 @@ class Checker {
     return target;
   }
 
-  std::optional<MeasuredData> read_data() {
-    if (!has("analysis", "data")) return std::nullopt;
+  /// What the scenario says of columns that the file does not say.
+  [[nodiscard]] identify::ReadOptions read_options(const std::string& name) const {
+    identify::ReadOptions options;
+    options.name = name;
+    for (const auto& [key, map] : {std::pair{"units", &options.units}, {"columns", &options.columns}})
+      if (has("analysis", key))
+        for (const auto& [column, text] : values_.at("analysis").at(key).items())
+          map->emplace(column, text.get<std::string>());
+    return options;
+  }
+
+  std::optional<identify::MeasuredRecord> read_data() {
+    if (!has("analysis", "data")) {
+      for (const char* key : {"units", "columns"})
+        if (stands_in_file("analysis", key))
+          complain(place_of(std::string("analysis.") + key),
+                   std::string("'analysis.") + key + "' says how to read a data file, and there is none");
+      return std::nullopt;
+    }
     const std::string name = text_at("analysis", "data");
     const auto path = safe_path(name);
     if (!path) return std::nullopt;
     try {
-      constexpr std::size_t max_data = std::size_t{256} << 20U;
-      const std::string bytes = read_file(path->string(), max_data);
-      return MeasuredData{identify::parse_csv(bytes, name), core::sha256(bytes)};
+      return identify::read_record(path->string(), read_options(name));
     } catch (const core::InputError& error) {
       reading_.problems.insert(reading_.problems.end(), error.diagnostics().begin(), error.diagnostics().end());
       return std::nullopt;
     }
   }
 
-  void resolve_methods(const std::optional<MeasuredData>& data) {
+  void resolve_methods(const std::optional<identify::MeasuredRecord>& data) {
     const bool synthetic = needs_ != nullptr && needs_->measurement != "data";
     if (needs_ == nullptr || (!synthetic && !data)) return;
-    const identify::Record record = synthetic ? outline() : data->csv.record;
+    const identify::Record record = synthetic ? outline() : data->record;
     std::vector<std::string> fitting;
     for (const identify::MethodEntry& method : identify::methods())
       if (method.lacks(record).empty()) fitting.emplace_back(method.name);
@@ -400,7 +413,8 @@ class Checker {
 
 }  // namespace
 
-std::optional<MeasuredData> check(const Document& document, Reading& reading, const CheckOptions& options) {
+std::optional<identify::MeasuredRecord> check(const Document& document, Reading& reading,
+                                              const CheckOptions& options) {
   return Checker(document, reading, options).run();
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "identify/csv_reader.hpp"
+#include "identify/record_reader.hpp"
 #include "scenarios/reader.hpp"
 
 namespace dualdamp::scenarios {
@@ -15,13 +15,8 @@ struct CheckOptions {
   bool data_anywhere = false;  ///< data files may lie outside it
 };
 
-struct MeasuredData {
-  identify::CsvRecord csv;
-  std::string sha256;
-};
-
 /// Adds problems to `reading` and completes its values. The data are those of `analysis.data`, if it is there.
-[[nodiscard]] std::optional<MeasuredData> check(const Document& document, Reading& reading,
+[[nodiscard]] std::optional<identify::MeasuredRecord> check(const Document& document, Reading& reading,
                                                 const CheckOptions& options);
 
 /// `points[12].x` as the pattern `points[].x` of the tables and its indices; nothing when it is no path.

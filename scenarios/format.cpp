@@ -2,6 +2,7 @@
 
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
+#include "identify/record_reader.hpp"
 #include "scenarios/formulas.hpp"
 #include "sim/excitation.hpp"
 #include "sim/steady_state.hpp"
@@ -104,6 +105,14 @@ std::vector<std::string> method_names() {
   return names;
 }
 
+/// A text for each column that a data file may hold.
+Field for_columns(std::string name, std::string meaning, bool numbers_only) {
+  Section columns;
+  for (const std::string_view column : identify::column_names(numbers_only))
+    columns.fields.push_back(text(std::string(column), "for the column " + std::string(column)));
+  return section(std::move(name), std::move(columns), std::move(meaning));
+}
+
 Variant identify_variant() {
   const Choice measurement = {"type",
                               {{"xy_curve", "steady states at several amplitudes", {{amplitudes()}}},
@@ -111,7 +120,10 @@ Variant identify_variant() {
   return {
       "identify",
       "what the identification methods make of measured or simulated data",
-      {{text("data", "CSV file with the measured data, in the scenario's directory or below"),
+      {{text("data",
+             "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
+        for_columns("units", "units of the columns of the data file where it does not state them: {x: mm}", true),
+        for_columns("columns", "what the data file calls the columns, or their numbers: {x: LVDT 2}", false),
         choice("measurement", measurement, "a synthetic measurement of this scenario's system"),
         word_list("methods", method_names(), "identification methods; default: all that fit the data"),
         boolean("approximate_G", "G from the approximation Eq (15) instead of Eq (4)").with_fallback(false),

@@ -143,7 +143,7 @@ sim::Model model(const Json& values) {
   return result;
 }
 
-Identify identify_question(const Json& section, const sim::Model& model, std::optional<MeasuredData> data) {
+Identify identify_question(const Json& section, const sim::Model& model, std::optional<identify::MeasuredRecord> data) {
   Identify result;
   result.constants = {model.oscillator.mass, model.oscillator.stiffness,
                       model.excitation.is_harmonic() ? model.excitation.frequency : identify::unknown};
@@ -166,10 +166,10 @@ Identify identify_question(const Json& section, const sim::Model& model, std::op
     result.options.second_pair = section.at("pairs")[1].get<int>();
   }
   if (data) {
-    result.source = std::move(data->csv.record);
+    result.source = std::move(data->record);
     result.data_file = section.at("data").get<std::string>();
     result.data_sha256 = data->sha256;
-    result.data_warnings = std::move(data->csv.warnings);
+    result.data_warnings = std::move(data->warnings);
     return result;
   }
   const Json& measurement = section.at("measurement");
@@ -184,7 +184,7 @@ BranchQuestion branch(sim::BranchParameter parameter, const Json& range) {
   return {parameter, number(range.at("from")), number(range.at("to"))};
 }
 
-Analysis analysis(const Json& section, const sim::Model& model, std::optional<MeasuredData> data) {
+Analysis analysis(const Json& section, const sim::Model& model, std::optional<identify::MeasuredRecord> data) {
   const auto type = section.at("type").get<std::string>();
   if (type == "simulate") {
     const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
@@ -246,7 +246,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
 
   Reading reading = read(document, scenario_format());
   const std::string directory = std::filesystem::path(name).parent_path().string();
-  std::optional<MeasuredData> data = check(document, reading, {directory, options.data_anywhere});
+  std::optional<identify::MeasuredRecord> data = check(document, reading, {directory, options.data_anywhere});
   reading.problems.insert(reading.problems.end(), document.problems().begin(), document.problems().end());
   if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), name);
 

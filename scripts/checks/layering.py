@@ -44,6 +44,7 @@ LIBRARIES = {
     "Ceres": (r"(ceres|glog)/", ["identify"], SOURCES),
     "yaml-cpp": (r"yaml-cpp/", ["scenarios"], SOURCES),
     "matio": (r"matio\.h", ["identify", "scenarios"], SOURCES),
+    "HDF5": (r"hdf5\.h", ["identify"], SOURCES),
     "nlohmann-json's forward declarations": (r"nlohmann/json_fwd\.hpp", ["scenarios", "bench", "cli"], PUBLIC),
     "nlohmann-json": (r"nlohmann/", ["scenarios", "bench", "cli"], PRIVATE),
     "fmt": (r"fmt/", ABOVE_SIM, SOURCES),

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/units.hpp"
-#include "identify/csv_reader.hpp"
+#include "identify/record_reader.hpp"
 #include "identify/methods.hpp"
 
 using namespace dualdamp;
@@ -62,7 +62,7 @@ TEST_CASE("The examples of the method pages give the printed numbers") {
       continue;
     }
     CHECK(page.find("--method " + name) != std::string::npos);
-    const identify::Record record = identify::parse_csv(csv, name).record;
+    const identify::Record record = identify::parse_record(csv, name).record;
     const identify::KnownConstants constants{option(page, "mass", "kg"), option(page, "stiffness", "N/m"),
                                              option(page, "frequency", "rad/s")};
     const identify::Estimate estimate = method.run(record, constants, {});

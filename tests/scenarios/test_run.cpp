@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
-#include "identify/csv_reader.hpp"
+#include "identify/record_reader.hpp"
 #include "scenarios/output.hpp"
 #include "scenarios/result_fields.hpp"
 
@@ -253,7 +253,7 @@ TEST_CASE("run: a curve of the program is data for the program", "[scenarios][ru
   const Scenario scenario = scenario_of("{type: xy_curve, amplitudes: [0.1, 0.2, 0.5, 0.6]}");
   const RunResult result = scenarios::run(scenario);
   REQUIRE(result.tables.size() == 1);
-  const auto record = identify::parse_csv(csv(result.tables[0], result.provenance), "curve.csv");
+  const auto record = identify::parse_record(csv(result.tables[0], result.provenance), "curve.csv");
   REQUIRE(record.record.pairs);
   CHECK(record.record.pairs->pairs.size() == 4);
   CHECK(record.record.pairs->pairs[3].x == result.tables[0].columns[1].numbers[3]);

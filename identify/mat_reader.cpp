@@ -1,0 +1,387 @@
+#include "identify/mat_reader.hpp"
+
+#include <hdf5.h>
+#include <matio.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr std::size_t most_values = 20'000'000;
+constexpr std::size_t header_size = 128;  ///< of v5 to v7.3
+
+using MatFile = std::unique_ptr<mat_t, decltype([](mat_t* file) { Mat_Close(file); })>;
+using Variable = std::unique_ptr<matvar_t, decltype([](matvar_t* variable) { Mat_VarFree(variable); })>;
+
+std::uint32_t word(std::string_view bytes, std::size_t at, bool swap) {
+  std::array<char, sizeof(std::uint32_t)> raw{};
+  std::copy_n(bytes.data() + at, raw.size(), raw.begin());
+  if (swap) std::reverse(raw.begin(), raw.end());
+  std::uint32_t value = 0;
+  std::memcpy(&value, raw.data(), raw.size());
+  return value;
+}
+
+/// Head of a matrix of version 4: type, rows, columns, complex, length of the name.
+struct Head4 {
+  std::uint64_t size = 0;  ///< of the matrix with head and name; 0: this is no such head
+};
+
+Head4 head4(std::string_view bytes, std::size_t at) {
+  constexpr std::size_t words = 5;
+  constexpr std::array<std::uint64_t, 6> precision = {8, 4, 4, 2, 2, 1};
+  if (bytes.size() - at < words * sizeof(std::uint32_t)) return {};
+  for (const bool swap : {false, true}) {
+    const auto entry = [&](std::size_t i) { return word(bytes, at + i * sizeof(std::uint32_t), swap); };
+    const std::uint32_t type = entry(0);
+    constexpr std::uint32_t most_type = 4052;
+    constexpr std::uint32_t longest_name = 64;
+    const std::uint32_t digit_P = type / 10 % 10;
+    if (type > most_type || type / 100 % 10 != 0 || digit_P >= precision.size() || type % 10 > 2) continue;
+    if (entry(3) > 1 || entry(4) < 2 || entry(4) > longest_name) continue;
+    const std::uint64_t values = std::uint64_t{entry(1)} * entry(2) * (1 + entry(3));
+    if (entry(1) >> 31U != 0 || entry(2) >> 31U != 0) continue;
+    return {words * sizeof(std::uint32_t) + entry(4) + values * precision[digit_P]};
+  }
+  return {};
+}
+
+bool is_mat_5(std::string_view bytes) {
+  if (bytes.size() < header_size || !bytes.starts_with("MATLAB")) return false;
+  const std::string_view mark = bytes.substr(header_size - 2, 2);
+  return mark == "IM" || mark == "MI";
+}
+
+bool is_mat_73(std::string_view bytes) { return is_mat_5(bytes) && bytes.starts_with("MATLAB 7.3"); }
+
+[[noreturn]] void refuse_truncated(const std::string& file) {
+  refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
+}
+
+std::string describe(const matvar_t& variable) {
+  std::string text;
+  for (int i = 0; i < variable.rank; ++i) text += (i == 0 ? "" : " x ") + std::to_string(variable.dims[i]);
+  return text;
+}
+
+std::size_t size_of(const matvar_t& variable) {
+  std::size_t size = 1;
+  for (int i = 0; i < variable.rank; ++i) size *= std::min(variable.dims[i], most_values + 1);
+  return variable.rank == 0 ? 0 : size;
+}
+
+template <typename Stored>
+std::vector<double> converted(const matvar_t& variable, std::size_t size) {
+  const auto* from = static_cast<const Stored*>(variable.data);
+  std::vector<double> values(size);
+  std::transform(from, from + size, values.begin(), [](Stored value) { return static_cast<double>(value); });
+  return values;
+}
+
+std::optional<std::vector<double>> numbers(const matvar_t& variable) {
+  const std::size_t size = size_of(variable);
+  if (variable.data == nullptr || variable.nbytes < size * Mat_SizeOf(variable.data_type)) return std::nullopt;
+  switch (variable.data_type) {
+    case MAT_T_DOUBLE:
+      return converted<double>(variable, size);
+    case MAT_T_SINGLE:
+      return converted<float>(variable, size);
+    case MAT_T_INT8:
+      return converted<std::int8_t>(variable, size);
+    case MAT_T_UINT8:
+      return converted<std::uint8_t>(variable, size);
+    case MAT_T_INT16:
+      return converted<std::int16_t>(variable, size);
+    case MAT_T_UINT16:
+      return converted<std::uint16_t>(variable, size);
+    case MAT_T_INT32:
+      return converted<std::int32_t>(variable, size);
+    case MAT_T_UINT32:
+      return converted<std::uint32_t>(variable, size);
+    case MAT_T_INT64:
+      return converted<std::int64_t>(variable, size);
+    case MAT_T_UINT64:
+      return converted<std::uint64_t>(variable, size);
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Named variables of one test: those of the file, or the fields of an element of a struct.
+using Scope = std::vector<std::pair<std::string, const matvar_t*>>;
+
+class Reader {
+ public:
+  Reader(std::string path, const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
+      : path_(std::move(path)), file_(options.name), options_(options), problems_(problems), warnings_(warnings) {}
+
+  DataTable run() {
+    check_names(options_.units, "unit", file_, problems_);
+    check_names(options_.columns, "column", file_, problems_);
+    problems_.throw_if_any();
+    read_variables();
+    std::vector<TestColumns> tests;
+    const std::vector<Scope> scopes = find_scopes();
+    for (std::size_t i = 0; i < scopes.size(); ++i) {
+      tests.push_back(test(scopes[i]));
+      if (scopes.size() > 1 && tests.back().label.empty()) tests.back().label = std::to_string(i + 1);
+    }
+    problems_.throw_if_any();
+    DataTable table = join(file_, std::move(tests));
+    if (row_labels_) table.sweeps = std::move(*row_labels_);
+    return table;
+  }
+
+ private:
+  void complain(std::string message, std::string allowed = {}, std::string found = {}) {
+    problems_.add({{file_, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
+  }
+
+  /// The variables that are asked for, and structs; others are not read into memory.
+  void read_variables() {
+    const MatFile file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
+    if (!file) refuse_truncated(file_);
+    while (true) {
+      Variable variable(Mat_VarReadNextInfo(file.get()));
+      if (!variable) break;
+      const bool is_struct = variable->class_type == MAT_C_STRUCT;
+      if (variable->name == nullptr || (!is_struct && !is_wanted(variable->name))) {
+        warnings_.push_back("variable '" + std::string(variable->name == nullptr ? "" : variable->name) +
+                            "' is not known and is ignored");
+        continue;
+      }
+      if (size_of(*variable) > most_values)
+        refuse_file(file_, "variable '" + std::string(variable->name) + "' holds more than 20 million numbers");
+      if (size_of(*variable) > 0 && Mat_VarReadDataAll(file.get(), variable.get()) != 0) refuse_truncated(file_);
+      variables_.push_back(std::move(variable));
+    }
+  }
+
+  /// The column that a name of the file stands for; dt and fs stand for none and are wanted all the same.
+  [[nodiscard]] const KnownColumn* column_of(const std::string& name) const {
+    for (const auto& [column, called] : options_.columns)
+      if (called == name) return known_column(column);
+    const KnownColumn* known = known_column(name);
+    if (known == nullptr) return nullptr;
+    const bool replaced =
+        options_.columns.contains(std::string(known->name)) || options_.columns.contains(std::string(known->alias));
+    return replaced ? nullptr : known;
+  }
+
+  [[nodiscard]] bool is_wanted(const std::string& name) const {
+    return name == "dt" || name == "fs" || column_of(name) != nullptr;
+  }
+
+  [[nodiscard]] bool holds_data(const Scope& scope) const {
+    return std::ranges::any_of(scope, [this](const auto& entry) {
+      const KnownColumn* known = column_of(entry.first);
+      return known != nullptr && (known->is_signal || known->name == "Y");
+    });
+  }
+
+  std::vector<Scope> find_scopes() {
+    Scope whole;
+    std::vector<std::vector<Scope>> structs;
+    for (const Variable& variable : variables_) {
+      if (variable->class_type != MAT_C_STRUCT) {
+        whole.emplace_back(variable->name, variable.get());
+        continue;
+      }
+      std::vector<Scope> elements = elements_of(*variable);
+      if (!elements.empty() && holds_data(elements.front())) structs.push_back(std::move(elements));
+    }
+    if (holds_data(whole)) return {whole};
+    if (structs.size() == 1) return std::move(structs.front());
+    refuse_file(file_,
+                structs.empty() ? "the MATLAB file holds no vector x and nothing else that could be used"
+                                : "several structs of the MATLAB file hold signals",
+                "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns));
+  }
+
+  [[nodiscard]] static std::vector<Scope> elements_of(const matvar_t& variable) {
+    auto* const record = const_cast<matvar_t*>(&variable);  // matio's readers take no const
+    const unsigned fields = Mat_VarGetNumberOfFields(record);
+    char* const* const names = Mat_VarGetStructFieldnames(record);
+    std::vector<Scope> elements;
+    if (variable.data == nullptr || names == nullptr) return elements;
+    for (std::size_t i = 0; i < size_of(variable); ++i) {
+      Scope scope;
+      for (unsigned field = 0; field < fields; ++field)
+        if (const matvar_t* value = Mat_VarGetStructFieldByIndex(record, field, i))
+          scope.emplace_back(names[field], value);
+      elements.push_back(std::move(scope));
+    }
+    return elements;
+  }
+
+  TestColumns test(const Scope& scope) {
+    TestColumns result;
+    std::optional<double> step;
+    for (const auto& [name, variable] : scope) {
+      const KnownColumn* known = column_of(name);
+      if (name == "dt" || name == "fs") {
+        if (const auto value = scalar(name, *variable)) step = name == "dt" ? *value : 1.0 / *value;
+      } else if (known != nullptr && known->unit.empty()) {
+        take_label(name, *variable, result);
+      } else if (known != nullptr) {
+        take(name, *variable, *known, result);
+      } else {
+        warnings_.push_back("field '" + name + "' is not known and is ignored");
+      }
+    }
+    problems_.throw_if_any();
+    check_lengths(result);
+    add_times(result, step);
+    return result;
+  }
+
+  /// Real numbers in a row or column; nothing after a problem.
+  std::optional<std::vector<double>> vector(const std::string& name, const matvar_t& variable) {
+    const std::string subject = "variable '" + name + "'";
+    const bool numeric = variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
+    const auto long_sides =
+        std::count_if(variable.dims, variable.dims + variable.rank, [](std::size_t side) { return side > 1; });
+    std::string fault;
+    if (variable.class_type == MAT_C_EMPTY || size_of(variable) == 0)
+      fault = " is empty";
+    else if (variable.class_type == MAT_C_CHAR)
+      fault = " is text";
+    else if (!numeric)
+      fault = " is no vector of numbers";
+    else if (variable.isComplex != 0)
+      fault = " holds complex numbers";
+    else if (long_sides > 1)
+      fault = " is a matrix";
+    if (!fault.empty()) {
+      complain(subject + fault, "a vector of real numbers", variable.rank > 0 ? describe(variable) : std::string());
+      return std::nullopt;
+    }
+    auto values = numbers(variable);
+    if (!values) refuse_truncated(file_);
+    const auto bad = std::ranges::find_if(*values, [](double value) { return !std::isfinite(value); });
+    if (bad == values->end()) return values;
+    complain("element " + std::to_string(bad - values->begin() + 1) + " of variable '" + name +
+                 "' is not a finite number",
+             "finite numbers");
+    return std::nullopt;
+  }
+
+  std::optional<double> scalar(const std::string& name, const matvar_t& variable) {
+    const auto values = vector(name, variable);
+    if (!values) return std::nullopt;
+    if (values->size() == 1 && values->front() > 0.0) return values->front();
+    complain("variable '" + name + "' is not one number above zero");
+    return std::nullopt;
+  }
+
+  void take(const std::string& name, const matvar_t& variable, const KnownColumn& known, TestColumns& test) {
+    auto values = vector(name, variable);
+    if (!values) return;
+    const auto factor = factor_of_caller(options_.units, known, file_, problems_);
+    if (!factor && name == "frequency")
+      complain("variable 'frequency' needs its unit, because Hz and rad/s differ by 2 pi",
+               "omega in rad/s, or the caller's unit");
+    if (std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; }))
+      complain("column " + std::string(known.name) + " stands there twice");
+    if (factor)
+      for (double& value : *values) value *= *factor;
+    test.columns.push_back({&known, std::move(*values)});
+  }
+
+  /// A text or a number labels the test, a vector of numbers each row.
+  void take_label(const std::string& name, const matvar_t& variable, TestColumns& test) {
+    if (variable.class_type == MAT_C_CHAR && variable.data_type == MAT_T_UINT8 && variable.data != nullptr) {
+      test.label.assign(static_cast<const char*>(variable.data), size_of(variable));
+      return;
+    }
+    const auto values = vector(name, variable);
+    if (!values) return;
+    if (values->size() == 1) {
+      test.label = core::format_number(values->front());
+      return;
+    }
+    row_labels_.emplace();
+    label_count_ = values->size();
+    for (std::size_t row = 0; row < values->size(); ++row)
+      if (row == 0 || (*values)[row] != (*values)[row - 1])
+        row_labels_->push_back({core::format_number((*values)[row]), row});
+  }
+
+  void check_lengths(const TestColumns& test) {
+    const auto length = [](const DataColumn& column) { return column.values.size(); };
+    bool alike = !row_labels_ || label_count_ == length(test.columns.front());
+    std::string lengths = row_labels_ ? "sweep " + std::to_string(label_count_) : "";
+    for (const DataColumn& column : test.columns) {
+      alike = alike && length(column) == length(test.columns.front());
+      lengths +=
+          (lengths.empty() ? "" : ", ") + std::string(column.known->name) + " " + std::to_string(length(column));
+    }
+    if (!alike) complain("the vectors are not of the same length", "vectors of equal length", lengths);
+    problems_.throw_if_any();
+  }
+
+  void add_times(TestColumns& test, const std::optional<double>& step) {
+    const auto has = [&test](std::string_view name) {
+      return std::ranges::any_of(test.columns, [name](const DataColumn& c) { return c.known->name == name; });
+    };
+    if (!step || has("Y")) return;
+    if (has("t")) {
+      warnings_.emplace_back("dt and fs are not used: there are times t");
+      return;
+    }
+    std::vector<double> times(test.columns.front().values.size());
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) * *step;
+    test.columns.push_back({known_column("t"), std::move(times)});
+  }
+
+  std::string path_;
+  std::string file_;
+  const ReadOptions& options_;
+  Problems& problems_;
+  std::vector<std::string>& warnings_;
+  std::vector<Variable> variables_;
+  std::optional<std::vector<LabelRun>> row_labels_;
+  std::size_t label_count_ = 0;
+};
+
+}  // namespace
+
+bool is_mat(std::string_view bytes) { return is_mat_5(bytes) || head4(bytes, 0).size > 0; }
+
+void check_mat(std::string_view bytes, const std::string& file) {
+  if (is_mat_73(bytes)) return;  // HDF5 knows where its files end
+  const bool is_5 = is_mat_5(bytes);
+  constexpr std::size_t tag = 8;
+  const bool swap = is_5 && word(bytes, header_size - 4, false) >> 16U != 0x4D49U;
+  std::uint64_t at = is_5 ? header_size : 0;
+  if (at == bytes.size()) refuse_file(file, "the MATLAB file is empty: it holds no variables");
+  while (at < bytes.size()) {
+    if (is_5 && bytes.size() - at < tag) refuse_truncated(file);
+    const std::uint64_t size = is_5 ? tag + word(bytes, at + 4, swap) : head4(bytes, at).size;
+    if (size == 0 || size > bytes.size() - at) refuse_truncated(file);
+    at += size;
+  }
+}
+
+DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
+                   std::vector<std::string>& warnings) {
+  static std::mutex one_at_a_time;  // neither matio nor HDF5 promises to be safe in threads
+  const std::lock_guard lock(one_at_a_time);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what is wrong with a file is said by us, not on stderr by HDF5
+  return Reader(path, options, problems, warnings).run();
+}
+
+}  // namespace dualdamp::identify

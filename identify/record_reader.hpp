@@ -1,0 +1,53 @@
+#pragma once
+/// Measured data from a file: CSV, MATLAB or universal file format. docs/data-files.md is the guide to them.
+///
+/// What the file is follows from its content; its name counts for nothing. Columns (vectors, data sets) are known
+/// by name: t (time), Y, x (position), y, v (velocity), a (acceleration), force, omega (frequency), phase,
+/// fundamental, mean_square_speed, sweep. Numbers are SI unless the file or the caller states a unit. What they
+/// make:
+/// * Y and x: x-Y pairs, with what else there is of a pair;
+/// * x alone, or t and x with every row turning back: extremes of a free vibration;
+/// * t and any of x, y, v, a, force: histories, one for each label of `sweep`. Times must be evenly spaced, within
+///   the rounding of the printed numbers and 1 % of a step; where there are gaps the longest uninterrupted stretch
+///   is used, with a warning.
+///
+/// Errors: whatever is wrong with the file, `core::InputError` with place, for the first 20 problems at once.
+/// Cost: linear, about 0.1 us a number. Files above 1 GiB or 20 million rows are refused before they are read
+/// through.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+/// Names of the columns that a file may hold; `numbers_only`: without labels.
+[[nodiscard]] std::vector<std::string_view> column_names(bool numbers_only = false);
+
+struct ReadOptions {
+  /// Column -> its unit, such as x -> mm: for files that do not state it; replaces a stated one with a warning.
+  std::map<std::string, std::string> units = {};
+  /// Column -> what the file calls it, such as x -> "LVDT 2", or its number from 1.
+  std::map<std::string, std::string> columns = {};
+  /// Stands for the file in messages; empty: its path.
+  std::string name = {};
+};
+
+struct MeasuredRecord {
+  Record record;
+  std::vector<std::string> warnings;  ///< what was left out or taken for granted
+  std::string sha256;                 ///< of the bytes of the file
+};
+
+[[nodiscard]] MeasuredRecord read_record(const std::string& path, const ReadOptions& options = {});
+
+/// The same from text already in memory: CSV or universal file format.
+[[nodiscard]] MeasuredRecord parse_record(std::string_view text, const ReadOptions& options);
+
+/// With `name` for the file in messages.
+[[nodiscard]] MeasuredRecord parse_record(std::string_view text, const std::string& name);
+
+}  // namespace dualdamp::identify
