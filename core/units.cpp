@@ -47,6 +47,8 @@ const std::vector<Dimension>& dimensions() {
       {"1/s", "a rate", "1 kHz", {"1/s", "Hz", "mHz", "kHz", "MHz", "1/ms", "1/min", "1/h"}},
       {"J", "an energy", "1 J", {"J", "mJ", "kJ", "N.m"}},
       {"W", "a power", "2 W", {"W", "mW", "kW"}},
+      {"m^2.s", "a spectral density", "2 mm^2/Hz", {"m^2.s", "mm^2.s", "m^2/Hz", "mm^2/Hz", "um^2/Hz"}},
+      {"N^2.s", "a spectral density", "2 N^2/Hz", {"N^2.s", "mN^2.s", "N^2/Hz", "mN^2/Hz"}},
       {"rad", "an angle", "90 deg", {"rad", "mrad", "deg"}},
       {"rad/s", "a frequency", "6.17 Hz", {"rad/s", "Hz", "mHz", "kHz", "rpm"}},
   };

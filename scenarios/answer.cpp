@@ -35,15 +35,13 @@ Table event_table(const std::vector<sim::Event>& events) {
 }
 
 Table history_table(std::string name, const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
-  using Type = sim::ExcitationType;
   Table table{std::move(name), {column("t", "s", samples, &sim::Sample::t)}, true};
-  if (excitation.type == Type::base_harmonic || excitation.type == Type::base_ramp)
-    table.columns.push_back(column("y", "m", samples, &sim::Sample::y));
+  if (excitation.moves_base()) table.columns.push_back(column("y", "m", samples, &sim::Sample::y));
   table.columns.push_back(column("x", "m", samples, &sim::Sample::x));
   table.columns.push_back(column("v", "m/s", samples, &sim::Sample::v));
   table.columns.push_back(column("a", "m/s^2", samples, &sim::Sample::a));
   table.columns.push_back(column("force", "N", samples, &sim::Sample::force));
-  if (excitation.type == Type::force_harmonic || excitation.type == Type::force_ramp)
+  if (excitation.type != sim::ExcitationType::none && !excitation.moves_base())
     table.columns.push_back(column("external", "N", samples, &sim::Sample::external));
   return table;
 }

@@ -233,10 +233,19 @@ class Checker {
       complain(place_of(cycles ? "analysis.cycles" : "analysis.duration"), "the simulation is too long",
                "at most " + core::format_number(max_cycles, 6) + " forcing or natural periods",
                core::format_number(*duration * fastest / two_pi, 6) + " periods");
+    check_noise(*duration);
     const double rows = *duration * number_at("analysis", "sample_rate").value_or(0.0);
     if (rows > max_samples)
       complain(place_of("analysis.sample_rate"), "the history has too many rows",
                "at most " + core::format_number(max_samples, 6), core::format_number(rows, 6));
+  }
+
+  void check_noise(double duration) {
+    const double nodes = duration * number_at("excitation", "bandwidth").value_or(0.0) / std::numbers::pi;
+    if (nodes > max_nodes)
+      complain(place_of("excitation.bandwidth"), "the noise is too long",
+               "at most " + core::format_number(max_nodes, 8) + " random values, 2 bandwidth a second",
+               core::format_number(nodes, 6) + " of them");
   }
 
   /// Number of points of a curve or map; nothing when the file is too faulty to know.

@@ -1,5 +1,6 @@
 #include "scenarios/format.hpp"
 
+#include "friction_models/parameters.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
 #include "identify/record_reader.hpp"
@@ -28,6 +29,14 @@ std::vector<Field> harmonic_fields(const std::string& unit) {
           .items(1, static_cast<std::size_t>(sim::max_harmonics))};
 }
 
+std::vector<Field> noise_fields(const std::string& unit) {
+  return {quantity("intensity", {unit}, "spectral density at low frequencies, two-sided").required().at_least(0),
+          quantity("bandwidth", {"rad/s"}, "linear between random values at the rate of twice this")
+              .required()
+              .above(0),
+          integer("seed", "of the random values").with_fallback(0).at_least(0).at_most(friction::seed_range.high)};
+}
+
 Choice make_excitations() {
   std::vector<Field> force = harmonic_fields("N");
   force.push_back(quantity("offset", {"N"}, "constant force added").with_fallback(0.0));
@@ -40,7 +49,9 @@ Choice make_excitations() {
             {{quantity("velocity", {"m/s"}, "velocity V").required()}}},
            {"force_ramp",
             "force growing at constant rate, f(t) = R t",
-            {{quantity("rate", {"N/s"}, "rate R").required()}}}}};
+            {{quantity("rate", {"N/s"}, "rate R").required()}}},
+           {"base_noise", "base in random motion y(t), band-limited white", {noise_fields("m^2.s")}},
+           {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}}}};
 }
 
 Choice make_laws() {

@@ -76,7 +76,9 @@ sim::Excitation excitation(const Json& section) {
       {"base_harmonic", sim::ExcitationType::base_harmonic},
       {"force_harmonic", sim::ExcitationType::force_harmonic},
       {"base_ramp", sim::ExcitationType::base_ramp},
-      {"force_ramp", sim::ExcitationType::force_ramp}};
+      {"force_ramp", sim::ExcitationType::force_ramp},
+      {"base_noise", sim::ExcitationType::base_noise},
+      {"force_noise", sim::ExcitationType::force_noise}};
   sim::Excitation result;
   result.type =
       std::ranges::find(types, section.at("type").get<std::string>(), &decltype(types)::value_type::first)->second;
@@ -85,6 +87,9 @@ sim::Excitation excitation(const Json& section) {
   result.phase = number_or(section, "phase", 0.0);
   result.offset = number_or(section, "offset", 0.0);
   result.slope = number_or(section, "velocity", number_or(section, "rate", 0.0));
+  if (result.is_noise())
+    result.noise = {number(section.at("intensity")), number(section.at("bandwidth")),
+                    section.at("seed").get<std::uint64_t>()};
   if (section.contains("harmonics"))
     for (const Json& harmonic : section.at("harmonics"))
       result.harmonics.push_back(

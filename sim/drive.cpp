@@ -15,39 +15,71 @@ double damping_ratio(const Oscillator& oscillator) {
 }
 
 Drive::Drive(const Oscillator& oscillator, const Excitation& excitation)
-    : period_(std::numeric_limits<double>::infinity()),
-      base_(excitation.type == ExcitationType::base_harmonic || excitation.type == ExcitationType::base_ramp) {
-  const double through_damper = oscillator.damper_to == DamperTo::base ? oscillator.damping : 0.0;
+    : period_(std::numeric_limits<double>::infinity()), base_(excitation.moves_base()) {
+  if (base_) {
+    through_spring_ = oscillator.stiffness;
+    through_damper_ = oscillator.damper_to == DamperTo::base ? oscillator.damping : 0.0;
+  }
   if (excitation.is_harmonic()) {
     const auto add = [&](int order, double amplitude, double phase) {
       const double frequency = order * excitation.frequency;
       frequencies_.push_back(frequency);
       amplitudes_.push_back(std::polar(amplitude, phase));
-      const Complex gain = base_ ? Complex(oscillator.stiffness, through_damper * frequency) : Complex(1.0);
-      force_.push_back(gain * amplitudes_.back());
+      force_.push_back(Complex(through_spring_, through_damper_ * frequency) * amplitudes_.back());
+      phasor_scale_ += std::abs(force_.back());
     };
     add(1, excitation.amplitude, excitation.phase);
     for (const Harmonic& harmonic : excitation.harmonics) add(harmonic.order, harmonic.amplitude, harmonic.phase);
     period_ = 2.0 * std::numbers::pi / excitation.frequency;
     if (!base_) offset_ = excitation.offset;
+  } else if (excitation.is_noise()) {
+    period_ = excitation.noise.spacing();
+    deviation_ = std::sqrt(excitation.noise.intensity / period_);
+    draws_ = {.seed = excitation.noise.seed, .stream = noise_stream};
   } else if (excitation.type != ExcitationType::none) {
     ramp_ = excitation.slope;
-    force_ramp_ = base_ ? oscillator.stiffness * ramp_ : ramp_;
-    force_from_rate_ = base_ ? through_damper * ramp_ : 0.0;
   }
   turns_.assign(frequencies_.size(), 1.0);
-  steady_scale_ = std::abs(offset_) + std::abs(force_from_rate_);
-  for (const Complex& phasor : force_) steady_scale_ += std::abs(phasor);
+  reset(0.0);
+}
+
+void Drive::set_force() {
+  force_offset_ = through_spring_ * offset_ + through_damper_ * ramp_;
+  force_ramp_ = through_spring_ * ramp_;
 }
 
 void Drive::reset(double t) {
   for (std::size_t j = 0; j < turns_.size(); ++j) turns_[j] = std::polar(1.0, frequencies_[j] * t);
   ramp_time_ = t;
+  if (is_noise()) {
+    enter(0);
+  } else {
+    set_force();
+  }
 }
 
-double Drive::force_constant() const { return offset_ + force_ramp_ * ramp_time_ + force_from_rate_; }
+void Drive::end_period(double t) {
+  if (is_noise()) {
+    ramp_time_ = period_;
+  } else {
+    reset(t);
+  }
+}
 
-double Drive::force_scale() const { return steady_scale_ + std::abs(force_ramp_ * ramp_time_); }
+void Drive::enter(long cell) {
+  cell_ = cell;
+  ramp_time_ = 0.0;
+  offset_ = node(cell);
+  ramp_ = (node(cell + 1) - offset_) / period_;
+  set_force();
+}
+
+double Drive::force_constant() const { return force_offset_ + force_ramp_ * ramp_time_; }
+
+double Drive::force_scale() const {
+  return phasor_scale_ + std::abs(through_spring_ * offset_) + std::abs(through_damper_ * ramp_) +
+         std::abs(force_ramp_ * ramp_time_);
+}
 
 Drive::Value Drive::at(double s) const {
   double level = offset_ + ramp_ * (ramp_time_ + s);

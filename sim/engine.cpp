@@ -67,8 +67,16 @@ void Engine::place() {
 }
 
 const Interval* Engine::next(double horizon) {
+  // Only now: the interval handed out last lies in the cell before.
+  if (drive_.is_noise() && drive_.cell() != cycle_) {
+    local_time_ = 0.0;
+    drive_.enter(cycle_);
+  }
   const double begin = cycle_ == 0 ? 0.0 : static_cast<double>(cycle_) * drive_.period();
-  return step(std::min((horizon - begin) - local_time_, drive_.period()), false);
+  const double left = (horizon - begin) - local_time_;
+  const double in_cell = drive_.period() - local_time_;
+  if (drive_.is_noise() && left >= in_cell) return step(in_cell, true);
+  return step(std::min(left, drive_.period()), false);
 }
 
 const Interval* Engine::next_in_period() { return step(drive_.period() - local_time_, true); }

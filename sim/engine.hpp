@@ -8,7 +8,7 @@
 ///   slip      otherwise, in the direction of the pull.
 /// A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times for each law.
 ///
-/// Under a harmonic excitation time is kept modulo one forcing period, so that long runs lose no phase.
+/// Time is kept modulo the forcing period, or the cell of a noise, so that long runs lose no phase.
 
 #include <Eigen/Core>
 #include <memory>
@@ -40,7 +40,8 @@ class Engine {
   void restart(const State& state);
 
   /// The next interval, ending at an event or at `horizon` [s], whichever is first, and not longer than one forcing
-  /// period. Valid until the next call. A null pointer: the horizon is reached, or outcome() is not ok().
+  /// period or than the present cell of a noise. Valid until the next call. A null pointer: the horizon is reached,
+  /// or outcome() is not ok().
   [[nodiscard]] const Interval* next(double horizon);
   /// The same up to the end of the present forcing period, where time and phase are set exactly: the period map.
   /// A null pointer only when outcome() is not ok(): watch cycle().
@@ -48,7 +49,7 @@ class Engine {
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
   [[nodiscard]] double time() const;                    ///< s
-  [[nodiscard]] long cycle() const { return cycle_; }   ///< whole forcing periods passed
+  [[nodiscard]] long cycle() const { return cycle_; }   ///< whole forcing periods passed, or cells of a noise
   [[nodiscard]] double position() const { return x_; }  ///< m
   [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
@@ -56,7 +57,7 @@ class Engine {
   [[nodiscard]] const core::SearchCount& count() const { return count_; }
   /// Tangencies within the last interval.
   [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
-  /// Forcing period [s]; infinite without a harmonic excitation.
+  /// Forcing period [s], or the cell of a noise; else infinite.
   [[nodiscard]] double period() const { return drive_.period(); }
 
   /// How well a motion over one period is known, relative to its size; 0: to rounding.

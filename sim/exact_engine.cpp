@@ -213,7 +213,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
   if (to_period_end || local_time_ >= drive_.period()) {
     local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
     ++cycle_;
-    drive_.reset(local_time_);
+    drive_.end_period(local_time_);
   } else {
     for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) {
       const auto k = static_cast<std::size_t>(mode_->harmonic_element(j));

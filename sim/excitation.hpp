@@ -3,7 +3,14 @@
 ///
 /// harmonic:  A cos(w t + phi) + sum_j A_j cos(n_j (w t) + phi_j), plus a constant for a force
 /// ramp:      y = V t, or f = R t
+/// noise:     band-limited white: y or f is linear between nodes at n h, h = pi/w_b (1/(2 B) with the bandwidth B
+/// in
+///            Hz), with values sqrt(D/h) times normal draw n of stream `noise_stream` of the seed. The spectral
+///            density, two-sided, is D (sin(w h/2)/(w h/2))^4: D [m^2.s or N^2.s] at low frequencies, 0.3 dB below
+///            it at w_b/5 and 7.8 dB at w_b. (An analyser's one-sided density for each Hz is 2 D.)
 
+#include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace dualdamp::sim {
@@ -15,7 +22,27 @@ struct Harmonic {
   double phase = 0.0;      ///< rad
 };
 
-enum class ExcitationType { none, base_harmonic, force_harmonic, base_ramp, force_ramp };
+struct Noise {
+  double intensity = 0.0;  ///< D [m^2.s] (base) or [N^2.s] (force), >= 0
+  double bandwidth = 0.0;  ///< w_b [rad/s], > 0
+  std::uint64_t seed = 0;
+
+  /// Time between nodes [s].
+  [[nodiscard]] double spacing() const { return std::numbers::pi / bandwidth; }
+};
+
+/// Away from the draws that laws of the same seed make.
+inline constexpr std::uint32_t noise_stream = 2;
+
+enum class ExcitationType {
+  none,
+  base_harmonic,
+  force_harmonic,
+  base_ramp,
+  force_ramp,
+  base_noise,
+  force_noise,
+};
 
 struct Excitation {
   ExcitationType type = ExcitationType::none;
@@ -25,7 +52,15 @@ struct Excitation {
   double offset = 0.0;     ///< constant force [N], force_harmonic only
   double slope = 0.0;      ///< V [m/s] of base_ramp or R [N/s] of force_ramp
   std::vector<Harmonic> harmonics{};
+  Noise noise{};  ///< of base_noise and force_noise
 
+  [[nodiscard]] bool moves_base() const {
+    return type == ExcitationType::base_harmonic || type == ExcitationType::base_ramp ||
+           type == ExcitationType::base_noise;
+  }
+  [[nodiscard]] bool is_noise() const {
+    return type == ExcitationType::base_noise || type == ExcitationType::force_noise;
+  }
   [[nodiscard]] bool is_harmonic() const {
     return type == ExcitationType::base_harmonic || type == ExcitationType::force_harmonic;
   }

@@ -19,8 +19,8 @@ constexpr double slow = 0.01;
 
 }  // namespace
 
-Flow::Flow(const Model& model, const VelocityHistory& past)
-    : model_(model), drive_(model.oscillator, model.excitation), past_(past) {
+Flow::Flow(const Model& model, const Drive& drive, const VelocityHistory& past)
+    : model_(model), drive_(drive), past_(past) {
   for (const friction::Law& law : model_.friction) silent_.push_back(law.holds_mass());
   first_.resize(silent_.size());
   count_.resize(silent_.size());

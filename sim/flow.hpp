@@ -25,8 +25,9 @@ namespace dualdamp::sim {
 
 class Flow final : public VectorField {
  public:
-  /// `past`: asked for the velocity of old where a law sees it.
-  Flow(const Model& model, const VelocityHistory& past);
+  /// `drive` counts time from the start of a period and stays there; of a noise it is in the present cell. `past`:
+  /// asked for the velocity of old where a law sees it.
+  Flow(const Model& model, const Drive& drive, const VelocityHistory& past);
 
   /// Fixes modes and direction. `offset`: absolute time at which the local time is 0 [s].
   void freeze(const std::vector<friction::Memory>& memories, friction::Direction direction, double offset);
@@ -62,7 +63,7 @@ class Flow final : public VectorField {
                          std::span<double> columns) const;
 
   Model model_;
-  Drive drive_;
+  const Drive& drive_;
   const VelocityHistory& past_;
   friction::Direction direction_ = friction::Direction::rest;
   double offset_ = 0.0;

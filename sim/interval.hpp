@@ -47,7 +47,7 @@ class Interval {
   double begin = 0.0;     ///< s
   double duration = 0.0;  ///< s
   friction::Direction direction = friction::Direction::rest;
-  std::optional<EventKind> ending;  ///< none: the interval ends at a period boundary or at the horizon
+  std::optional<EventKind> ending;  ///< none: it ends at a period boundary, a noise's node or the horizon
 
   /// The motion at `begin + s`, 0 <= s <= duration.
   [[nodiscard]] virtual Sample at(double s) const = 0;

@@ -65,7 +65,10 @@ class SmoothEngine::StepInterval final : public Interval {
 };
 
 SmoothEngine::SmoothEngine(const Model& model)
-    : Engine(model), flow_(model, past_), judge_(model, past_), interval_(std::make_unique<StepInterval>(*this)) {
+    : Engine(model),
+      flow_(model, drive_, past_),
+      judge_(model, drive_, past_),
+      interval_(std::make_unique<StepInterval>(*this)) {
   for (const friction::Law& law : model_.friction) reach_ = std::max(reach_, law.delay());
   is_implicit_ = model.solver.kind == SolverKind::implicit_steps;
   stepper_ = is_implicit_ ? make_implicit_stepper() : make_explicit_stepper();
