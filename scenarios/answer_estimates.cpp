@@ -189,6 +189,28 @@ Table readable_estimates(const std::vector<identify::Estimate>& estimates) {
   return table;
 }
 
+/// Further parameters of all estimates for a terminal.
+Table readable_others(const std::vector<identify::Estimate>& estimates) {
+  constexpr int few = 5;
+  Table table{"parameters",
+              {{.name = "method", .kind = CellKind::text},
+               {.name = "parameter", .kind = CellKind::text},
+               {.name = "value (95 %)", .kind = CellKind::text},
+               {.name = "unit", .kind = CellKind::text}}};
+  table.is_file = false;
+  for (const identify::Estimate& estimate : estimates) {
+    for (const identify::FurtherParameter& parameter : estimate.others) {
+      std::string value = core::format_number(parameter.value, few);
+      if (parameter.interval95)
+        value += " (" + core::format_number((*parameter.interval95)[0], few) + " to " +
+                 core::format_number((*parameter.interval95)[1], few) + ")";
+      const std::array<std::string, 4> row = {estimate.method, parameter.name, value, parameter.unit};
+      for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].texts.push_back(row[i]);
+    }
+  }
+  return table;
+}
+
 /// e_0, e_1, ... of the decrement law.
 std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f, std::size_t count) {
   std::vector<double> extremes;
@@ -254,6 +276,7 @@ Answer answer(const std::vector<identify::Estimate>& estimates, const identify::
   answer.result["fit"] = fit_json(estimates, record);
   answer.result["verdict"] = identify::verdict(estimates);
   answer.tables.push_back(readable_estimates(estimates));
+  answer.tables.push_back(readable_others(estimates));
   answer.tables.push_back(estimate_table(estimates));
   add_curves(estimates, answer);
   return answer;

@@ -182,7 +182,7 @@ function navigation(u, ranges, full, plot, redraw) {
 
 /** A figure with a chart; spec {title, note, x: {label, unit}, y: {label, unit}, series, wide}. */
 function chart(spec) {
-  const used = spec.series.filter((s) => s.x.length > 0).map((s, i) => ({ kind: "line", colour: i, ...s }));
+  const used = spec.series.filter((s) => s.y.some((v) => v !== null)).map((s, i) => ({ kind: "line", colour: i, ...s }));
   if (used.length === 0) return null;
   const shape = scaled({ ...spec, series: used });
   const full = { x: extent(shape.series.map((s) => s.x), shape.xLog), y: extent(shape.series.flatMap((s) => [s.y, s.low ?? [], s.high ?? []]), shape.yLog) };

@@ -103,11 +103,11 @@ function ellipse(estimate) {
 function estimateTable(estimates) {
   const both = (value, interval, path) => ({
     text: value === null ? "–" : short(value, 5) + (interval && interval[0] !== null ? ` (${short(interval[0], 4)} to ${short(interval[1], 4)})` : ""), path, value });
-  return grid(["method", "", "ζ (95 %)", "c [N.s/m]", "x_f [m]", "F0 [N] (95 %)", "because"],
+  return grid(["method", "", "ζ (95 %)", "c [N.s/m] (95 %)", "x_f [m]", "F0 [N] (95 %)", "because"],
     estimates.map((e, i) => [
       { text: e.method, class: "text" },
       { text: e.usable ? "✓ usable" : "✗ not usable", class: `text ${e.usable ? "good" : "bad"}` },
-      both(e.zeta, e.interval95?.zeta, `estimates[${i}].zeta`), both(e.c, null, `estimates[${i}].c`),
+      both(e.zeta, e.interval95?.zeta, `estimates[${i}].zeta`), both(e.c, e.interval95?.c, `estimates[${i}].c`),
       both(e.x_f, null, `estimates[${i}].x_f`), both(e.F0, e.interval95?.F0, `estimates[${i}].F0`),
       { text: e.diagnostics.reason, class: "long" }]), { caption: "Estimates" });
 }
@@ -150,7 +150,8 @@ function subsetCharts(estimates) {
   return estimates.filter((e) => e.diagnostics.subsets?.length > 1).map((e) => {
     const { subsets } = e.diagnostics;
     const at = subsets.map((_, i) => i + 1);
-    return [["zeta", "ζ", ""], ["F0", "F0", "N"]].map(([key, label, unit], colour) => chart({
+    const damping = subsets.some((s) => s.zeta !== null) ? ["zeta", "ζ", ""] : ["c", "c", "N.s/m"];
+    return [damping, ["F0", "F0", "N"]].map(([key, label, unit], colour) => chart({
       title: `${label} from parts of the data, ${e.method}`, note: subsets.map((s, i) => `${i + 1}: ${s.label}`).join(", "),
       x: { label: "part", unit: "" }, y: { label, unit }, series: [{ label, x: at, y: subsets.map((s) => s[key]), kind: "points", colour }] }));
   }).flat();
@@ -158,6 +159,7 @@ function subsetCharts(estimates) {
 
 function identifyView(result) {
   const { estimates } = result;
+  // The covariance is that of the damping ratio: without a spring there is none.
   const known = estimates.filter((e) => e.zeta !== null && e.F0 !== null);
   const series = known.flatMap((e, i) => {
     const around = ellipse(e);
@@ -167,7 +169,7 @@ function identifyView(result) {
   return [...fitCharts(result),
     known.length ? chart({ title: "Damping ratio and friction force", note: "the 95 % ellipse: the two are correlated; open where the method does not stand by its number",
       x: { label: "ζ", unit: "" }, y: { label: "F0", unit: "N" }, series }) : null,
-    ...subsetCharts(estimates), ...estimateCurves(estimates)];
+    ...estimateCurves(estimates), ...subsetCharts(estimates)];
 }
 
 function furtherTables({ estimates }) {
