@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identify/acceleration_velocity_displacement.hpp"
+#include "identify/den_hartog_fit.hpp"
 #include "identify/free_decay.hpp"
 #include "identify/output_error.hpp"
 #include "identify/resonance_deming.hpp"
@@ -15,6 +16,7 @@ namespace dualdamp::identify {
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       acceleration_velocity_displacement_method,
+      den_hartog_fit_method,
       free_decay_method,
       output_error_method,
       resonance_deming_method,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/numbers.hpp"
 #include "identify/statistics.hpp"
@@ -44,27 +45,6 @@ int sweep_index(const std::string& label, std::vector<std::string>& labels) {
   return static_cast<int>(labels.size()) - 1;
 }
 
-void take_pairs(const PairRecord& record, ResonanceData& data, Estimate& estimate) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < record.pairs.size(); ++i) {
-    const Pair& pair = record.pairs[i];
-    const int number = pair.number > 0 ? pair.number : static_cast<int>(i) + 1;
-    if (std::string reason = exclusion_reason(pair); !reason.empty()) {
-      estimate.excluded.push_back({number, std::move(reason)});
-      continue;
-    }
-    data.pairs.push_back({pair.Y, pair.x, number, sweep_index(pair.sweep, data.sweeps)});
-    largest = std::max(largest, pair.x);
-  }
-  data.unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
-  for (Datum& datum : data.pairs) {
-    datum.Y /= data.unit;
-    datum.x /= data.unit;
-  }
-  std::sort(data.pairs.begin(), data.pairs.end(),
-            [](const Datum& a, const Datum& b) { return a.x != b.x ? a.x < b.x : a.number < b.number; });
-}
-
 template <typename Value>
 bool nearly_equal(const std::vector<Datum>& pairs, Value value) {
   const auto [least, greatest] = std::minmax_element(
@@ -74,31 +54,54 @@ bool nearly_equal(const std::vector<Datum>& pairs, Value value) {
 
 }  // namespace
 
+std::optional<ResonanceData> take_pairs(const Record& record, const KnownConstants& constants, Estimate& estimate) {
+  const auto refused = [&estimate](std::string reason) {
+    if (!reason.empty()) refuse(estimate, std::move(reason));
+    return !estimate.outcome.ok();
+  };
+  if (refused(lacks_pairs(record)) || refused(fault_of(constants))) return std::nullopt;
+  ResonanceData data;
+  data.constants = constants;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < record.pairs->pairs.size(); ++i) {
+    const Pair& pair = record.pairs->pairs[i];
+    const double r = frequency_ratio(frequency_of(pair, constants), constants);
+    if (std::isnan(r)) {
+      refuse(estimate, "the method needs the forcing frequency");
+      return std::nullopt;
+    }
+    if (i == 0) data.r = r;
+    const int number = pair.number > 0 ? pair.number : static_cast<int>(i) + 1;
+    if (std::string reason = exclusion_reason(pair); !reason.empty()) {
+      estimate.excluded.push_back({number, std::move(reason)});
+      continue;
+    }
+    data.pairs.push_back({pair.Y, pair.x, number, sweep_index(pair.sweep, data.sweeps), r});
+    largest = std::max(largest, pair.x);
+  }
+  data.unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
+  for (Datum& datum : data.pairs) {
+    datum.Y /= data.unit;
+    datum.x /= data.unit;
+  }
+  std::ranges::sort(data.pairs, {}, [](const Datum& datum) { return std::pair(datum.x, datum.number); });
+  return data;
+}
+
 std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
                                      const MethodOptions& options, Estimate& estimate) {
   if (std::string lack = lacks_resonance_pairs(record); !lack.empty()) {
     refuse(estimate, std::move(lack));
     return std::nullopt;
   }
-  if (std::string fault = fault_of(constants); !fault.empty()) {
-    refuse(estimate, std::move(fault));
+  std::optional<ResonanceData> data = take_pairs(record, constants, estimate);
+  if (!data) return std::nullopt;
+  if (!(data->r >= least_ratio && data->r <= greatest_ratio)) {
+    refuse(estimate, "the method needs excitation near resonance, and w/wn is " + core::format_number(data->r, 4));
     return std::nullopt;
   }
-  if (std::isnan(frequency_of(record.pairs->pairs.front(), constants))) {
-    refuse(estimate, "the method needs the forcing frequency");
-    return std::nullopt;
-  }
-  const double r = frequency_ratio(frequency_of(record.pairs->pairs.front(), constants), constants);
-  if (!(r >= least_ratio && r <= greatest_ratio)) {
-    refuse(estimate, "the method needs excitation near resonance, and w/wn is " + core::format_number(r, 4));
-    return std::nullopt;
-  }
-  ResonanceData data;
-  data.r = r;
-  data.G.approximate = options.approximate_G;
-  data.constants = constants;
-  take_pairs(*record.pairs, data, estimate);
-  if (std::string fault = fault_of(data.pairs, record.pairs->pairs.size(), estimate.excluded); !fault.empty()) {
+  data->G.approximate = options.approximate_G;
+  if (std::string fault = fault_of(data->pairs, record.pairs->pairs.size(), estimate.excluded); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return std::nullopt;
   }

@@ -26,13 +26,14 @@ struct Datum {
   double x = 0.0;
   int number = 0;  ///< of the pair in the record
   int sweep = 0;   ///< index of its sweep, in order of appearance
+  double r = 1.0;  ///< w/wn
 };
 
 /// The record made ready: pairs with positive finite amplitudes in order of x, and the frequency.
 struct ResonanceData {
   std::vector<Datum> pairs;
   double unit = 1.0;  ///< m
-  double r = 1.0;     ///< w/wn of the test
+  double r = 1.0;     ///< w/wn of the first pair; of all of them where one frequency is asked for
   ResonanceG G;       ///< at w = wn
   KnownConstants constants;
   std::vector<std::string> sweeps;  ///< labels
@@ -49,8 +50,13 @@ struct LineFriction {
   double G = 0.0;
 };
 
-/// Nothing after `estimate` has been refused: no pairs, unusable constants, a frequency far from resonance, fewer
-/// than two pairs with positive finite amplitudes.
+/// The usable pairs, at any frequencies. Nothing after `estimate` has been refused: no pairs, unusable constants,
+/// an unknown frequency.
+[[nodiscard]] std::optional<ResonanceData> take_pairs(const Record& record, const KnownConstants& constants,
+                                                      Estimate& estimate);
+
+/// The same for pairs at one frequency near resonance. Refused beyond that: another record, a frequency far from
+/// resonance, fewer than two pairs with positive finite amplitudes.
 [[nodiscard]] std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
                                                    const MethodOptions& options, Estimate& estimate);
 

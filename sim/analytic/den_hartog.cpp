@@ -242,6 +242,26 @@ DenHartog den_hartog(double zeta, double r) {
   return d;
 }
 
+DenHartogSlopes slopes(const DenHartog& d) {
+  assert(d.zeta > 0.0 && d.zeta < 1.0);
+  using Complex = std::complex<double>;
+  const double s = std::sqrt((1.0 - d.zeta) * (1.0 + d.zeta));
+  // With l = zeta + i s both functions are parts of T = tanh(pi l/(2 r)):  T = (G + zeta r H) + i s r H.
+  const Complex l(d.zeta, s);
+  const Complex T(d.G + d.zeta * d.r * d.H, s * d.r * d.H);
+  const Complex rate = 0.5 * pi / d.r * (1.0 - T * T);
+  const Complex T_zeta = rate * Complex(1.0, -d.zeta / s);
+  const Complex T_r = -rate * l / d.r;
+  DenHartogSlopes slopes;
+  slopes.H_zeta = T_zeta.imag() / (d.r * s) + d.H * d.zeta / (s * s);
+  slopes.G_zeta = T_zeta.real() - d.r * d.H - d.zeta * d.r * slopes.H_zeta;
+  slopes.q_zeta = 4.0 * d.zeta * d.r * d.r / d.q;
+  slopes.H_r = T_r.imag() / (d.r * s) - d.H / d.r;
+  slopes.G_r = T_r.real() - d.zeta * d.H - d.zeta * d.r * slopes.H_r;
+  slopes.q_r = 2.0 * d.r * (2.0 * d.zeta * d.zeta - (1.0 - d.r) * (1.0 + d.r)) / d.q;
+  return slopes;
+}
+
 double approximate_G(double zeta) {
   assert(zeta > 0.0);
   return 1.0 / std::tanh(0.5 * pi * zeta);

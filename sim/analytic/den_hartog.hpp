@@ -40,6 +40,15 @@ struct DenHartog {
 /// Precondition: zeta >= 0 and r > 0, both finite.
 [[nodiscard]] DenHartog den_hartog(double zeta, double r);
 
+/// First derivatives of the parameter functions with respect to zeta and r.
+struct DenHartogSlopes {
+  double G_zeta = 0.0, H_zeta = 0.0, q_zeta = 0.0;
+  double G_r = 0.0, H_r = 0.0, q_r = 0.0;
+};
+
+/// Precondition: 0 < zeta < 1. Relative error about 1e-15/s^2.
+[[nodiscard]] DenHartogSlopes slopes(const DenHartog& functions);
+
 /// Eq (15): G with wd taken for w and wn, sinh(pi zeta)/(cosh(pi zeta) - 1) = coth(pi zeta/2). Needs zeta > 0.
 [[nodiscard]] double approximate_G(double zeta);
 /// Its derivative, -pi/2 / sinh^2(pi zeta/2).

@@ -238,3 +238,30 @@ TEST_CASE("The turning point decides near resonance and not at low frequency") {
   CHECK(non_sticking_limit(den_hartog(0.0987, 1.0)) == Approx(1.063).margin(5e-4));
   CHECK(non_sticking_limit(den_hartog(0.142, 1.0)) == Approx(1.090).margin(5e-4));
 }
+
+TEST_CASE("Slopes of the parameter functions are their differences") {
+  // Central differences with h = 1e-5 err by h^2/6 times a third derivative, which scales with the inverse cube of
+  // the distance from the resonance, (zeta^2 + (r - 1)^2)^(1/2) >= 0.03 here, relative to a slope with the inverse
+  // of it: 1e-10/6/1e-3 = 2e-8; the rounding of the functions adds 1e-16/h.
+  constexpr double h = 1e-5;
+  for (const double zeta : {0.03, 0.12, 0.5, 0.9})
+    for (const double r : {0.4, 0.95, 1.0, 1.07, 2.5}) {
+      CAPTURE(zeta, r);
+      const DenHartog here = den_hartog(zeta, r);
+      const DenHartogSlopes s = slopes(here);
+      const DenHartog more = den_hartog(zeta + h, r);
+      const DenHartog less = den_hartog(zeta - h, r);
+      const DenHartog above = den_hartog(zeta, r + h);
+      const DenHartog below = den_hartog(zeta, r - h);
+      const auto near = [](double slope, double high, double low, double size) {
+        CHECK(slope == Approx((high - low) / (2.0 * h)).epsilon(1e-6).margin(1e-8 * (1.0 + std::abs(size))));
+      };
+      near(s.G_zeta, more.G, less.G, here.G);
+      near(s.H_zeta, more.H, less.H, here.H);
+      near(s.q_zeta, more.q, less.q, here.q);
+      near(s.G_r, above.G, below.G, here.G);
+      near(s.H_r, above.H, below.H, here.H);
+      near(s.q_r, above.q, below.q, here.q);
+      CHECK(s.G_zeta == Approx(here.dG_dzeta).epsilon(1e-11).margin(1e-12));
+    }
+}

@@ -1,0 +1,38 @@
+#pragma once
+/// Fit of Den Hartog's exact amplitude law to x-Y pairs at one or more frequencies.
+///
+///   x_i = -G x_f + sqrt((Y_i/q)^2 - (H x_f)^2),   G, H, q of (zeta, w_i/wn)           Eqs (3)-(6)
+///
+/// by least squares over zeta and x_f, with analytic derivatives; over wn too with `free_natural_frequency`.
+/// Nothing is neglected, so the frequencies need not be near resonance, and detuning is no error. From one
+/// frequency wn cannot be told in practice (zeta would be known ten times worse), so a free wn is refused with
+/// fewer than three.
+///
+/// Holds for Coulomb and viscous friction, zeta < 0.95, without sticking, errors of x independent and alike. Phases
+/// are not fitted; where the record has them they are compared with those of the fitted motion. Uncertainty:
+/// covariance of least squares, n - 2 (n - 3) degrees of freedom, or from `sigma_x` and `sigma_Y`. Doubts: pairs
+/// that stick are left out by the exact test; an F test of a term quadratic in the output; with several frequencies
+/// and a known wn, an F test of another wn. Source: denhartog1931, hundal1979, liang2004identifying. Errors:
+/// `outcome`. Cost: some twenty evaluations, each 0.3 us a frequency and 20 ns a pair, and the solver's own 0.2 ms.
+
+#include "identify/method.hpp"
+
+namespace dualdamp::identify {
+
+[[nodiscard]] Estimate den_hartog_fit(const Record& record, const KnownConstants& constants,
+                                      const MethodOptions& options);
+
+inline constexpr MethodEntry den_hartog_fit_method{
+    "den_hartog_fit",
+    "damping ratio and friction force from the exact amplitude law, at any frequencies",
+    "Coulomb and viscous friction, no sticking, errors in x alone; checked: sticking pairs are left out, quadratic "
+    "term "
+    "F-test, natural frequency F-test (several frequencies), measured phases where there are any",
+    "(x + G x_f)^2 + (H x_f)^2 = (Y/q)^2, Eqs (3)-(6), by nonlinear least squares over zeta, x_f and, if asked "
+    "for, wn",
+    "denhartog1931, hundal1979, liang2004identifying",
+    RecordKind::states,
+    lacks_pairs,
+    den_hartog_fit};
+
+}  // namespace dualdamp::identify
