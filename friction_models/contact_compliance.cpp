@@ -123,6 +123,14 @@ void ContactCompliance::rates(const Memory& memory, const Instant& now, Directio
   }
 }
 
+double ContactCompliance::dissipation(const Memory& memory, const Instant& now, Direction) const {
+  if (std::abs(memory.mode) != slipping) return damping_ * now.v * now.v;
+  const double speed = value(slider_speed(memory, now), now);
+  const double slider = now.limit_now(kinetic_) * speed;
+  const double stretching = now.v - memory.mode * speed;
+  return slider + damping_ * stretching * stretching;
+}
+
 void ContactCompliance::advance(Memory& memory, const Instant& begin, const Instant&, double duration,
                                 Direction) const {
   if (std::abs(memory.mode) != slipping || !is_damped()) return;

@@ -38,6 +38,8 @@ class ContactCompliance {
   void affine_guards(const Memory& memory, const Instant& now, Direction, std::vector<Affine>& guards) const;
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
   void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
+  /// Of the slider and the damper.
+  [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction) const;
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration, Direction) const;
 
  private:

@@ -1,21 +1,21 @@
 #pragma once
 /// A law under modifiers. Every force limit of the law, nominally L, becomes
 ///
-///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n(t)) L + position_slope |x|)     [N]
+///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) L + position_slope |x|)     [N]
 ///
-/// the factor first, the slope after. n(t) is an Ornstein-Uhlenbeck process of variance 1, held on cells of a tenth
-/// of the correlation time T: n_0 = g_0, n_(i+1) = rho n_i + sqrt(1 - rho^2) g_(i+1) with rho = exp(-1/10) and g_i
-/// the normal draw i of the seed. So its samples are exact, it is stationary from the start, and a cell has the
-/// same value however often the path is walked.
+/// the factors first, the slope after. n: the process of `fluctuation.hpp`, over time, stationary from the start,
+/// or over position, cell 0 about x = 0. p [W] is a state: time_constant p' = P - p, P what the law turns to heat,
+/// p = 0 at first.
 ///
-/// The law inside sees `Instant::modification` and stays affine in every mode: between the changes below limits are
-/// affine in t and x. The wrapper adds
-///   times    the ends of cells; the end of a falling drift at t = -1/drift. Where limits rise by a step the law
-///            first gets `Trigger::limit_change` at the old ones.
-///   guards   x = 0, where the slope changes its sign; a limit that vanishes, or returns.
-/// While no limit is left the law has no force; it begins anew, unstretched, where a limit returns.
+/// The law inside sees `Instant::modification` and stays affine in every mode, unless it warms: between the changes
+/// below limits are affine in t and x. The wrapper adds
+///   times    the ends of cells; the end of a falling drift at t = -1/drift.
+///   guards   the ends of cells over position; x = 0, where the slope changes its sign; a limit that vanishes, or
+///            returns.
+/// Where limits rise by a step the law first gets `Trigger::limit_change` at the old ones. While no limit is left
+/// the law has no force; it begins anew, unstretched, where a limit returns.
 ///
-/// Source: uhlenbeck1930 in `docs/refs.bib` for the process. Cost: a copy of what the law remembers at each call.
+/// Cost: a copy of what the law remembers at each call.
 
 #include <vector>
 

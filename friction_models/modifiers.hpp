@@ -4,8 +4,12 @@
 ///
 ///   drift           limits multiplied by max(0, 1 + drift t)
 ///   position_slope  limits plus position_slope |x|, at least 0
-///   fluctuation     limits multiplied by max(0, 1 + ratio n(t)), n a stationary Ornstein-Uhlenbeck process of
-///                   variance 1 and correlation exp(-|t|/correlation_time), held on a time grid
+///   fluctuation     limits multiplied by max(0, 1 + ratio n), n a stationary Ornstein-Uhlenbeck process of
+///                   variance 1 over time, correlation exp(-|t|/correlation_time), or over position, correlation
+///                   exp(-|x|/correlation_length), held on a grid
+///   warming         limits multiplied by exp(-P/power), P the power that the law turns to heat, averaged with a
+///                   weight that falls as exp(-t/time_constant) into the past; makes the law one of the smooth
+///                   engine
 
 #include <string_view>
 #include <vector>

@@ -83,7 +83,7 @@ struct Parameter {
   ParameterKind kind = ParameterKind::number;
   std::string_view unit{};                ///< of a number: SI, in udunits2 spelling: "N", "N/m", "N.s/m", "m", "1"
   std::vector<std::string_view> words{};  ///< of a choice
-  std::vector<Parameter> fields{};        ///< of a record, and of each item of a list; none is `instead_of` another
+  std::vector<Parameter> fields{};        ///< of a record, and of each item of a list
   std::size_t max_items = 10'000;         ///< of a list, which has one at least
   std::optional<ParameterValues::Value> fallback{};  ///< default
   std::string_view same_as{};                        ///< default is the value of this earlier parameter

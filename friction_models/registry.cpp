@@ -44,7 +44,7 @@ std::vector<Law> make_friction_lag(const Values& p) {
 }
 
 std::vector<LawEntry> make_list() {
-  const std::vector<std::string_view> all_modifiers = {"drift", "position_slope", "fluctuation"};
+  const std::vector<std::string_view> all_modifiers = {"drift", "position_slope", "fluctuation", "warming"};
   return {
       {.name = "bouc_wen",
        .summary = "hysteretic spring that yields gradually (Bouc and Wen)",
@@ -56,7 +56,7 @@ std::vector<LawEntry> make_list() {
        .is_passive = false,
        .caution = "A loop does not close where it began: it has no return-point memory.",
        .sources = "bouc1967, wen1976, erlicher2004",
-       .modifiers = {"drift", "fluctuation"},
+       .modifiers = {"drift", "fluctuation", "warming"},
        .parameters = BoucWen::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
          const Law law(BoucWen(p.number("limit"), p.number("stiffness"), p.number("exponent"), p.number("ratio"),
@@ -190,7 +190,7 @@ std::vector<LawEntry> make_list() {
        .engine = EngineKind::smooth,
        .states = "separation y and its rate, and whether the contact is open",
        .sources = "tolstoi1967, oden1985",
-       .modifiers = {"drift", "fluctuation"},
+       .modifiers = {"drift", "fluctuation", "warming"},
        .parameters = NormalVibration::parameters(),
        .make = [](const Values& p) -> std::vector<Law> { return {modified(Law(NormalVibration(p)), p)}; },
        .warnings = NormalVibration::warnings},
@@ -201,7 +201,7 @@ std::vector<LawEntry> make_list() {
        .engine = EngineKind::smooth,
        .states = "age psi of the contacts, ln",
        .sources = "dieterich1979, ruina1983, rice1983, rice2001",
-       .modifiers = {"drift", "fluctuation"},
+       .modifiers = {"drift", "fluctuation", "warming"},
        .parameters = RateState::parameters(),
        .make = [](const Values& p) -> std::vector<Law> { return {modified(Law(RateState(p)), p)}; },
        .warnings = RateState::warnings},
@@ -211,7 +211,7 @@ std::vector<LawEntry> make_list() {
                    "slip: F = +-kinetic",
        .states = "other end of the bond",
        .sources = "haessig1991",
-       .modifiers = all_modifiers,
+       .modifiers = {"drift", "position_slope", "fluctuation"},
        .parameters = ResetIntegrator::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
          const Law law(ResetIntegrator(p.number("kinetic"), p.number("stiffness"), p.number("static_gain"),
@@ -235,7 +235,7 @@ std::vector<LawEntry> make_list() {
        .equation = "F = coefficient (|v|/reference_velocity)^exponent sgn v",
        .engine = EngineKind::smooth,
        .sources = "ostwald1925, jacobsen1930",
-       .modifiers = {"drift", "fluctuation"},
+       .modifiers = {"drift", "fluctuation", "warming"},
        .parameters = ViscousPower::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
          const Law law(ViscousPower(p.number("coefficient"), p.number("reference_velocity"), p.number("exponent")));
@@ -246,7 +246,7 @@ std::vector<LawEntry> make_list() {
        .equation = "F = coefficient v/(1 + |v|/saturation_velocity)",
        .engine = EngineKind::smooth,
        .sources = "cross1965",
-       .modifiers = {"drift", "fluctuation"},
+       .modifiers = {"drift", "fluctuation", "warming"},
        .parameters = ViscousSaturating::parameters(),
        .make = [](const Values& p) -> std::vector<Law> {
          const Law law(ViscousSaturating(p.number("coefficient"), p.number("saturation_velocity")));
