@@ -79,6 +79,16 @@ double Flow::respond(std::size_t i, std::span<const double> X, double t, std::sp
   return model_.friction[i].respond(memory(i, X), instant(i, X, t), direction_, rates);
 }
 
+const Drive::Value& Flow::drive(double t) const {
+  for (const KnownDrive& known : known_drives_) {
+    if (known.t == t && known.cell == drive_.cell()) return known.value;
+  }
+  KnownDrive& next = known_drives_[oldest_drive_];
+  oldest_drive_ = (oldest_drive_ + 1) % known_drives_.size();
+  next = {t, drive_.cell(), drive_.at(t)};
+  return next.value;
+}
+
 /// Spring, damper and external force on the mass.
 double Flow::driving(double x, double v, const Drive::Value& drive) const {
   const Oscillator& o = model_.oscillator;
@@ -96,7 +106,7 @@ void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates
     return;
   }
   rates[0] = X[1];
-  rates[1] = (driving(X[0], X[1], drive_.at(t)) - force) / model_.oscillator.mass;
+  rates[1] = (driving(X[0], X[1], drive(t)) - force) / model_.oscillator.mass;
 }
 
 /// One column of the Jacobian as far as law i makes it.
@@ -120,7 +130,7 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
   const Oscillator& o = model_.oscillator;
   std::ranges::fill(columns, 0.0);
   if (direction_ != Direction::rest) {
-    const double stretch = drive_.at(t).y - X[0];
+    const double stretch = drive(t).y - X[0];
     columns[1] = -(o.stiffness + 3.0 * o.cubic_stiffness * stretch * stretch) / o.mass;
     columns[size_] = 1.0;
     columns[size_ + 1] = -o.damping / o.mass;
@@ -142,7 +152,7 @@ double Flow::resisting(std::span<const double> X, double t) const {
 }
 
 double Flow::pull(std::span<const double> X, double t) const {
-  return driving(X[0], 0.0, drive_.at(t)) - resisting(X, t);
+  return driving(X[0], 0.0, drive(t)) - resisting(X, t);
 }
 
 double Flow::limit(std::span<const double> X, double t) const {
@@ -158,16 +168,16 @@ void Flow::guards(std::size_t i, std::span<const double> X, double t, std::vecto
 }
 
 Sample Flow::sample(std::span<const double> X, double t) const {
-  const Drive::Value drive = drive_.at(t);
-  Sample sample{.t = offset_ + t, .y = drive.y, .y_rate = drive.y_rate, .x = X[0], .external = drive.external};
+  const Drive::Value& now = drive(t);
+  Sample sample{.t = offset_ + t, .y = now.y, .y_rate = now.y_rate, .x = X[0], .external = now.external};
   if (direction_ == Direction::rest) {
     // Friction balances all else.
-    sample.force = driving(X[0], 0.0, drive);
+    sample.force = driving(X[0], 0.0, now);
     return sample;
   }
   sample.v = X[1];
   sample.force = resisting(X, t);
-  sample.a = (driving(X[0], X[1], drive) - sample.force) / model_.oscillator.mass;
+  sample.a = (driving(X[0], X[1], now) - sample.force) / model_.oscillator.mass;
   return sample;
 }
 

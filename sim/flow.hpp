@@ -12,6 +12,8 @@
 /// The Jacobian is that of the known part exactly and of the laws by central differences, relative error about
 /// 1e-10: enough for Newton iterations and multipliers, and the same for every law (decision 017).
 
+#include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -58,6 +60,7 @@ class Flow final : public VectorField {
   const friction::Memory& memory(std::size_t i, std::span<const double> X) const;
   double respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const;
   [[nodiscard]] double resisting(std::span<const double> X, double t) const;
+  [[nodiscard]] const Drive::Value& drive(double t) const;
   [[nodiscard]] double driving(double x, double v, const Drive::Value& drive) const;
   void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t,
                          std::span<double> columns) const;
@@ -78,6 +81,14 @@ class Flow final : public VectorField {
   mutable std::vector<double> displaced_;
   mutable std::vector<double> above_;
   mutable std::vector<double> below_;
+  /// The drive of late: iterations and displaced steps ask for the times of a step's stages again and again.
+  struct KnownDrive {
+    double t = std::numeric_limits<double>::quiet_NaN();
+    long cell = 0;  ///< of a noise
+    Drive::Value value{};
+  };
+  mutable std::array<KnownDrive, 8> known_drives_;
+  mutable std::size_t oldest_drive_ = 0;
 };
 
 }  // namespace dualdamp::sim

@@ -119,8 +119,8 @@ class RadauStepper final : public Stepper {
       if (iteration > 0) {
         const double contraction = size / before;
         if (contraction >= 1.0) return size <= 1.0;
-        // Hopeless at this pace: most steps that fail do so after three iterations.
-        if (size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0) return false;
+        // Hopeless at this pace: most steps that fail do so after three iterations. A quick one has time left.
+        if (contraction > 0.1 && size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0) return false;
         if (size * std::min(1.0, contraction / (1.0 - contraction)) <= 1.0) return true;
       }
       before = size;

@@ -18,9 +18,10 @@ constexpr double largest_growth = 5.0;
 constexpr double largest_cut = 0.1;
 constexpr double safety = 0.9;
 
-/// Of dopri5: h |lambda| is 3.25 at the boundary of stability (Hairer's test), about which step control swings to
-/// and fro; so many steps beyond this make a stiff problem.
-constexpr double stability_limit = 2.0;
+/// So many steps of dopri5 with h |lambda| (Hairer's test) beyond this make a stiff problem. It is far below 3.25,
+/// the boundary of stability: an implicit step costs seven explicit ones and is as much longer at the default
+/// tolerance, stiff or not, so that little is lost by an early change.
+constexpr double stiff = 0.5;
 constexpr int stiff_enough = 15;
 
 /// A step is at most this part of the shortest period, so that five points show every turn of a guard.
@@ -193,7 +194,7 @@ bool SmoothEngine::use_implicit_steps() {
 /// the next one.
 void SmoothEngine::notice_stiffness() {
   if (is_implicit_) return;
-  stiff_steps_ = stepper_->stiffness() > stability_limit ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
+  stiff_steps_ = stepper_->stiffness() > stiff ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
 }
 
 /// False, with an outcome, when the motion takes more steps than anybody waits for.
