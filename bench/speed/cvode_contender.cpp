@@ -1,4 +1,7 @@
+// CVODE under both kinds of work. SUNDIALS belongs into one file.
+
 #include <cvode/cvode.h>
+#include <fmt/core.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_types.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -6,25 +9,103 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 #include <sundials/sundials_context.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 #include "bench/speed/contender.hpp"
+#include "bench/speed/smooth_contender.hpp"
 
 namespace dualdamp::bench::speed {
 namespace {
 
-void check(int status, const char* call) {
-  if (status < 0) throw std::runtime_error(std::string(call) + " failed with " + std::to_string(status));
-}
+enum class CvodeMethod {
+  adams,         ///< with fixed-point iteration
+  adams_newton,  ///< with dense Newton
+  bdf,           ///< with dense Newton
+};
 
-template <class T>
-using Handle = std::unique_ptr<T, void (*)(T*)>;
+/// What CVODE calls. `data` of each: the pointer given beside these.
+struct CvodeProblem {
+  CVRhsFn rate;
+  CVRootFn guard;           ///< one value, positive while a phase lasts
+  CVLsJacFn jacobian;       ///< nullptr: CVODE's differences
+  int root_direction = -1;  ///< of the guard's sign changes that are reported; 0: both
+  double relative_tolerance = 0.0;
+  std::span<const double> absolute_tolerances{};  ///< one for each state
+};
 
-int rate(realtype t, N_Vector state, N_Vector derivative, void* data) {
+/// One CVODE memory and all that it points to.
+class Cvode {
+ public:
+  Cvode(CvodeMethod method, const CvodeProblem& problem, void* data)
+      : state_(N_VNew_Serial(static_cast<sunindextype>(problem.absolute_tolerances.size()), context_), N_VDestroy),
+        memory_(CVodeCreate(method == CvodeMethod::bdf ? CV_BDF : CV_ADAMS, context_),
+                [](void* m) { CVodeFree(&m); }) {
+    void* cvode = memory_.get();
+    check(CVodeInit(cvode, problem.rate, 0.0, state_.get()), "CVodeInit");
+    const Vector absolute(N_VClone(state_.get()), N_VDestroy);
+    std::ranges::copy(problem.absolute_tolerances, N_VGetArrayPointer(absolute.get()));
+    check(CVodeSVtolerances(cvode, problem.relative_tolerance, absolute.get()), "CVodeSVtolerances");
+    check(CVodeSetUserData(cvode, data), "CVodeSetUserData");
+    check(CVodeSetMaxNumSteps(cvode, 1'000'000), "CVodeSetMaxNumSteps");
+    check(CVodeRootInit(cvode, 1, problem.guard), "CVodeRootInit");
+    int direction = problem.root_direction;
+    check(CVodeSetRootDirection(cvode, &direction), "CVodeSetRootDirection");
+    method == CvodeMethod::adams ? iterate() : solve_linear(problem);
+  }
+
+  [[nodiscard]] double* state() { return N_VGetArrayPointer(state_.get()); }
+
+  /// Starts anew from state().
+  void restart(double time) { check(CVodeReInit(memory_.get(), time, state_.get()), "CVodeReInit"); }
+
+  /// To the next root, or to `end`; true at a root. `time`: reached.
+  [[nodiscard]] bool advance(double end, double& time) {
+    const int status = CVode(memory_.get(), end, state_.get(), &time, CV_NORMAL);
+    check(status, "CVode");
+    return status == CV_ROOT_RETURN;
+  }
+
+ private:
+  template <class T>
+  using Handle = std::unique_ptr<T, void (*)(T*)>;
+  using Vector = Handle<_generic_N_Vector>;
+
+  static void check(int status, const char* call) {
+    if (status < 0) throw std::runtime_error(std::string(call) + " failed with " + std::to_string(status));
+  }
+
+  void iterate() {
+    fixed_point_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_));
+    check(CVodeSetNonlinearSolver(memory_.get(), fixed_point_.get()), "CVodeSetNonlinearSolver");
+  }
+
+  void solve_linear(const CvodeProblem& problem) {
+    const auto size = static_cast<sunindextype>(problem.absolute_tolerances.size());
+    matrix_.reset(SUNDenseMatrix(size, size, context_));
+    linear_.reset(SUNLinSol_Dense(state_.get(), matrix_.get(), context_));
+    check(CVodeSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
+    if (problem.jacobian != nullptr) check(CVodeSetJacFn(memory_.get(), problem.jacobian), "CVodeSetJacFn");
+  }
+
+  sundials::Context context_;
+  Vector state_;
+  Handle<_generic_SUNMatrix> matrix_{nullptr, SUNMatDestroy};
+  Handle<_generic_SUNLinearSolver> linear_{nullptr, [](SUNLinearSolver solver) { SUNLinSolFree(solver); }};
+  Handle<_generic_SUNNonlinearSolver> fixed_point_{nullptr,
+                                                   [](SUNNonlinearSolver solver) { SUNNonlinSolFree(solver); }};
+  Handle<void> memory_;
+};
+
+// The standard case.
+
+int rigid_rate(realtype t, N_Vector state, N_Vector derivative, void* data) {
   const PhaseField& field = *static_cast<const PhaseField*>(data);
   const double* s = N_VGetArrayPointer(state);
   double* d = N_VGetArrayPointer(derivative);
@@ -33,7 +114,7 @@ int rate(realtype t, N_Vector state, N_Vector derivative, void* data) {
   return 0;
 }
 
-int jacobian(realtype, N_Vector, N_Vector, SUNMatrix matrix, void* data, N_Vector, N_Vector, N_Vector) {
+int rigid_jacobian(realtype, N_Vector, N_Vector, SUNMatrix matrix, void* data, N_Vector, N_Vector, N_Vector) {
   const PhaseField& field = *static_cast<const PhaseField*>(data);
   SM_ELEMENT_D(matrix, 0, 0) = 0.0;
   SM_ELEMENT_D(matrix, 0, 1) = 1.0;
@@ -43,57 +124,35 @@ int jacobian(realtype, N_Vector, N_Vector, SUNMatrix matrix, void* data, N_Vecto
 }
 
 /// Positive while the phase lasts.
-int guard(realtype, N_Vector state, realtype* value, void* data) {
+int rigid_guard(realtype, N_Vector state, realtype* value, void* data) {
   value[0] = static_cast<const PhaseField*>(data)->direction * N_VGetArrayPointer(state)[1];
   return 0;
 }
 
-enum class Method { adams, bdf };
-
-/// One CVODE memory and all that it points to.
-struct Solver {
-  Solver(const StandardCase& work, double tolerance, Method method);
+struct RigidSolver {
+  RigidSolver(const StandardCase& work, double tolerance, CvodeMethod method)
+      : field(work),
+        absolute{tolerance, tolerance},
+        cvode(method,
+              {.rate = rigid_rate,
+               .guard = rigid_guard,
+               .jacobian = rigid_jacobian,
+               .relative_tolerance = tolerance,
+               .absolute_tolerances = absolute},
+              &field) {}
 
   void begin(double time, double x, double v) {
-    N_VGetArrayPointer(state.get())[0] = x;
-    N_VGetArrayPointer(state.get())[1] = v;
-    check(CVodeReInit(memory.get(), time, state.get()), "CVodeReInit");
+    cvode.state()[0] = x;
+    cvode.state()[1] = v;
+    cvode.restart(time);
   }
 
-  sundials::Context context;
-  Handle<_generic_N_Vector> state;
-  Handle<_generic_SUNMatrix> matrix{nullptr, SUNMatDestroy};
-  Handle<_generic_SUNLinearSolver> linear{nullptr, [](SUNLinearSolver solver) { SUNLinSolFree(solver); }};
-  Handle<_generic_SUNNonlinearSolver> fixed_point{nullptr,
-                                                  [](SUNNonlinearSolver solver) { SUNNonlinSolFree(solver); }};
-  Handle<void> memory;
   PhaseField field;
+  std::array<double, 2> absolute;
+  Cvode cvode;
 };
 
-Solver::Solver(const StandardCase& work, double tolerance, Method method)
-    : state(N_VNew_Serial(2, context), N_VDestroy),
-      memory(CVodeCreate(method == Method::adams ? CV_ADAMS : CV_BDF, context), [](void* m) { CVodeFree(&m); }),
-      field(work) {
-  void* cvode = memory.get();
-  check(CVodeInit(cvode, rate, 0.0, state.get()), "CVodeInit");
-  check(CVodeSStolerances(cvode, tolerance, tolerance), "CVodeSStolerances");
-  check(CVodeSetUserData(cvode, &field), "CVodeSetUserData");
-  check(CVodeSetMaxNumSteps(cvode, 1'000'000), "CVodeSetMaxNumSteps");
-  check(CVodeRootInit(cvode, 1, guard), "CVodeRootInit");
-  int downwards = -1;
-  check(CVodeSetRootDirection(cvode, &downwards), "CVodeSetRootDirection");
-  if (method == Method::adams) {
-    fixed_point.reset(SUNNonlinSol_FixedPoint(state.get(), 0, context));
-    check(CVodeSetNonlinearSolver(cvode, fixed_point.get()), "CVodeSetNonlinearSolver");
-  } else {
-    matrix.reset(SUNDenseMatrix(2, 2, context));
-    linear.reset(SUNLinSol_Dense(state.get(), matrix.get(), context));
-    check(CVodeSetLinearSolver(cvode, linear.get(), matrix.get()), "CVodeSetLinearSolver");
-    check(CVodeSetJacFn(cvode, jacobian), "CVodeSetJacFn");
-  }
-}
-
-Followed follow(const StandardCase& work, Solver& solver, int periods) {
+Followed follow(const StandardCase& work, RigidSolver& solver, int periods) {
   const double end = periods * 2.0 * std::numbers::pi / work.frequency;
   PhaseField& field = solver.field;
   field.direction = std::copysign(1.0, work.start_velocity);
@@ -101,33 +160,124 @@ Followed follow(const StandardCase& work, Solver& solver, int periods) {
 
   Followed followed;
   double turning = 0.0;
-  for (;;) {
-    double time = 0.0;
-    const int status = CVode(solver.memory.get(), end, solver.state.get(), &time, CV_NORMAL);
-    check(status, "CVode");
-    if (status != CV_ROOT_RETURN) return followed;
-    const double x = N_VGetArrayPointer(solver.state.get())[0];
+  double time = 0.0;
+  while (solver.cvode.advance(end, time)) {
+    const double x = solver.cvode.state()[0];
     field.direction = field.direction_after(x, time);
     solver.begin(time, x, 0.0);
     followed.amplitude = 0.5 * std::abs(x - turning);
     turning = x;
     ++followed.reversals;
   }
+  return followed;
 }
 
-Contender contender(const char* name, const StandardCase& work, double tolerance, Method method) {
-  return {name, tolerance, 1, [work, solver = std::make_shared<Solver>(work, tolerance, method)](int periods) {
+Contender contender(const char* name, const StandardCase& work, double tolerance, CvodeMethod method) {
+  return {name, tolerance, 1, [work, solver = std::make_shared<RigidSolver>(work, tolerance, method)](int periods) {
             return follow(work, *solver, periods);
           }};
+}
+
+// Smooth laws.
+
+/// What CVODE's calls need.
+struct SmoothField {
+  StandardCase standard;
+  LawResponse (*respond)(double, double, double);
+  bool has_state;
+  bool frozen;  ///< sgn v is `direction`, else that of v
+  double direction = 0.0;
+};
+
+int smooth_rate(realtype t, N_Vector state, N_Vector derivative, void* data) {
+  const SmoothField& field = *static_cast<const SmoothField*>(data);
+  const StandardCase& s = field.standard;
+  const double* X = N_VGetArrayPointer(state);
+  double* rates = N_VGetArrayPointer(derivative);
+  const double direction = field.frozen ? field.direction : std::copysign(1.0, X[1]);
+  const LawResponse law = field.respond(X[1], field.has_state ? X[2] : 0.0, direction);
+  rates[0] = X[1];
+  rates[1] =
+      (s.stiffness * (s.base_amplitude * std::cos(s.frequency * t) - X[0]) - s.damping * X[1] - law.force) / s.mass;
+  if (field.has_state) rates[2] = law.z_rate;
+  return 0;
+}
+
+int velocity(realtype, N_Vector state, realtype* value, void*) {
+  value[0] = N_VGetArrayPointer(state)[1];
+  return 0;
+}
+
+std::vector<double> tolerances(const SmoothCase& work, double tolerance) {
+  std::vector<double> list{tolerance * work.amplitude,
+                           tolerance * work.amplitude * work.model.excitation.frequency};
+  if (work.has_state) list.push_back(tolerance * work.z_scale);
+  return list;
+}
+
+struct SmoothSolver {
+  SmoothSolver(const SmoothCase& work, double tolerance, CvodeMethod method, bool restarts)
+      : field{.standard = {}, .respond = work.respond, .has_state = work.has_state, .frozen = restarts},
+        absolute(tolerances(work, tolerance)),
+        cvode(method,
+              {.rate = smooth_rate,
+               .guard = velocity,
+               .jacobian = nullptr,
+               .root_direction = 0,
+               .relative_tolerance = tolerance,
+               .absolute_tolerances = absolute},
+              &field) {}
+
+  void follow(const sim::State& start, int periods, std::vector<double>& turns);
+
+  SmoothField field;
+  std::vector<double> absolute;
+  Cvode cvode;
+};
+
+void SmoothSolver::follow(const sim::State& start, int periods, std::vector<double>& turns) {
+  double* X = cvode.state();
+  X[0] = start.x;
+  X[1] = start.v;
+  if (field.has_state) X[2] = start.memories.front().state.front();
+  field.direction = std::copysign(1.0, start.v);
+  cvode.restart(0.0);
+  const double end = periods * 2.0 * std::numbers::pi / field.standard.frequency;
+  double time = 0.0;
+  while (cvode.advance(end, time)) {
+    turns.push_back(X[0]);
+    if (!field.frozen) continue;
+    field.direction = -field.direction;
+    X[1] = 0.0;
+    cvode.restart(time);
+  }
 }
 
 }  // namespace
 
 std::vector<Contender> cvode_contenders(const StandardCase& work) {
-  return {contender("CVODE Adams 1e-9", work, 1e-9, Method::adams),
-          contender("CVODE Adams 1e-12", work, 1e-12, Method::adams),
-          contender("CVODE BDF 1e-9", work, 1e-9, Method::bdf),
-          contender("CVODE BDF 1e-12", work, 1e-12, Method::bdf)};
+  return {contender("CVODE Adams 1e-9", work, 1e-9, CvodeMethod::adams),
+          contender("CVODE Adams 1e-12", work, 1e-12, CvodeMethod::adams),
+          contender("CVODE BDF 1e-9", work, 1e-9, CvodeMethod::bdf),
+          contender("CVODE BDF 1e-12", work, 1e-12, CvodeMethod::bdf)};
+}
+
+std::vector<SmoothContender> cvode_smooth(const SmoothCase& work, double tolerance) {
+  std::vector<SmoothContender> contenders;
+  const auto add = [&](const char* name, CvodeMethod method, bool restarts) {
+    auto solver = std::make_shared<SmoothSolver>(work, tolerance, method, restarts);
+    contenders.push_back({fmt::format("{} {:.0e}{}", name, tolerance, restarts ? ", restarts" : ""),
+                          [solver, start = work.start](int periods, std::vector<double>& turns) {
+                            solver->follow(start, periods, turns);
+                          }});
+  };
+  for (const bool restarts : {true, false}) {
+    if (work.jumps && !restarts) continue;
+    add("Adams", CvodeMethod::adams, restarts);
+    add("Adams Newton", CvodeMethod::adams_newton, restarts);
+    add("BDF", CvodeMethod::bdf, restarts);
+  }
+  return contenders;
 }
 
 }  // namespace dualdamp::bench::speed

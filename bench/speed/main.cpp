@@ -1,5 +1,4 @@
-// dualdamp-speed: time per forcing period of the standard case, the exact engine beside general solvers, in one
-// run.
+// dualdamp-speed: time per forcing period of the standard case, the engines beside general solvers, in one run.
 
 #include <fmt/core.h>
 
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "bench/speed/contender.hpp"
+#include "bench/speed/smooth_table.hpp"
 #include "bench/speed/steady_states.hpp"
 #include "bench/speed/timing.hpp"
 #include "core/build_info.hpp"
@@ -123,6 +123,7 @@ int compare(int batches) {
   if (scipy.empty()) fmt::print("skipped: SciPy; python3-scipy is not there\n");
   fmt::print("\nratio: median time over that of the exact engine; error: relative, to the closed form\n");
   print_figures(work, rows);
+  print_smooth_table(batches);
   if (!sound) fmt::print(stderr, "a contender lost a reversal: there are two in each period\n");
   return sound ? 0 : 1;
 }

@@ -7,7 +7,9 @@
 #include <random>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
+#include "bench/speed/smooth_case.hpp"
 #include "bench/speed/timing.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/curves.hpp"
@@ -36,6 +38,26 @@ sim::OscillatorBatch around(const StandardCase& work, int count) {
   return batch;
 }
 
+/// Input amplitudes from `first` to 10 times F0/k [m].
+std::vector<double> amplitudes_from(double first, const StandardCase& work, int count) {
+  std::vector<double> amplitudes;
+  for (int i = 0; i < count; ++i)
+    amplitudes.push_back((first + (10.0 - first) * i / (count - 1)) * work.friction / work.stiffness);
+  return amplitudes;
+}
+
+/// Processor seconds on one core; `is_sound`: what the curve must be like.
+double seconds_for_curve(const sim::Model& model, const std::vector<double>& amplitudes, int batches,
+                         bool (*is_sound)(const sim::Curve&)) {
+  bool sound = true;
+  const std::function<void(int)> compute = [&](int times) {
+    for (int i = 0; i < times; ++i) sound = sound && is_sound(sim::xy_curve(model, amplitudes, {}, {.threads = 1}));
+  };
+  const double median = time_in_turns(std::span(&compute, 1), batches, 0.1).front().median;
+  if (!sound) throw std::runtime_error("the x-Y curve is not what it should be");
+  return median;
+}
+
 }  // namespace
 
 double seconds_for_steady_state(const StandardCase& work) {
@@ -53,19 +75,16 @@ double seconds_for_steady_state(const StandardCase& work) {
 double seconds_for_curve(const StandardCase& work, int count) {
   sim::Model model = model_of(work);
   model.initial = {};
-  std::vector<double> amplitudes;
-  for (int i = 0; i < count; ++i)
-    amplitudes.push_back((1.05 + 8.95 * i / (count - 1)) * work.friction / work.stiffness);
-  bool sticks = false;
-  const std::function<void(int)> compute = [&](int times) {
-    for (int i = 0; i < times; ++i) {
-      const sim::Curve curve = sim::xy_curve(model, amplitudes, {}, {.threads = 1});
-      sticks = curve.points.front().sticks > 0 && curve.points.back().sticks == 0;
-    }
-  };
-  const double median = time_in_turns(std::span(&compute, 1), 9, 0.1).front().median;
-  if (!sticks) throw std::runtime_error("the x-Y curve does not leave the sticking range");
-  return median;
+  return seconds_for_curve(model, amplitudes_from(1.05, work, count), 9, [](const sim::Curve& curve) {
+    return curve.points.front().sticks > 0 && curve.points.back().sticks == 0;
+  });
+}
+
+double seconds_for_smooth_curve(int count) {
+  const sim::Model model = model_under("lugre", lugre_values());
+  return seconds_for_curve(model, amplitudes_from(1.5, {}, count), 3, [](const sim::Curve& curve) {
+    return std::ranges::all_of(curve.points, &sim::CurvePoint::ok);
+  });
 }
 
 double steady_states_per_second(const StandardCase& work, int count) {

@@ -13,6 +13,9 @@ namespace dualdamp::bench::speed {
 /// F0/k, sticking ones included.
 [[nodiscard]] double seconds_for_curve(const StandardCase& work, int count);
 
+/// The same under lugre (smooth_cases(), the first), from 1.5 to 10 times F0/k, motions that creep included.
+[[nodiscard]] double seconds_for_smooth_curve(int count);
+
 /// Steady states a second, by the clock, of `count` oscillators that do not stick, in batches on all cores. They
 /// surround the standard case: zeta in 0.05..0.35, r in 0.7..1.3, friction at most 0.3 of the drive's force, drawn
 /// at random.

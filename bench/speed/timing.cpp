@@ -15,7 +15,7 @@ double seconds(const std::function<void(int)>& work, int units) {
 }
 
 int batch_size(const std::function<void(int)>& work, double batch_seconds) {
-  int units = 16;
+  int units = 1;
   for (;;) {
     const double taken = seconds(work, units);
     if (taken >= 0.25 * batch_seconds)

@@ -1,0 +1,27 @@
+#pragma once
+/// Ways to follow a work under a smooth law.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/speed/smooth_case.hpp"
+
+namespace dualdamp::bench::speed {
+
+struct SmoothContender {
+  std::string setting;
+  /// From the start of the orbit over some forcing periods; appends the turning points [m].
+  std::function<void(int periods, std::vector<double>& turns)> follow;
+};
+
+/// The smooth engine as it comes, at this tolerance. It has found out about stiffness before.
+[[nodiscard]] SmoothContender smooth_engine(const SmoothCase& work, double tolerance);
+
+/// CVODE at this tolerance (relative; absolute: of the size of each state) in every setting that can do the work:
+/// Adams with fixed-point iteration, Adams and BDF with dense Newton; starting anew behind each reversal with sgn v
+/// frozen before it, or going on through it, for laws without a jump there. Jacobians are CVODE's differences.
+/// Empty where SUNDIALS is not installed. Following throws where CVODE fails.
+[[nodiscard]] std::vector<SmoothContender> cvode_smooth(const SmoothCase& work, double tolerance);
+
+}  // namespace dualdamp::bench::speed
