@@ -304,7 +304,7 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
                                 : stroke.length > 0.0 ? Direction::forward
                                                       : Direction::backward;
     const Path path = stroke;
-    const Path mirrored = [&](double t) {
+    const Path mirrored = [stroke](double t) {
       const Instant now = stroke(t);
       return Instant{now.t, -now.x, -now.v};
     };
@@ -351,7 +351,7 @@ void examine_factor(const LawCase& c, Faults& faults) {
     for (int step = 1; step <= steps_per_stroke; ++step) {
       const double to = stroke.begin.t + stroke.duration * step / steps_per_stroke;
       scaled.follow(to, stroke);
-      modified.follow(to, [&](double t) {
+      modified.follow(to, [stroke, factor](double t) {
         Instant now = stroke(t);
         now.modification.factor = factor;
         return now;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "sim/stepper.hpp"
@@ -60,8 +61,22 @@ class StatesOnPath final : public VectorField {
 }  // namespace
 
 LawHost::LawHost(const friction::Law& law, const Instant& start)
-    : law_(law), memory_(law.start(start)), now_(start) {
+    : law_(law), memory_(law.start(start)), now_(start), first_velocity_(start.v) {
+  now_.past_velocity = start.v;
   settle();
+}
+
+/// The way, with the velocity of old for a law that sees it.
+Path LawHost::with_past(const Path& way) {
+  if (!(law_.delay() > 0.0)) return way;
+  strokes_.push_back({now_.t, way});
+  return [this, way](double t) {
+    Instant now = way(t);
+    const double then = t - law_.delay();
+    const auto after = std::ranges::upper_bound(strokes_, then, {}, &Stroke::begin);
+    now.past_velocity = after == strokes_.begin() ? first_velocity_ : std::prev(after)->path(then).v;
+    return now;
+  };
 }
 
 std::vector<double> LawHost::guards() const {
@@ -78,7 +93,8 @@ void LawHost::turn(Direction direction) {
   }
 }
 
-void LawHost::follow(double end, const Path& path) {
+void LawHost::follow(double end, const Path& way) {
+  const Path path = with_past(way);
   for (int events = 0; now_.t < end && !broken_; ++events) {
     if (events > max_events) return give_up("there is no end of events within one step");
     const double scheduled = law_.next_change(memory_);
@@ -104,7 +120,7 @@ void LawHost::move_to(double x) {
   const Instant from = now_;
   const double length = x - from.x;
   turn(length > 0.0 ? Direction::forward : length < 0.0 ? Direction::backward : Direction::rest);
-  follow(from.t + 1.0, [&](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
+  follow(from.t + 1.0, [from, length](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
   now_.x = x;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Plays the driver of one law whose mass is led along a given path. A copy goes on by itself, so that a step can
-/// be tried.
+/// Plays the driver of one law whose mass is led along a given path; a law with a delay sees the velocity of the
+/// path that long ago, that of the start before it. A copy goes on by itself, so that a step can be tried.
 
 #include <functional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dualdamp::sim {
 
-/// Where the mass is at a time.
+/// Where the mass is at a time. Kept, for a law with a delay: it owns what it needs.
 using Path = std::function<friction::Instant(double t)>;
 
 class LawHost {
@@ -39,13 +39,19 @@ class LawHost {
   /// The mass comes to rest, and goes on in this direction.
   void turn(friction::Direction direction);
   /// Moves the mass to time `end`, through the events of the law in between. One direction only: `turn` first.
-  void follow(double end, const Path& path);
+  void follow(double end, const Path& way);
   /// Moves the mass in a straight line, from rest, in unit time.
   void move_to(double x);
   /// The states from now to `end`, no event in between.
   void go(double end, const Path& path);
 
  private:
+  struct Stroke {
+    double begin = 0.0;
+    Path path;
+  };
+
+  [[nodiscard]] Path with_past(const Path& way);
   void integrate(double end, const Path& path);
   [[nodiscard]] int worst_guard();
   [[nodiscard]] double time_of_violation(double end, const Path& path) const;
@@ -55,6 +61,8 @@ class LawHost {
   friction::Law law_;
   friction::Memory memory_;
   friction::Instant now_;
+  double first_velocity_ = 0.0;
+  std::vector<Stroke> strokes_;  ///< those followed, for a law with a delay
   friction::Direction direction_ = friction::Direction::rest;
   double guard_size_ = 0.0;
   double work_ = 0.0;
