@@ -4,8 +4,11 @@
 
 #include "identify/acceleration_velocity_displacement.hpp"
 #include "identify/den_hartog_fit.hpp"
+#include "identify/extended_kalman.hpp"
 #include "identify/free_decay.hpp"
+#include "identify/friction_force.hpp"
 #include "identify/output_error.hpp"
+#include "identify/recursive_least_squares.hpp"
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
@@ -17,8 +20,11 @@ const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       acceleration_velocity_displacement_method,
       den_hartog_fit_method,
+      extended_kalman_method,
       free_decay_method,
+      friction_force_method,
       output_error_method,
+      recursive_least_squares_method,
       resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,

@@ -25,17 +25,6 @@ double range_of(const std::vector<double>& signal) {
   return *high - *low;
 }
 
-/// Standard deviation of the noise of a signal, from fourth differences, which a smooth motion hardly has.
-double noise_of(const std::vector<double>& x) {
-  double sum = 0.0;
-  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
-    const double fourth = x[i - 2] - 4.0 * x[i - 1] + 6.0 * x[i] - 4.0 * x[i + 1] + x[i + 2];
-    sum += fourth * fourth;
-  }
-  constexpr double gain = 70.0;  // sum of the squared coefficients
-  return std::sqrt(sum / (gain * static_cast<double>(x.size() - 4)));
-}
-
 /// One history with its forward model.
 struct Test {
   int number = 0;
@@ -50,7 +39,7 @@ struct Test {
     const std::vector<double> begin(history->x.begin(), history->x.begin() + samples);
     x0 = begin[0];
     // Noise moves the extremes of eight samples three deviations apart, hardly ever six.
-    starts_at_rest = range_of(begin) <= 6.0 * noise_of(begin) + 1e-12 * range_of(history->x);
+    starts_at_rest = range_of(begin) <= 6.0 * noise_deviation(begin) + 1e-12 * range_of(history->x);
     if (!history->v.empty())
       v0 = history->v[0];
     else if (!starts_at_rest)

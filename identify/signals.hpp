@@ -29,6 +29,10 @@ namespace dualdamp::identify {
 /// What that makes of a sine at `omega` [rad/s]: (1 + 2 cos wT + 2 cos 2wT)/5.
 [[nodiscard]] double five_point_gain(double omega, double sample_rate);
 
+/// Standard deviation of a signal's noise, from fourth differences, which a smooth motion hardly has. At least five
+/// samples.
+[[nodiscard]] double noise_deviation(std::span<const double> x);
+
 /// Butterworth's low-pass filter of second order, run forwards and backwards: no lag and the gain
 /// 1/(1 + (tan(w T/2)/tan(wc T/2))^4), one half at the cut-off. The ends are continued by point reflection.
 class ZeroPhaseFilter {
