@@ -273,7 +273,7 @@ std::vector<SmoothContender> cvode_smooth(const SmoothCase& work, double toleran
   };
   for (const bool restarts : {true, false}) {
     if (work.jumps && !restarts) continue;
-    add("Adams", CvodeMethod::adams, restarts);
+    if (!work.stiff) add("Adams", CvodeMethod::adams, restarts);
     add("Adams Newton", CvodeMethod::adams_newton, restarts);
     add("BDF", CvodeMethod::bdf, restarts);
   }

@@ -111,8 +111,12 @@ std::vector<SmoothCase> smooth_cases() {
   friction::ParameterValues elastic = lugre_values();
   elastic.set("elastic_limit", elastic_limit);
   std::vector<SmoothCase> cases = {
-      {.law = "lugre", .values = lugre_values(), .respond = lugre, .z_scale = kinetic / sigma0},
-      {.law = "elasto_plastic", .values = elastic, .respond = elasto_plastic, .z_scale = kinetic / sigma0},
+      {.law = "lugre", .values = lugre_values(), .respond = lugre, .z_scale = kinetic / sigma0, .stiff = true},
+      {.law = "elasto_plastic",
+       .values = elastic,
+       .respond = elasto_plastic,
+       .z_scale = kinetic / sigma0,
+       .stiff = true},
       {.law = "dahl",
        .values = {{"kinetic", kinetic}, {"sigma0", dahl_stiffness}},
        .respond = dahl,
@@ -129,7 +133,8 @@ std::vector<SmoothCase> smooth_cases() {
                   {"b", b},
                   {"slip_distance", slip_distance},
                   {"reference_velocity", reference_velocity}},
-       .respond = rate_state},
+       .respond = rate_state,
+       .stiff = true},
   };
   for (SmoothCase& work : cases) work = prepared(std::move(work));
   return cases;

@@ -30,6 +30,7 @@ struct SmoothCase {
   bool has_state = true;
   double z_scale = 1.0;  ///< size of z
   bool jumps = false;    ///< the force jumps at a reversal: a general solver has to stop there
+  bool stiff = false;    ///< an iteration without Newton's method takes a hundred times as long
 
   sim::Model model{};
   sim::State start{};      ///< on the orbit, at t = 0

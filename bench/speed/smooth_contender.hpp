@@ -19,9 +19,9 @@ struct SmoothContender {
 [[nodiscard]] SmoothContender smooth_engine(const SmoothCase& work, double tolerance);
 
 /// CVODE at this tolerance (relative; absolute: of the size of each state) in every setting that can do the work:
-/// Adams with fixed-point iteration, Adams and BDF with dense Newton; starting anew behind each reversal with sgn v
-/// frozen before it, or going on through it, for laws without a jump there. Jacobians are CVODE's differences.
-/// Empty where SUNDIALS is not installed. Following throws where CVODE fails.
+/// Adams with fixed-point iteration, for laws that are not stiff, Adams and BDF with dense Newton; starting anew
+/// behind each reversal with sgn v frozen before it, or going on through it, for laws without a jump there.
+/// Jacobians are CVODE's differences. Empty where SUNDIALS is not installed. Following throws where CVODE fails.
 [[nodiscard]] std::vector<SmoothContender> cvode_smooth(const SmoothCase& work, double tolerance);
 
 }  // namespace dualdamp::bench::speed
