@@ -21,6 +21,7 @@ namespace dualdamp::bench::speed {
 namespace {
 
 constexpr int periods_per_start = 10;
+constexpr std::size_t reversals = 2UL * periods_per_start;
 constexpr double error_wanted = 1e-8;
 
 /// From 1e-5 to 1e-12.
@@ -46,7 +47,7 @@ double error_of(const SmoothCase& work, const SmoothContender& contender) {
   } catch (const std::runtime_error&) {
     return std::numeric_limits<double>::infinity();
   }
-  if (turns.size() != 2 * periods_per_start) return std::numeric_limits<double>::infinity();
+  if (turns.size() != reversals) return std::numeric_limits<double>::infinity();
   return departure(turns, work.amplitude);
 }
 
