@@ -148,7 +148,8 @@ sim::Model model(const Json& values) {
   return result;
 }
 
-Identify identify_question(const Json& section, const sim::Model& model, std::optional<identify::MeasuredRecord> data) {
+Identify identify_question(const Json& section, const sim::Model& model,
+                           std::optional<identify::MeasuredRecord> data) {
   Identify result;
   result.constants = {model.oscillator.mass, model.oscillator.stiffness,
                       model.excitation.is_harmonic() ? model.excitation.frequency : identify::unknown};
