@@ -13,6 +13,7 @@
 #include <span>
 
 #include "core/numbers.hpp"
+#include "identify/extremes.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -185,67 +186,9 @@ std::optional<Eigen::Matrix2d> unit_covariance(const DecayModel& model, const So
   return Eigen::Matrix2d(half.transpose() * half);
 }
 
-/// The extremes of a record in units of a power of two near the largest, so that no scale matters.
-struct Extremes {
-  std::vector<double> values;
-  double unit = 1.0;  ///< m
-};
-
-/// Leaves out everything from index `count` on.
-void cut(Extremes& extremes, std::size_t count, const std::string& reason, Estimate& estimate) {
-  for (std::size_t i = count; i < extremes.values.size(); ++i)
-    estimate.excluded.push_back({static_cast<int>(i) + 1, reason});
-  extremes.values.resize(count);
-}
-
-/// Reads the extremes and cuts them where they cease to alternate; nothing after `estimate` has been refused.
-std::optional<Extremes> take_extremes(const Record& record, const KnownConstants& constants, Estimate& estimate) {
-  if (!record.decay) {
-    refuse(estimate, "the record holds no extremes of a free vibration");
-    return std::nullopt;
-  }
-  if (std::string fault = fault_of(constants); !fault.empty()) {
-    refuse(estimate, std::move(fault));
-    return std::nullopt;
-  }
-  Extremes extremes{record.decay->extremes, 1.0};
-  double largest = 0.0;
-  for (const double value : extremes.values) {
-    if (!std::isfinite(value)) {
-      refuse(estimate, "an extreme is not finite");
-      return std::nullopt;
-    }
-    largest = std::max(largest, std::abs(value));
-  }
-  if (largest > 0.0) extremes.unit = std::ldexp(1.0, std::ilogb(largest));
-  for (double& value : extremes.values) value /= extremes.unit;
-  const std::vector<double>& e = extremes.values;
-  for (std::size_t i = 1; i < e.size(); ++i) {
-    const double swing = e[i] - e[i - 1];
-    const bool turns = swing != 0.0 && (i == 1 || swing * (e[i - 1] - e[i - 2]) < 0.0);
-    if (turns) continue;
-    cut(extremes, i, "extreme " + std::to_string(i + 1) + " does not lie across from the one before it", estimate);
-    break;
-  }
-  return extremes;
-}
-
-bool enough(const Extremes& extremes, bool zero_offset, Estimate& estimate) {
-  const std::size_t needed = zero_offset ? 3 : 4;
-  if (extremes.values.size() >= needed) return true;
-  std::string reason = std::string(zero_offset ? "three" : "four") + " successive extremes are needed and " +
-                       std::to_string(extremes.values.size()) + " can be used";
-  if (!estimate.excluded.empty()) {
-    reason += ": " + estimate.excluded.front().reason +
-              " (signed turning points are asked for, peak and trough by turns, not peaks alone and not a history)";
-  }
-  refuse(estimate, std::move(reason));
-  return false;
-}
-
 /// Fits, leaves out extremes that come after the mass has stopped at the estimate, and fits again until none does.
 std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, Estimate& estimate) {
-  while (enough(extremes, zero_offset, estimate)) {
+  while (enough(extremes, zero_offset ? 3 : 4, estimate)) {
     std::optional<Solution> solution = solve(extremes.values, zero_offset);
     if (!solution) {
       refuse(estimate,

@@ -9,6 +9,12 @@
 #include "identify/friction_force.hpp"
 #include "identify/output_error.hpp"
 #include "identify/recursive_least_squares.hpp"
+#include "identify/energy_balance.hpp"
+#include "identify/free_decay.hpp"
+#include "identify/harmonic_balance.hpp"
+#include "identify/jacobsen_ayre.hpp"
+#include "identify/output_error.hpp"
+#include "identify/receptance.hpp"
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
@@ -25,6 +31,12 @@ const std::vector<MethodEntry>& methods() {
       friction_force_method,
       output_error_method,
       recursive_least_squares_method,
+      energy_balance_method,
+      free_decay_method,
+      harmonic_balance_method,
+      jacobsen_ayre_method,
+      output_error_method,
+      receptance_method,
       resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,

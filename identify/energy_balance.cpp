@@ -1,0 +1,109 @@
+#include "identify/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "identify/force_parameters.hpp"
+#include "identify/statistics.hpp"
+#include "identify/steady_states.hpp"
+
+namespace dualdamp::identify {
+
+using std::numbers::pi;
+
+EnergyTerms energy_of(const Pair& pair, double stiffness) {
+  const double fundamental = std::isnan(pair.fundamental) ? pair.x : pair.fundamental;
+  const double period = 2.0 * pi / pair.omega;
+  const double speed = pair.omega * fundamental;
+  return {
+      .work = pi * stiffness * pair.Y * fundamental * std::sin(pair.phase),
+      .path = 4.0 * pair.x,
+      .speed_square = period * (std::isnan(pair.mean_square_speed) ? 0.5 * speed * speed : pair.mean_square_speed),
+      .number = pair.number};
+}
+
+namespace {
+
+std::optional<ForceLine> line_through(const std::vector<EnergyTerms>& accounts) {
+  std::vector<Datum> points;
+  points.reserve(accounts.size());
+  for (const EnergyTerms& account : accounts)
+    points.push_back({account.speed_square / account.path, account.work / account.path, account.number});
+  return force_line(std::move(points), 1.0);
+}
+
+std::vector<EnergyTerms> accounts_of(const std::vector<Pair>& states, double stiffness) {
+  std::vector<EnergyTerms> accounts;
+  accounts.reserve(states.size());
+  for (const Pair& state : states) accounts.push_back(energy_of(state, stiffness));
+  return accounts;
+}
+
+}  // namespace
+
+bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& constants, Estimate& estimate,
+             std::vector<std::string>& faults, const OwnAccounts& own) {
+  const std::optional<ForceLine> line = line_through(accounts);
+  if (!line) {
+    refuse(estimate, "two steady states of different speeds are needed");
+    return false;
+  }
+  set_estimate(estimate, *line, constants);
+  estimate.used = numbers_of(line->points);
+  constexpr double rounding = 1e-9;
+  const double scale = output_range(line->points);
+  judge_force_signs(estimate, rounding * scale / line->moments.mean_Y, rounding * scale, faults);
+  Eigen::VectorXd residuals = line->residuals;
+  if (own && estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
+    const std::optional<ForceLine> of_own = line_through(own(estimate.value));
+    if (of_own && of_own->residuals.size() == residuals.size()) residuals -= of_own->residuals;
+  }
+  const CurvatureColumns columns = curvature_columns(line->points);
+  estimate.lack_of_fit = added_term_test(columns.line, residuals, columns.square, scale, "quadratic term F-test");
+  if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
+    faults.emplace_back(
+        "the dissipation per path does not grow with the speed as Coulomb and viscous friction make it, so no "
+        "single "
+        "zeta and F0 describes these states");
+  return true;
+}
+
+std::string lacks_energy(const Record& record) { return lacks_phases(record); }
+
+Estimate energy_balance(const Record& record, const KnownConstants& constants, const MethodOptions& /*options*/) {
+  Estimate estimate;
+  estimate.method = energy_balance_method.name;
+  const std::optional<std::vector<Pair>> states = take_states(record, constants, true, estimate);
+  if (!states) return estimate;
+  const bool approximate = std::ranges::any_of(
+      *states, [](const Pair& pair) { return std::isnan(pair.fundamental) || std::isnan(pair.mean_square_speed); });
+  const auto own = [&](const ParameterSet& value) {
+    return accounts_of(exact_states(*states, value, constants), constants.stiffness);
+  };
+  std::vector<std::string> faults;
+  if (!balance(accounts_of(*states, constants.stiffness), constants, estimate, faults,
+               approximate ? OwnAccounts(own) : OwnAccounts()))
+    return estimate;
+  if (approximate) {
+    const auto read = [&](const std::vector<Pair>& exact) -> std::optional<ParameterSet> {
+      const std::optional<ForceLine> line = line_through(accounts_of(exact, constants.stiffness));
+      if (!line) return std::nullopt;
+      return parameters(ForceParameters{constants.mass, line->c(), constants.stiffness, line->F0()});
+    };
+    if (std::isnan(constants.mass))
+      estimate.warnings.emplace_back(
+          "a harmonic motion was assumed, since fundamental or mean square speed were not measured: c is some 2 % "
+          "too "
+          "large and F0 too small, or more away from resonance");
+    judge_own_reading(*states, constants, read,
+                      "because fundamental or mean square speed were not measured and a harmonic motion is assumed",
+                      estimate, faults);
+  }
+  conclude(estimate, faults,
+           "rests on " + std::to_string(estimate.used.size()) + " of " +
+               std::to_string(record.pairs->pairs.size()) + " steady states");
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

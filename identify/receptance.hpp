@@ -1,0 +1,41 @@
+#pragma once
+/// Receptance method: viscous and Coulomb friction from the imaginary part of the inverse receptance over
+/// frequency.
+///
+///   (k Y/X) exp(i phi) = (k - m w^2) + i [c w + 4 F0/(pi X)]
+///
+/// Linear regression of the imaginary part on {w, 1/X} gives c and F0; that of the real part on {1, w^2} gives the
+/// stiffness and the mass that the motion shows, listed beside. X is the amplitude of the fundamental where it was
+/// measured, else half of peak to trough.
+///
+/// Holds for Coulomb and viscous friction in the sense of harmonic balance, without sticking. Harmonic balance
+/// biases c and F0 by one or two percent; the method tells by reading exact states at its own estimate. Errors
+/// independent, alike in k Y/X. Doubts: pairs that stick are left out (when the mass is known); an F test of a term
+/// that grows with X; with one input amplitude the fit of the limacon, |X/(k Y)| = (1/h)(sin phi - 4 F0/(pi k Y)),
+/// h = c wn, listed as a subset: it takes hysteretic damping, and a warning tells when it disagrees. Uncertainty:
+/// least squares, n - 2 degrees of freedom. Source: tomlinson1980. Errors: `outcome`. Cost: about 10 us for 50
+/// states.
+
+#include "identify/method.hpp"
+
+namespace dualdamp::identify {
+
+[[nodiscard]] Estimate receptance(const Record& record, const KnownConstants& constants,
+                                  const MethodOptions& options);
+
+/// Phases at three frequencies are asked for.
+[[nodiscard]] std::string lacks_receptance(const Record& record);
+
+inline constexpr MethodEntry receptance_method{
+    "receptance",
+    "viscous damping and friction force from amplitude and phase over frequency",
+    "harmonic balance, no sticking, a true phase; checked: sticking pairs are left out, linear term F-test, the "
+    "bias "
+    "of harmonic balance at the estimate, the limacon where the input was constant",
+    "Im(k Y/X exp(i phi)) = c w + 4 F0/(pi X); Re = k - m w^2",
+    "tomlinson1980",
+    RecordKind::states,
+    lacks_receptance,
+    receptance};
+
+}  // namespace dualdamp::identify
