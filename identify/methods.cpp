@@ -4,17 +4,15 @@
 
 #include "identify/acceleration_velocity_displacement.hpp"
 #include "identify/den_hartog_fit.hpp"
+#include "identify/energy_balance.hpp"
 #include "identify/extended_kalman.hpp"
 #include "identify/free_decay.hpp"
 #include "identify/friction_force.hpp"
-#include "identify/output_error.hpp"
-#include "identify/recursive_least_squares.hpp"
-#include "identify/energy_balance.hpp"
-#include "identify/free_decay.hpp"
 #include "identify/harmonic_balance.hpp"
 #include "identify/jacobsen_ayre.hpp"
 #include "identify/output_error.hpp"
 #include "identify/receptance.hpp"
+#include "identify/recursive_least_squares.hpp"
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
@@ -26,17 +24,15 @@ const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       acceleration_velocity_displacement_method,
       den_hartog_fit_method,
+      energy_balance_method,
       extended_kalman_method,
       free_decay_method,
       friction_force_method,
-      output_error_method,
-      recursive_least_squares_method,
-      energy_balance_method,
-      free_decay_method,
       harmonic_balance_method,
       jacobsen_ayre_method,
       output_error_method,
       receptance_method,
+      recursive_least_squares_method,
       resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,
