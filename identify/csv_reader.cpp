@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "identify/text.hpp"
 
 namespace dualdamp::identify {
 
@@ -32,23 +33,6 @@ std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// Length of the UTF-8 character at the start of `text`; 0 when there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
-  // Overlong forms, surrogates and code points beyond the last one.
-  if (lead == 0xE0 && byte(1) < 0xA0) return 0;
-  if (lead == 0xED && byte(1) > 0x9F) return 0;
-  if (lead == 0xF0 && byte(1) < 0x90) return 0;
-  if (lead == 0xF4 && byte(1) > 0x8F) return 0;
-  return length;
 }
 
 struct SourceLine {
@@ -523,43 +507,6 @@ DataTable parse_csv(std::string_view text, const std::string& file, const ReadOp
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   refuse_binary(text, file);
   return Parser(text, file, options, problems, warnings).run();
-}
-
-namespace {
-
-bool is_control(char c) {
-  return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
-}
-
-/// Bytes of `text` before the first one that is a control character or no UTF-8.
-std::size_t length_of_text(std::string_view text) {
-  std::size_t i = 0;
-  while (i < text.size()) {
-    const std::size_t length = is_control(text[i]) ? 0 : utf8_length(text.substr(i));
-    if (length == 0) break;
-    i += length;
-  }
-  return i;
-}
-
-}  // namespace
-
-bool is_utf8(std::string_view text) { return length_of_text(text) == text.size(); }
-
-void refuse_binary(std::string_view text, const std::string& file) {
-  const std::size_t end = length_of_text(text);
-  if (end == text.size()) return;
-  const std::string_view before = text.substr(0, end);
-  const std::size_t line_start = before.rfind('\n') + 1;  // 0 without one
-  core::Diagnostic problem;
-  problem.place = {file,
-                   static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
-                   static_cast<int>(std::min<std::size_t>(end - line_start, 1'000'000)) + 1,
-                   {}};
-  problem.message =
-      is_control(text[end]) ? "the file is not text: it holds a control character" : "the text is not UTF-8";
-  problem.allowed = "a text file in UTF-8";
-  throw core::InputError(std::move(problem));
 }
 
 }  // namespace dualdamp::identify

@@ -22,10 +22,4 @@ namespace dualdamp::identify {
 [[nodiscard]] DataTable parse_csv(std::string_view text, const std::string& file, const ReadOptions& options,
                                   Problems& problems, std::vector<std::string>& warnings);
 
-/// UTF-8 without control characters but tab and line ends.
-[[nodiscard]] bool is_utf8(std::string_view text);
-
-/// Refuses what is not UTF-8 or holds control characters.
-void refuse_binary(std::string_view text, const std::string& file);
-
 }  // namespace dualdamp::identify

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/text.hpp"
 
 namespace dualdamp::identify {
 
@@ -66,6 +67,22 @@ bool is_mat_5(std::string_view bytes) {
 }
 
 bool is_mat_73(std::string_view bytes) { return is_mat_5(bytes) && bytes.starts_with("MATLAB 7.3"); }
+
+/// Neither matio nor HDF5 promises to be safe in threads.
+std::mutex one_at_a_time;
+
+/// What is wrong with a file is said by us, not on stderr by the libraries.
+void silence() {
+  Mat_LogInitFunc("dualdamp", [](int, char*) {});
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// HDF5 knows where its files end; matio takes one that cannot be opened for one without variables.
+bool is_whole_hdf5(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file >= 0) H5Fclose(file);
+  return file >= 0;
+}
 
 [[noreturn]] void refuse_truncated(const std::string& file) {
   refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
@@ -159,7 +176,7 @@ class Reader {
       if (!variable) break;
       const bool is_struct = variable->class_type == MAT_C_STRUCT;
       if (variable->name == nullptr || (!is_struct && !is_wanted(variable->name))) {
-        warnings_.push_back("variable '" + std::string(variable->name == nullptr ? "" : variable->name) +
+        warnings_.push_back("variable '" + to_utf8(variable->name == nullptr ? "" : variable->name) +
                             "' is not known and is ignored");
         continue;
       }
@@ -239,7 +256,7 @@ class Reader {
       } else if (known != nullptr) {
         take(name, *variable, *known, result);
       } else {
-        warnings_.push_back("field '" + name + "' is not known and is ignored");
+        warnings_.push_back("field '" + to_utf8(name) + "' is not known and is ignored");
       }
     }
     problems_.throw_if_any();
@@ -304,7 +321,7 @@ class Reader {
   /// A text or a number labels the test, a vector of numbers each row.
   void take_label(const std::string& name, const matvar_t& variable, TestColumns& test) {
     if (variable.class_type == MAT_C_CHAR && variable.data_type == MAT_T_UINT8 && variable.data != nullptr) {
-      test.label.assign(static_cast<const char*>(variable.data), size_of(variable));
+      test.label = to_utf8({static_cast<const char*>(variable.data), size_of(variable)});
       return;
     }
     const auto values = vector(name, variable);
@@ -361,8 +378,13 @@ class Reader {
 
 bool is_mat(std::string_view bytes) { return is_mat_5(bytes) || head4(bytes, 0).size > 0; }
 
-void check_mat(std::string_view bytes, const std::string& file) {
-  if (is_mat_73(bytes)) return;  // HDF5 knows where its files end
+void check_mat(std::string_view bytes, const std::string& path, const std::string& file) {
+  if (is_mat_73(bytes)) {
+    const std::lock_guard lock(one_at_a_time);
+    silence();
+    if (!is_whole_hdf5(path)) refuse_truncated(file);
+    return;
+  }
   const bool is_5 = is_mat_5(bytes);
   constexpr std::size_t tag = 8;
   const bool swap = is_5 && word(bytes, header_size - 4, false) >> 16U != 0x4D49U;
@@ -378,9 +400,8 @@ void check_mat(std::string_view bytes, const std::string& file) {
 
 DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
                    std::vector<std::string>& warnings) {
-  static std::mutex one_at_a_time;  // neither matio nor HDF5 promises to be safe in threads
   const std::lock_guard lock(one_at_a_time);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what is wrong with a file is said by us, not on stderr by HDF5
+  silence();
   return Reader(path, options, problems, warnings).run();
 }
 

@@ -20,8 +20,9 @@ namespace dualdamp::identify {
 /// The first bytes are those of a MATLAB file.
 [[nodiscard]] bool is_mat(std::string_view bytes);
 
-/// Refuses a file that ends before its elements do: matio reads what is missing as zeros.
-void check_mat(std::string_view bytes, const std::string& file);
+/// Refuses a file that ends before its elements do: matio reads what is missing as zeros. `bytes` are those of the
+/// file at `path`; `file` is its name in messages.
+void check_mat(std::string_view bytes, const std::string& path, const std::string& file);
 
 [[nodiscard]] DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
                                  std::vector<std::string>& warnings);

@@ -12,6 +12,7 @@
 #include "identify/csv_reader.hpp"
 #include "identify/data_table.hpp"
 #include "identify/mat_reader.hpp"
+#include "identify/text.hpp"
 #include "identify/universal_file_reader.hpp"
 
 namespace dualdamp::identify {
@@ -110,7 +111,7 @@ MeasuredRecord read_record(const std::string& path, const ReadOptions& options) 
     refuse_file(named.name, "a MATLAB file cannot be read from a pipe", "the name of a file");
   Problems problems;
   std::vector<std::string> warnings;
-  check_mat(bytes, named.name);
+  check_mat(bytes, path, named.name);
   DataTable table = read_mat(path, named, problems, warnings);
   return assemble(std::move(table), problems, std::move(warnings), bytes);
 }

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/units.hpp"
-#include "identify/csv_reader.hpp"
+#include "identify/text.hpp"
 
 namespace dualdamp::identify {
 
@@ -29,22 +29,6 @@ std::string_view trimmed(std::string_view text) {
 /// Characters [from, from + width) of a line, without blanks around; less where the line is shorter.
 std::string_view cut(std::string_view line, std::size_t from, std::size_t width) {
   return from < line.size() ? trimmed(line.substr(from, width)) : std::string_view{};
-}
-
-/// Texts of such files are ASCII or Latin-1 ("m/s\u00b2"), of newer ones UTF-8: UTF-8 goes into messages.
-std::string to_utf8(std::string_view text) {
-  if (is_utf8(text)) return std::string(text);
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x80) {
-      result += static_cast<char>(0xC0U | (byte >> 6U));
-      result += static_cast<char>(0x80U | (byte & 0x3FU));
-    } else {
-      result += byte < 0x20 || byte == 0x7F ? '?' : c;
-    }
-  }
-  return result;
 }
 
 /// A text of the file; the format writes NONE where there is none.

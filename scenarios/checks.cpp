@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "identify/derived_records.hpp"
 #include "identify/methods.hpp"
 #include "scenarios/format.hpp"
 #include "scenarios/formulas.hpp"
@@ -320,7 +321,13 @@ class Checker {
     const auto path = safe_path(name);
     if (!path) return std::nullopt;
     try {
-      return identify::read_record(path->string(), read_options(name));
+      identify::MeasuredRecord data = identify::read_record(path->string(), read_options(name));
+      // A frequency that could not be resolved is still a word, and complained about elsewhere.
+      const bool known = text_at("excitation", "frequency").ends_with("rad/s");
+      const double frequency = known ? *number_at("excitation", "frequency") : identify::unknown;
+      for (std::string& warning : identify::complete(data.record, frequency))
+        data.warnings.push_back(std::move(warning));
+      return data;
     } catch (const core::InputError& error) {
       reading_.problems.insert(reading_.problems.end(), error.diagnostics().begin(), error.diagnostics().end());
       return std::nullopt;

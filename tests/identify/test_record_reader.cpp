@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <random>
 
 #include "core/diagnostics.hpp"
 #include "core/provenance.hpp"
@@ -430,4 +431,21 @@ TEST_CASE("MATLAB files cut off anywhere are refused") {
       CHECK(refusal([&] { return read_record(cut.path()); }) != "accepted");
     }
   }
+}
+
+// Not version 7.3: HDF5 itself can crash or hang in a damaged file (docs/data-files.md).
+TEST_CASE("MATLAB 5 files changed anywhere are read or refused") {
+  Matlab whole("whole.mat", MAT_FT_MAT5);
+  const std::string path = whole.add("x", ramp(40)).add("dt", {0.01}).add_struct("run", {ramp(20)}).path();
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::mt19937_64 random(5);
+  int refused = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::string damaged = bytes;
+    for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
+    const TemporaryFile changed("changed.mat", damaged);
+    refused += refusal([&] { return read_record(changed.path()); }) == "accepted" ? 0 : 1;
+  }
+  CHECK(refused > 0);
 }

@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+"""Broken and hostile data files, through the program: each ends in a clear message with status 3, or is read as stated.
+
+usage: test_data_files.py PROGRAM [TEST...]
+"""
+
+import math
+import os
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+
+PAIRS = "Y [mm],x [mm]\n4.452,5.117\n5.027,7.143\n5.602,9.667\n6.177,12.707\n"
+CONSTANTS = ["--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz"]
+
+
+def history(times, form="{:.4f}"):
+    return "t,x\n" + "".join(f"{form.format(t)},{i % 7}\n" for i, t in enumerate(times))
+
+
+def mat4(name, values, imaginary=0, rows=None):
+    head = struct.pack("<5i", 0, len(values) if rows is None else rows, 1, imaginary, len(name) + 1)
+    return head + name.encode() + b"\0" + struct.pack(f"<{len(values)}d", *values)
+
+
+def mat5(*elements):
+    return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + b"".join(elements)
+
+
+def uff58(kind=1, count=20, values=20, form=2, number="    58"):
+    lines = ["    -1", number, "LVDT", "NONE", "NONE", "NONE", "NONE"]
+    lines.append(f"{kind:5d}{1:10d}{0:5d}{0:10d} {'NONE':10s}{1:10d}{3:4d} {'NONE':10s}{0:10d}{0:4d}")
+    lines.append(f"{form:10d}{count:10d}{1:10d}{0:13.5E}{0.001:13.5E}{0:13.5E}")
+    lines.append(f"{17:10d}{0:5d}{0:5d}{0:5d} {'Time':20s} {'s':20s}")
+    lines.append(f"{8:10d}{0:5d}{0:5d}{0:5d} {'x':20s} {'m':20s}")
+    lines += [f"{0:10d}{0:5d}{0:5d}{0:5d} {'NONE':20s} {'NONE':20s}"] * 2
+    lines += [f"{float(i):13.5E}" for i in range(values)]
+    return "\n".join([*lines, "    -1", ""])
+
+
+EVEN = [i / 1000 for i in range(100)]
+
+# Name: (content, words of the message).
+REFUSED = {
+    "nothing.csv": ("", "the file holds no header"),
+    "blank.csv": ("\n\n  \r\n", "the file holds no header"),
+    "header_only.csv": ("Y,x\n", "there is a header and no data below it"),
+    "no_header.csv": ("4.4,5.1\n5.0,7.1\n", "the first row holds numbers"),
+    "one_column.csv": ("Y\n1\n2\n", "there is no column x"),
+    "ragged.csv": ("Y,x\n1,2\n3\n4,5,6\n", "the row does not have as many fields as the header"),
+    "nan.csv": ("Y,x\n1,nan\n", "is not a finite number"),
+    "infinite.csv": ("Y,x\n1,1e999\n", "is not a finite number"),
+    "words.csv": ("Y,x\n1,two\n", "is not a number"),
+    "empty_field.csv": ("Y,x\n1,\n", "an empty field"),
+    "decimal_comma.csv": ("Y;x\n4,4;5,1\n", "a decimal number with a point, not with a comma"),
+    "wrong_unit.csv": ("Y [kg],x\n1,2\n", "the unit of column Y"),
+    "no_unit.csv": ("Y [banana],x\n1,2\n", "the unit of column Y"),
+    "open_unit.csv": ("Y [mm,x\n1,2\n", "square brackets"),
+    "twice.csv": ("Y,x,position\n1,2,3\n", "stands there twice"),
+    "negative.csv": ("Y,x\n1,-2\n", "is negative"),
+    "open_quote.csv": ('Y,x\n1,"2\n', "does not end with its quote"),
+    "utf16.csv": (PAIRS.encode("utf-16"), "not UTF-8 but UTF-16"),
+    "utf16_without_mark.csv": (PAIRS.encode("utf-16-le"), "holds a control character"),
+    "latin1.csv": ("Y [µm],x\n1,2\n".encode("latin-1"), "not UTF-8"),
+    "nul.csv": (b"Y,x\n1,2\n3,\x004\n", "holds a control character"),
+    "random.bin": (random.Random(1).randbytes(100_000), "not UTF-8"),
+    "workbook.xlsx": (b"PK\x03\x04" + bytes(1000), "a workbook or an archive"),
+    "old.xls": (b"\xd0\xcf\x11\xe0" + bytes(1000), "an old Excel workbook"),
+    "packed.csv.gz": (b"\x1f\x8b\x08" + bytes(100), "compressed"),
+    "labview.tdms": (b"TDSm" + bytes(100), "TDMS"),
+    "hdf5.h5": (b"\x89HDF\r\n\x1a\n" + bytes(1000), "no MATLAB file"),
+    "unsorted.csv": (history(EVEN[:50] + [0.01] + EVEN[50:]), "the time does not increase"),
+    "time_twice.csv": (history(EVEN[:50] + EVEN[49:]), "it stands there twice"),
+    "jitter.csv": (history([t + 1e-4 * math.sin(1e5 * t) for t in EVEN], "{:.9f}"), "the time steps are not constant"),
+    "torn.csv": (history([t for i, t in enumerate(EVEN) if i % 6]), "no stretch between them is long enough"),
+    "short.csv": ("t,x\n0,1\n1,2\n2,3\n", "too short"),
+    "no_time.csv": ("x,v\n1,2\n2,3\n", "there is no column t"),
+    "sweeps_mixed.csv": ("t,x,sweep\n" + "".join(f"{i},{i},{'ab'[i // 20 % 2]}\n" for i in range(60)), "do not stand together"),
+    "many_rows.csv": ("x\n" + "1\n" * 20_000_001, "more than 20 million rows"),
+    "many_columns.csv": (",".join(f"c{i}" for i in range(2000)) + "\n1\n", "more than 1000 fields"),
+    "empty.mat": (mat5(), "it holds no variables"),
+    "cut.mat": (mat5(struct.pack("<2I", 14, 5000), bytes(100)), "damaged or cut off"),
+    "garbage.mat": (mat5(struct.pack("<2I", 14, 96), random.Random(2).randbytes(96)), "MATLAB file"),
+    "cut_73.mat": (b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + bytes(384) + b"\x89HDF\r\n\x1a\n" + bytes(20), "damaged or cut off"),
+    "complex4.mat": (mat4("x", [0.0] * 40, imaginary=1, rows=20) + mat4("dt", [0.1]), "complex"),
+    "cut4.mat": (mat4("x", [0.0] * 20, rows=30), "damaged or cut off"),
+    "nan4.mat": (mat4("Y", [1.0, 2.0]) + mat4("x", [1.0, math.nan]), "element 2 of variable 'x'"),
+    "ragged4.mat": (mat4("Y", [1.0, 2.0]) + mat4("x", [1.0]), "not of the same length"),
+    "cut.uff": (uff58(values=12), "the data set ends after 12 of 20 values"),
+    "lies.uff": (uff58(count=-5), "the data set holds no values"),
+    "words.uff": (uff58().replace("7.00000E+00", "7,0"), "no number in columns"),
+    "spectrum.uff": (uff58(kind=4), "no time response"),
+    "no_sets.uff": ("    -1\n   151\nmodel\n    -1\n", "no time response"),
+    "cut.uff58b": (uff58(number=f"    58b{1:6d}{2:6d}{11:12d}{80:12d}{0:6d}{0:6d}{0:12d}{0:12d}", values=0)[:-8], "ends before its 20 values"),
+}
+
+# Read as stated.
+ACCEPTED = {
+    "mark.csv": b"\xef\xbb\xbf" + PAIRS.encode(),
+    "carriage_returns.csv": PAIRS.replace("\n", "\r"),
+    "crlf.csv": PAIRS.replace("\n", "\r\n"),
+    "tabs.csv": PAIRS.replace(",", "\t"),
+    "semicolons.csv": PAIRS.replace(",", ";"),
+    "excel.csv": "sep=;\n" + PAIRS.replace(",", ";"),
+    "quoted.csv": '"Y [mm]","x [mm]"\n' + "".join(f'"{a}","{b}"\n' for a, b in (line.split(",") for line in PAIRS.split()[4:])),
+    "round_brackets.csv": PAIRS.replace("[", "(").replace("]", ")"),
+    "comments.csv": "# instrument 7\n\n" + PAIRS + "\n\n",
+    "no_extension": PAIRS,
+    "pairs.mat": mat4("Y", [0.004452, 0.005027, 0.005602]) + mat4("x", [0.005117, 0.007143, 0.009667]),
+}
+
+
+class DataFiles(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def identify(self, data, *more):
+        return subprocess.run(
+            [PROGRAM, "identify", str(data), *CONSTANTS, *more], cwd=self.folder, capture_output=True, text=True, timeout=60
+        )
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def check_refused(self, data, words):
+        result = self.identify(data)
+        self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+        self.assertIn(words, result.stderr)
+        self.assertTrue(result.stderr.startswith(str(data)), result.stderr)
+        self.assertLess(len(result.stderr), 20_000)
+        self.assertFalse((self.folder / "results").exists())
+
+    def test_there_are_thirty(self):
+        self.assertGreaterEqual(len(REFUSED), 30)
+
+    def test_refused(self):
+        for name, (content, words) in REFUSED.items():
+            with self.subTest(name):
+                self.check_refused(self.write(name, content), words)
+
+    def test_accepted(self):
+        for name, content in ACCEPTED.items():
+            with self.subTest(name):
+                result = self.identify(self.write(name, content))
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+                self.assertNotIn("error", result.stderr)
+
+    def test_gaps_are_told(self):
+        times = [t for i, t in enumerate(EVEN) if i not in (10, 11)]
+        result = self.identify(self.write("gaps.csv", history(times)))
+        self.assertIn("the longest uninterrupted stretch is used, 88 rows", result.stderr)
+
+    def test_what_is_no_file(self):
+        self.check_refused(self.folder / "none.csv", "cannot be opened")
+        self.check_refused(self.folder, "a directory, not a file")
+        link = self.folder / "link.csv"
+        link.symlink_to(self.folder)
+        self.check_refused(link, "a directory, not a file")
+        loop = self.folder / "loop.csv"
+        loop.symlink_to(loop)
+        self.check_refused(loop, "cannot be opened")
+        self.check_refused("/dev/zero", "holds a control character")
+        with (self.folder / "sparse.csv").open("wb") as file:
+            file.write(b"Y,x\n1,2\n")
+            file.truncate(5 << 30)
+        self.check_refused(self.folder / "sparse.csv", "larger than 1 GiB: 5120 MiB")
+
+    def through_a_pipe(self, content):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        writer = threading.Thread(target=pipe.write_bytes, args=[content])
+        writer.start()
+        result = self.identify(pipe)
+        writer.join()
+        pipe.unlink()
+        return result
+
+    def test_pipes(self):
+        self.assertEqual(self.through_a_pipe(PAIRS.encode()).returncode, 0)
+        result = self.through_a_pipe(ACCEPTED["pairs.mat"])
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("cannot be read from a pipe", result.stderr)
+
+    def test_columns_and_units_of_the_caller(self):
+        plain = self.write("plain.csv", PAIRS.replace("Y [mm]", "LVDT 1").replace("x [mm]", "LVDT 2"))
+        told = self.identify(plain, "--column", "Y=LVDT 1", "--column", "x=2", "--unit", "Y=mm", "--unit", "x=mm", "--json")
+        stated = self.identify(self.write("pairs.csv", PAIRS), "--json")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        estimates = [document[document.index('"estimates"'):document.index('"excluded"')] for document in (told.stdout, stated.stdout)]
+        self.assertEqual(*estimates)
+        for option in (["--column", "x=LVDT 9"], ["--column", "z=2"], ["--unit", "x=kg"], ["--unit", "x"]):
+            self.assertEqual(self.identify(plain, *option).returncode, 3, option)
+
+    def test_damaged_matlab_files_do_no_harm(self):
+        """A hundred random changes of a sound file: read, or refused with a message; never a crash."""
+        sound = ACCEPTED["pairs.mat"]
+        generator = random.Random(3)
+        for _ in range(100):
+            damaged = bytearray(sound)
+            for _ in range(generator.randint(1, 4)):
+                damaged[generator.randrange(len(damaged))] = generator.randrange(256)
+            result = self.identify(self.write("damaged.mat", bytes(damaged)))
+            self.assertIn(result.returncode, (0, 3, 4), result.stderr)
+
+
+if __name__ == "__main__":
+    sys.argv[1:2] = []
+    unittest.main()
