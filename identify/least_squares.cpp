@@ -41,6 +41,11 @@ LeastSquaresFit fit(const LeastSquaresProblem& problem) {
   LeastSquaresFit result;
   result.parameters = problem.start;
   const auto size = static_cast<int>(problem.start.size());
+  result.residuals.resize(problem.residuals);
+  if (!problem.evaluate(problem.start, result.residuals, nullptr)) {  // Ceres would log it on standard error
+    result.outcome = {core::OutcomeKind::not_identifiable, "the model has no value where the fit begins"};
+    return result;
+  }
   ceres::Problem ceres_problem;
   ceres_problem.AddResidualBlock(new Cost(problem), nullptr, result.parameters.data());
   for (int i = 0; i < size && problem.low.size() > 0; ++i)
@@ -53,14 +58,12 @@ LeastSquaresFit fit(const LeastSquaresProblem& problem) {
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   options.max_num_iterations = 200;
-  // Noiseless data are to give the truth to rounding.
-  options.function_tolerance = 0.0;
+  options.function_tolerance = problem.tolerance;
   options.gradient_tolerance = 0.0;
   options.parameter_tolerance = 1e-15;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
 
-  result.residuals.resize(problem.residuals);
   result.jacobian.resize(problem.residuals, size);
   const bool has_value = problem.evaluate(result.parameters, result.residuals, &result.jacobian);
   // Where rounding is all that is left no step reduces the cost any more, which Ceres counts as a failure.

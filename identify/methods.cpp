@@ -10,6 +10,7 @@
 #include "identify/friction_force.hpp"
 #include "identify/harmonic_balance.hpp"
 #include "identify/jacobsen_ayre.hpp"
+#include "identify/law_selection.hpp"
 #include "identify/output_error.hpp"
 #include "identify/receptance.hpp"
 #include "identify/recursive_least_squares.hpp"
@@ -30,6 +31,7 @@ const std::vector<MethodEntry>& methods() {
       friction_force_method,
       harmonic_balance_method,
       jacobsen_ayre_method,
+      law_selection_method,
       output_error_method,
       receptance_method,
       recursive_least_squares_method,
