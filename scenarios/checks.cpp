@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #include "core/numbers.hpp"
@@ -51,7 +52,9 @@ class Checker {
     }
     resolve_damping();
     resolve_frequency();
-    if (analysis_ == "simulate") check_work();
+    if (analysis_ == "simulate")
+      check_work(values_.at("analysis"), "analysis", number_at("analysis", "sample_rate"), 1);
+    if (analysis_ == "identify") check_measurement();
     if (analysis_ == "regime_map") check_map();
     std::optional<identify::MeasuredRecord> data = read_data();
     if (analysis_ == "identify") resolve_methods(data);
@@ -163,10 +166,14 @@ class Checker {
       return;
     }
     const Section& section = excitations().find(type)->section;
-    for (const std::string& key : needs_->drive)
-      if (const Field* field = section.find(key); field != nullptr && !stands_in_file("excitation", key))
-        complain(given->head(), "'excitation." + key + "' is missing: " + subject() + " needs it",
+    for (const auto& [key, varied] : {std::pair{"amplitude", "amplitudes"}, {"frequency", "frequencies"}}) {
+      // What a measurement varies it gives itself.
+      const bool given_there = reading_.places.contains(std::string("analysis.measurement.") + varied);
+      const bool wanted = contains(needs_->drive, key) || (measurement() != nullptr && !given_there);
+      if (const Field* field = section.find(key); wanted && field != nullptr && !stands_in_file("excitation", key))
+        complain(given->head(), std::string("'excitation.") + key + "' is missing: " + subject() + " needs it",
                  describe_values(*field));
+    }
   }
 
   /// A damping ratio becomes a damping; both are needed for a damped frequency.
@@ -214,31 +221,38 @@ class Checker {
     frequency = core::format_number(value) + " rad/s";
   }
 
-  void check_work() {
+  /// A motion followed in time, which `section` of the file at `path` asks for.
+  void check_work(const Json& section, const std::string& path, std::optional<double> rate, double tests) {
     const auto m = number_at("system", "mass");
     const auto k = number_at("system", "stiffness");
-    const auto cycles = number_at("analysis", "cycles");
+    const bool by_cycles = section.contains("cycles");
     // Still a word when it could not be resolved, and then complained about.
     const bool driven = has("excitation", "frequency") && text_at("excitation", "frequency").ends_with("rad/s");
-    if (cycles && !driven) {
+    if (by_cycles && !driven) {
       if (!stands_in_file("excitation", "frequency"))
-        complain(place_of("analysis.cycles"), "'analysis.cycles' needs a harmonic excitation",
+        complain(place_of(path + ".cycles"), "'" + path + ".cycles' needs a harmonic excitation",
                  "'duration' instead");
       return;
     }
     const double frequency = driven ? *number_at("excitation", "frequency") : 0.0;
-    const auto duration = cycles ? std::optional(*cycles * two_pi / frequency) : number_at("analysis", "duration");
-    if (!duration) return;
+    if (!by_cycles && !section.contains("duration")) return;
+    const double recorded =
+        by_cycles ? number(section.at("cycles")) * two_pi / frequency : number(section.at("duration"));
+    const double duration = recorded + (section.contains("settle") ? number(section.at("settle")) : 0.0);
     const double fastest = std::max(frequency, m && k ? std::sqrt(*k / *m) : 0.0);
-    if (*duration * fastest / two_pi > max_cycles)
-      complain(place_of(cycles ? "analysis.cycles" : "analysis.duration"), "the simulation is too long",
+    if (duration * fastest / two_pi > max_cycles)
+      complain(place_of(path + (by_cycles ? ".cycles" : ".duration")), "the simulation is too long",
                "at most " + core::format_number(max_cycles, 6) + " forcing or natural periods",
-               core::format_number(*duration * fastest / two_pi, 6) + " periods");
-    check_noise(*duration);
-    const double rows = *duration * number_at("analysis", "sample_rate").value_or(0.0);
+               core::format_number(duration * fastest / two_pi, 6) + " periods");
+    check_noise(duration);
+    check_rows(recorded * rate.value_or(0.0) * tests);
+  }
+
+  void check_rows(double rows) {
     if (rows > max_samples)
-      complain(place_of("analysis.sample_rate"), "the history has too many rows",
-               "at most " + core::format_number(max_samples, 6), core::format_number(rows, 6));
+      complain(place_of(analysis_ == "identify" ? "analysis.sensors.sample_rate" : "analysis.sample_rate"),
+               "the history has too many rows", "at most " + core::format_number(max_samples, 6),
+               core::format_number(rows, 6));
   }
 
   void check_noise(double duration) {
@@ -363,14 +377,120 @@ class Checker {
     check_pairs(pairs ? record.pairs->pairs.size() : 0);
   }
 
+  [[nodiscard]] const Json* measurement() const {
+    return has("analysis", "measurement") ? &values_.at("analysis").at("measurement") : nullptr;
+  }
+
+  [[nodiscard]] std::optional<double> sensor_number(const std::string& key) const {
+    if (!has("analysis", "sensors") || !values_.at("analysis").at("sensors").contains(key)) return std::nullopt;
+    return number(values_.at("analysis").at("sensors").at(key));
+  }
+
+  /// 1 where the file is too faulty to know.
+  [[nodiscard]] int sweeps() const {
+    return measurement()->contains("sweeps") ? measurement()->at("sweeps").get<int>() : 1;
+  }
+
+  /// How many motions a synthetic measurement makes.
+  [[nodiscard]] double tests() const {
+    double count = sweeps();
+    for (const char* key : {"amplitudes", "frequencies"})
+      if (measurement()->contains(key)) count *= static_cast<double>(grid_size(measurement()->at(key)));
+    return count;
+  }
+
+  void check_measurement() {
+    const std::string rate_path = "analysis.sensors.sample_rate";
+    if (measurement() == nullptr) {
+      if (stands_in_file("analysis", "sensors") && !stands_in_file("analysis", "measurement"))
+        complain(place_of("analysis.sensors"),
+                 "'analysis.sensors' belongs to a synthetic measurement, and there is none");
+      return;
+    }
+    if (tests() > max_points)
+      complain(place_of("analysis.measurement"), "the measurement has too many points",
+               "at most " + core::format_number(max_points, 7) + " in all sweeps", core::format_number(tests(), 7));
+    check_lags();
+    const auto type = measurement()->at("type").get<std::string>();
+    const auto rate = sensor_number("sample_rate");
+    if (type == "simulate") {
+      if (!reading_.places.contains(rate_path))
+        complain(place_of("analysis.measurement.type"),
+                 "'" + rate_path + "' is missing: time histories are samples", "a rate such as '1 kHz'");
+      check_work(*measurement(), "analysis.measurement", rate, tests());
+    } else if (rate && type == "free_decay") {
+      complain(place_of(rate_path), "extremes of a free vibration are read, not sampled",
+               "a measurement 'simulate' without excitation");
+    } else if (rate) {
+      check_rows(tests() * sensor_number("average_cycles").value_or(1.0) * *rate * longest_period());
+    }
+  }
+
+  /// Of the forcing in a measurement [s]; 0 where it is not known yet.
+  [[nodiscard]] double longest_period() const {
+    double slowest = number_at("excitation", "frequency").value_or(0.0);
+    if (measurement()->contains("frequencies")) {
+      const Json& grid = measurement()->at("frequencies");
+      slowest = std::numeric_limits<double>::infinity();
+      for (const Json& value : grid.is_array() ? grid : Json::array({grid.at("from"), grid.at("to")}))
+        slowest = std::min(slowest, number(value));
+    }
+    return slowest > 0.0 ? two_pi / slowest : 0.0;
+  }
+
+  void check_lags() {
+    if (!has("analysis", "sensors") || text_at("excitation", "type").ends_with("_harmonic")) return;
+    for (const auto& [name, sensor] : values_.at("analysis").at("sensors").items())
+      if (sensor.is_object() && sensor.contains("phase_lag"))
+        complain(place_of("analysis.sensors." + name + ".phase_lag"),
+                 "a phase lag needs a harmonic excitation: it is an angle at the forcing frequency", "a delay");
+  }
+
+  /// Two frequencies are outlined as different, no more.
+  [[nodiscard]] identify::PairRecord outline_pairs() const {
+    const auto count = [&](const char* key) {
+      return measurement()->contains(key) ? grid_size(measurement()->at(key)) : std::size_t{1};
+    };
+    identify::PairRecord record;
+    for (int sweep = 1; sweep <= sweeps(); ++sweep)
+      for (std::size_t i = 0; i < count("frequencies"); ++i)
+        record.pairs.insert(record.pairs.end(), count("amplitudes"),
+                            {.Y = 1.0,
+                             .x = 1.0,
+                             .sweep = sweeps() > 1 ? std::to_string(sweep) : "",
+                             .omega = static_cast<double>(i + 1),
+                             .phase = 0.0,
+                             .fundamental = 1.0,
+                             .mean_square_speed = 1.0});
+    return record;
+  }
+
+  [[nodiscard]] identify::History outline_history() const {
+    identify::History history{.sample_rate = 1.0};
+    const auto type = text_at("excitation", "type");
+    if (type.starts_with("base_")) history.y = {0.0};
+    if (type.starts_with("force_")) history.force = {0.0};
+    history.x = {0.0};
+    const auto records = [&](const char* signal) {
+      if (!measurement()->contains("signals")) return true;
+      const Json& signals = measurement()->at("signals");
+      return std::ranges::find(signals, signal) != signals.end();
+    };
+    if (records("v")) history.v = {0.0};
+    if (records("a")) history.a = {0.0};
+    return history;
+  }
+
   /// A record of the kind that the measurement will give: enough to tell which methods it allows.
   [[nodiscard]] identify::Record outline() const {
-    const Json& measurement = values_.at("analysis").at("measurement");
     identify::Record record;
-    if (measurement.contains("amplitudes"))
-      record.pairs.emplace().pairs.resize(grid_size(measurement.at("amplitudes")));
-    else
+    const auto type = measurement()->at("type").get<std::string>();
+    if (type == "free_decay") {
       record.decay = identify::DecayRecord{{1.0}, {0.0}};
+      return record;
+    }
+    if (sensor_number("sample_rate")) record.histories.resize(static_cast<std::size_t>(tests()), outline_history());
+    if (text_at("excitation", "type") == "base_harmonic") record.pairs = outline_pairs();
     return record;
   }
 

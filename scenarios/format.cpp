@@ -29,12 +29,16 @@ std::vector<Field> harmonic_fields(const std::string& unit) {
           .items(1, static_cast<std::size_t>(sim::max_harmonics))};
 }
 
+Field seed() {
+  return integer("seed", "of the random values").with_fallback(0).at_least(0).at_most(friction::seed_range.high);
+}
+
 std::vector<Field> noise_fields(const std::string& unit) {
   return {quantity("intensity", {unit}, "spectral density at low frequencies, two-sided").required().at_least(0),
           quantity("bandwidth", {"rad/s"}, "linear between random values at the rate of twice this")
               .required()
               .above(0),
-          integer("seed", "of the random values").with_fallback(0).at_least(0).at_most(friction::seed_range.high)};
+          seed()};
 }
 
 Choice make_excitations() {
@@ -124,10 +128,75 @@ Field for_columns(std::string name, std::string meaning, bool numbers_only) {
   return section(std::move(name), std::move(columns), std::move(meaning));
 }
 
+/// How often the tests of a measurement are repeated, and what friction does in between.
+std::vector<Field> repetition() {
+  return {
+      integer("sweeps", "times that all tests are made, one sweep after the other")
+          .with_fallback(1)
+          .at_least(1)
+          .at_most(10'000),
+      section(
+          "friction_drift",
+          {{quantity("rate", {"1"}, "change of all forces of friction from sweep to sweep, relative to the first")
+                .with_fallback(0.0),
+            quantity("walk", {"1"}, "standard deviation of a random change from sweep to sweep, likewise")
+                .with_fallback(0.0)
+                .at_least(0),
+            seed()}},
+          "friction that differs from sweep to sweep")};
+}
+
+Field optional(Field field) {
+  field.is_required = false;
+  return field;
+}
+
+Choice measurements() {
+  std::vector<Field> curve = {amplitudes(), optional(frequencies())};
+  std::vector<Field> response = {frequencies()};
+  std::vector<Field> histories = {
+      optional(amplitudes()), quantity("duration", {"s"}, "length of a record").above(0),
+      quantity("cycles", {"1"}, "length of a record in forcing periods").above(0).at_most(max_cycles),
+      quantity("settle", {"s"}, "time from the initial state that is not recorded").with_fallback(0.0).at_least(0),
+      word_list("signals", {"x", "v", "a"}, "signals recorded beside that of the drive; default: all")};
+  for (std::vector<Field>* fields : {&curve, &response, &histories})
+    for (Field& field : repetition()) fields->push_back(std::move(field));
+  return {"type",
+          {{"xy_curve", "steady states at several amplitudes, at one frequency or several", {std::move(curve)}},
+           {"frequency_response", "steady states at several frequencies", {std::move(response)}},
+           {"free_decay", "extremes of a free vibration", {{peaks()}}},
+           {"simulate",
+            "time histories from the initial state, one for each amplitude",
+            {std::move(histories), {{{"duration", "cycles"}, true}}}}}};
+}
+
+Field sensor(const std::string& name, const std::string& unit, const std::string& what) {
+  return section(name,
+                 {{quantity("noise", {unit}, "standard deviation of a reading").with_fallback(0.0).at_least(0),
+                   quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
+                   quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
+                   quantity("phase_lag", {"rad"}, "by which it comes late, at the forcing frequency").at_least(0),
+                   quantity("delay", {"s"}, "by which it comes late").at_least(0),
+                   quantity("clipping", {unit}, "readings beyond this are cut off, on either side").above(0)},
+                  {{{"phase_lag", "delay"}, false}}},
+                 "sensor of " + what);
+}
+
+Field sensors() {
+  return section(
+      "sensors",
+      {{quantity("sample_rate", {"1/s"}, "signals are sampled, and amplitudes taken from the samples").above(0),
+        integer("average_cycles", "forcing periods that an amplitude is averaged over")
+            .with_fallback(1)
+            .at_least(1)
+            .at_most(10'000),
+        seed(), sensor("y", "m", "the base's displacement"), sensor("x", "m", "the mass's displacement"),
+        sensor("v", "m/s", "its velocity"), sensor("a", "m/s^2", "its acceleration"),
+        sensor("force", "N", "the force on it")}},
+      "what the sensors make of a synthetic measurement; default: perfect ones");
+}
+
 Variant identify_variant() {
-  const Choice measurement = {"type",
-                              {{"xy_curve", "steady states at several amplitudes", {{amplitudes()}}},
-                               {"free_decay", "extremes of a free vibration", {{peaks()}}}}};
   return {
       "identify",
       "what the identification methods make of measured or simulated data",
@@ -135,7 +204,7 @@ Variant identify_variant() {
              "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
         for_columns("units", "units of the columns of the data file where it does not state them: {x: mm}", true),
         for_columns("columns", "what the data file calls the columns, or their numbers: {x: LVDT 2}", false),
-        choice("measurement", measurement, "a synthetic measurement of this scenario's system"),
+        choice("measurement", measurements(), "a synthetic measurement of this scenario's system"), sensors(),
         word_list("methods", method_names(), "identification methods; default: all that fit the data"),
         boolean("approximate_G", "G from the approximation Eq (15) instead of Eq (4)").with_fallback(false),
         integers("pairs", "numbers of the two pairs that resonance_two_point uses; default: the outermost")
@@ -267,12 +336,14 @@ const std::vector<Needs>& needs() {
       {"xy_branch", "", harmonic, {"frequency"}, true, periodic},
       {"frequency_branch", "", harmonic, {"amplitude"}, true, periodic},
       {"free_decay", "", {"none"}, {}, true, free},
+      {"identify", "xy_curve", {"base_harmonic"}, {}, true, "the methods need the amplitude of the base"},
       {"identify",
-       "xy_curve",
+       "frequency_response",
        {"base_harmonic"},
-       {"frequency"},
+       {"amplitude"},
        true,
        "the methods need the amplitude of the base"},
+      {"identify", "simulate", excitations().names(), {"frequency"}, true, ""},
       {"identify", "free_decay", {"none"}, {}, true, free},
       {"identify",
        "data",

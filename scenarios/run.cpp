@@ -72,8 +72,7 @@ class Runner {
 
   Answer operator()(const Identify& question) const {
     std::vector<std::string> warnings = question.data_warnings;
-    const identify::Record record =
-        std::visit([&](const auto& source) { return measure(source, warnings); }, question.source);
+    const identify::Record record = record_of(question, warnings);
     std::vector<identify::Estimate> estimates;
     for (const identify::MethodEntry* method : question.methods)
       estimates.push_back(method->run(record, question.constants, question.options));
@@ -97,33 +96,12 @@ class Runner {
     return scenario_.model.excitation.type == sim::ExcitationType::force_harmonic ? "N" : "m";
   }
 
-  static identify::Record measure(const identify::Record& record, std::vector<std::string>& /*warnings*/) {
-    return record;
-  }
-
-  identify::Record measure(const XyCurve& question, std::vector<std::string>& warnings) const {
-    identify::PairRecord record;
-    int number = 0;
-    const sim::Curve curve = sim::xy_curve(scenario_.model, question.amplitudes, options_);
-    for (const sim::CurvePoint& point : curve.points) {
-      ++number;
-      if (point.ok())
-        record.pairs.push_back({.Y = point.Y, .x = point.x, .sweep = {}, .number = number});
-      else
-        warnings.push_back("pair " + std::to_string(number) + " could not be measured: " + curve.reason(point));
-    }
-    return {.pairs = record};
-  }
-
-  identify::Record measure(const FreeDecayQuestion& question, std::vector<std::string>& warnings) const {
-    const sim::FreeDecay decay = sim::free_decay(scenario_.model, question.peaks);
-    if (!decay.outcome.ok()) warnings.push_back("the decay could not be measured: " + decay.outcome.reason);
-    identify::DecayRecord record;
-    for (const sim::Extreme& extreme : decay.peaks) {
-      record.extremes.push_back(extreme.x);
-      record.times.push_back(extreme.t);
-    }
-    return {.decay = record};
+  identify::Record record_of(const Identify& question, std::vector<std::string>& warnings) const {
+    if (const auto* record = std::get_if<identify::Record>(&question.source)) return *record;
+    const auto& measurement = std::get<Measurement>(question.source);
+    MotionRecord motion = motion_of(scenario_.model, measurement, question.sensors, options_);
+    std::ranges::move(motion.warnings, std::back_inserter(warnings));
+    return reading(motion, question.sensors, question.sensor_seed, warnings);
   }
 
   const Scenario& scenario_;

@@ -148,6 +148,57 @@ sim::Model model(const Json& values) {
   return result;
 }
 
+Measurement measurement(const Json& section, const sim::Model& model) {
+  Measurement result;
+  const auto type = section.at("type").get<std::string>();
+  if (type == "free_decay") {
+    result.kind = MeasurementKind::free_decay;
+    result.peaks = section.at("peaks").get<int>();
+    return result;
+  }
+  if (section.contains("amplitudes")) result.amplitudes = grid_values(section.at("amplitudes"));
+  if (section.contains("frequencies")) result.frequencies = grid_values(section.at("frequencies"));
+  result.sweeps = section.at("sweeps").get<int>();
+  if (section.contains("friction_drift")) {
+    const Json& drift = section.at("friction_drift");
+    result.drift = {number(drift.at("rate")), number(drift.at("walk")), drift.at("seed").get<std::uint64_t>()};
+  }
+  if (type != "simulate") return result;
+  result.kind = MeasurementKind::histories;
+  const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
+  result.duration =
+      section.contains("cycles") ? number(section.at("cycles")) * period : number(section.at("duration"));
+  result.settle = number(section.at("settle"));
+  if (section.contains("signals")) {
+    const Json& signals = section.at("signals");
+    result.with_v = std::ranges::find(signals, "v") != signals.end();
+    result.with_a = std::ranges::find(signals, "a") != signals.end();
+  }
+  return result;
+}
+
+identify::Sensors sensors(const Json& section) {
+  identify::Sensors result;
+  result.sample_rate = number_or(section, "sample_rate", 0.0);
+  result.average_cycles = section.at("average_cycles").get<int>();
+  const auto read = [&](const char* name, identify::Sensor& sensor) {
+    if (!section.contains(name)) return;
+    const Json& values = section.at(name);
+    sensor = {.noise = number(values.at("noise")),
+              .resolution = number(values.at("resolution")),
+              .gain_error = number(values.at("gain_error")),
+              .phase_lag = number_or(values, "phase_lag", 0.0),
+              .delay = number_or(values, "delay", 0.0),
+              .clipping = number_or(values, "clipping", sensor.clipping)};
+  };
+  read("y", result.y);
+  read("x", result.x);
+  read("v", result.v);
+  read("a", result.a);
+  read("force", result.force);
+  return result;
+}
+
 Identify identify_question(const Json& section, const sim::Model& model,
                            std::optional<identify::MeasuredRecord> data) {
   Identify result;
@@ -178,11 +229,11 @@ Identify identify_question(const Json& section, const sim::Model& model,
     result.data_warnings = std::move(data->warnings);
     return result;
   }
-  const Json& measurement = section.at("measurement");
-  if (measurement.at("type") == "xy_curve")
-    result.source = XyCurve{grid_values(measurement.at("amplitudes"))};
-  else
-    result.source = FreeDecayQuestion{measurement.at("peaks").get<int>()};
+  result.source = measurement(section.at("measurement"), model);
+  if (section.contains("sensors")) {
+    result.sensors = sensors(section.at("sensors"));
+    result.sensor_seed = section.at("sensors").at("seed").get<std::uint64_t>();
+  }
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "core/diagnostics.hpp"
 #include "friction_models/parameters.hpp"
 #include "identify/methods.hpp"
+#include "scenarios/measure.hpp"
 #include "sim/continuation.hpp"
 #include "sim/model.hpp"
 
@@ -51,7 +52,9 @@ struct FreeDecayQuestion {
 
 struct Identify {
   /// Measured data, or how to measure this scenario's system.
-  std::variant<identify::Record, XyCurve, FreeDecayQuestion> source;
+  std::variant<identify::Record, Measurement> source;
+  identify::Sensors sensors;  ///< of a synthetic measurement
+  std::uint64_t sensor_seed = 0;
   std::string data_file;  ///< as named in the scenario; empty for a synthetic measurement
   std::string data_sha256;
   std::vector<std::string> data_warnings;

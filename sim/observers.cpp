@@ -205,6 +205,7 @@ void EnergyAudit::add_by_quadrature(const Interval& interval) {
     input_.add(weight * (base_force * s.y_rate + s.external * s.v));
     friction_.add(weight * s.force * s.v);
     viscous_.add(weight * oscillator_.damping * damper_speed * damper_speed);
+    square_speed_.add(weight * s.v * s.v);
   });
 }
 
@@ -222,7 +223,9 @@ void EnergyAudit::add_in_closed_form(const ClosedForm& form) {
   input_.add(integrals.product(base_force, form.y_rate));
   input_.add(integrals.product(form.external, form.v));
   friction_.add(integrals.product(form.force, form.v));
-  viscous_.add(oscillator_.damping * integrals.product(damper_speed, damper_speed));
+  const double square = integrals.product(damper_speed, damper_speed);
+  viscous_.add(oscillator_.damping * square);
+  square_speed_.add(damper_moves ? integrals.product(form.v, form.v) : square);
 }
 
 Energy EnergyAudit::account() const {

@@ -69,6 +69,8 @@ class EnergyAudit {
   void observe(const Interval& interval);
   /// Account of all intervals so far.
   [[nodiscard]] Energy account() const;
+  /// int v^2 dt [m^2/s].
+  [[nodiscard]] double square_speed() const { return square_speed_.value(); }
 
  private:
   [[nodiscard]] double stored(const Sample& sample) const;
@@ -80,6 +82,7 @@ class EnergyAudit {
   CompensatedSum input_;
   CompensatedSum friction_;
   CompensatedSum viscous_;
+  CompensatedSum square_speed_;
   double first_ = 0.0;
   double last_ = 0.0;
 };

@@ -66,6 +66,8 @@ void OrbitAccount::write(SteadyState& result) {
   if (!full_) return;
   result.max_speed = extremes_.max_speed();
   result.energy = energy_.account();
+  result.mean_square_speed = energy_.square_speed() / result.period;
+  result.fundamental = std::abs(fundamental_.coefficient());
   const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
   constexpr double turn = 2.0 * std::numbers::pi;
   result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;

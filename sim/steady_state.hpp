@@ -24,13 +24,15 @@ struct SteadyState {
   core::Outcome outcome;              ///< when not ok() the numbers below mean nothing
   std::vector<std::string> warnings;  ///< e.g. other orbits exist
 
-  double peak = 0.0;        ///< max x [m]
-  double trough = 0.0;      ///< min x [m]
-  double amplitude = 0.0;   ///< (peak - trough)/2 [m]
-  double phase = 0.0;       ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
-  double period = 0.0;      ///< s
-  double max_speed = 0.0;   ///< m/s
-  int stops_per_cycle = 0;  ///< instants per period at which the mass comes to rest and stays
+  double peak = 0.0;               ///< max x [m]
+  double trough = 0.0;             ///< min x [m]
+  double amplitude = 0.0;          ///< (peak - trough)/2 [m]
+  double phase = 0.0;              ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
+  double fundamental = 0.0;        ///< amplitude of x's fundamental [m]
+  double period = 0.0;             ///< s
+  double max_speed = 0.0;          ///< m/s
+  double mean_square_speed = 0.0;  ///< m^2/s^2
+  int stops_per_cycle = 0;         ///< instants per period at which the mass comes to rest and stays
   std::vector<Stick> sticks;
   std::vector<EventKind> sequence;                ///< events of one period in order
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
@@ -52,7 +54,7 @@ inline constexpr double neutral_margin = 1e-6;
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient followed before giving up
-  /// Phase, largest speed and energy cost more than the orbit itself; without them they stay zero.
+  /// Phase, fundamental, speeds and energy cost more than the orbit itself; without this they stay zero.
   bool full_account = true;
 };
 

@@ -49,6 +49,11 @@ TEST_CASE("the standard case agrees with Den Hartog to the last digits") {
   // Friction takes 4 F x0 a period from any orbit that turns twice; the base gives what both take.
   CHECK(state.energy.friction == Approx(4.0 * 2.0 * state.peak).epsilon(1e-13));
   CHECK(std::abs(state.energy.defect) < 1e-13 * state.energy.input);
+  // Only the fundamental of x meets the harmonic base: pi k Y X1 sin(phase) = 4 F x0 + c int v^2.
+  const double input = std::numbers::pi * 100.0 * 0.1 * state.fundamental * std::sin(state.phase);
+  const double dissipated = 4.0 * 2.0 * state.peak + 4.0 * state.mean_square_speed * state.period;
+  CHECK(std::abs(input - dissipated) < 1e-13 * input);
+  CHECK(std::abs(state.energy.viscous - 4.0 * state.mean_square_speed * state.period) < 1e-14 * input);
 }
 
 TEST_CASE("200 random orbits that do not stick agree with Den Hartog") {
