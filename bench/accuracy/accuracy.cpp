@@ -1,0 +1,284 @@
+#include "bench/accuracy/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "friction_models/coulomb.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+using scenarios::Measurement;
+using scenarios::MeasurementKind;
+
+constexpr double mass = 1.042;          // kg, the paper's
+constexpr double stiffness = 1568.0;    // N/m
+constexpr double damping = 8.0;         // N.s/m
+constexpr double friction_force = 2.0;  // N
+constexpr double micrometre = 1e-6;
+
+sim::Model rig(const sim::Excitation& excitation) {
+  sim::Model model;
+  model.oscillator = {.mass = mass, .stiffness = stiffness, .damping = damping};
+  model.excitation = excitation;
+  model.friction.emplace_back(friction::Coulomb(friction_force, friction_force));
+  return model;
+}
+
+sim::Excitation at_resonance(double amplitude) {
+  return {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = std::sqrt(stiffness / mass)};
+}
+
+std::vector<double> steps(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+  return values;
+}
+
+/// The base is measured ten times better than the mass, its acceleration as well as its displacement.
+identify::Sensors unit_sensors() {
+  identify::Sensors sensors;
+  sensors.x.noise = 1.0;
+  sensors.y.noise = 0.1;
+  sensors.v.noise = std::sqrt(stiffness / mass);
+  sensors.a.noise = stiffness / mass;
+  return sensors;
+}
+
+identify::Sensors times(double noise, identify::Sensors sensors) {
+  for (identify::Sensor* sensor : {&sensors.x, &sensors.y, &sensors.v, &sensors.a}) sensor->noise *= noise;
+  return sensors;
+}
+
+Experiment sweep() {
+  Measurement measurement;
+  measurement.amplitudes = steps(4.45e-3, 6.75e-3, 5);
+  return {"one sweep", "five amplitudes at resonance, read once", rig(at_resonance(0.0)), measurement,
+          unit_sensors()};
+}
+
+Experiment sweeps() {
+  Experiment experiment = sweep();
+  experiment.name = "ten sweeps";
+  experiment.meaning = "the same ten times over";
+  experiment.measurement.sweeps = 10;
+  return experiment;
+}
+
+Experiment response() {
+  Measurement measurement;
+  measurement.frequencies = steps(36.0, 42.0, 13);
+  return {"frequency response", "thirteen frequencies from 5.7 to 6.7 Hz at 6 mm, amplitude and phase read once",
+          rig(at_resonance(6e-3)), measurement, unit_sensors()};
+}
+
+Experiment decay() {
+  Measurement measurement;
+  measurement.kind = MeasurementKind::free_decay;
+  measurement.peaks = 8;
+  sim::Model model = rig({});
+  model.initial.position = 30e-3;
+  return {"free decay", "eight extremes of a free vibration from 30 mm", model, measurement, unit_sensors()};
+}
+
+Experiment histories() {
+  Measurement measurement;
+  measurement.kind = MeasurementKind::histories;
+  measurement.amplitudes = {4e-3, 6e-3};
+  measurement.settle = 2.0;
+  measurement.duration = 3.0;
+  measurement.with_v = false;
+  identify::Sensors sensors = unit_sensors();
+  sensors.sample_rate = 500.0;
+  sensors.y.noise = 0.0;
+  return {"histories", "y, x and a at 4 and 6 mm, three seconds each at 500 Hz", rig(at_resonance(0.0)), measurement,
+          sensors};
+}
+
+Experiment random_response() {
+  Measurement measurement;
+  measurement.kind = MeasurementKind::histories;
+  measurement.settle = 5.0;
+  measurement.duration = 100.0;
+  measurement.with_v = measurement.with_a = false;
+  identify::Sensors sensors = unit_sensors();
+  sensors.sample_rate = 200.0;
+  return {
+      "random response", "x and the random force on the mass, 100 s at 200 Hz",
+      rig({.type = sim::ExcitationType::force_noise, .noise = {.intensity = 2.0, .bandwidth = 380.0, .seed = 1}}),
+      measurement, sensors};
+}
+
+identify::KnownConstants constants_of(const Experiment& experiment) {
+  const sim::Excitation& excitation = experiment.model.excitation;
+  return {mass, stiffness, excitation.is_harmonic() ? excitation.frequency : identify::unknown};
+}
+
+identify::Estimate estimate(const identify::MethodEntry& method, const Experiment& experiment,
+                            const scenarios::MotionRecord& motion, double noise, std::uint64_t seed) {
+  std::vector<std::string> remarks;
+  const identify::Record record = scenarios::reading(motion, times(noise, experiment.sensors), seed, remarks);
+  return method.run(record, constants_of(experiment), {});
+}
+
+struct Setting {
+  const Experiment* experiment = nullptr;
+  const scenarios::MotionRecord* motion = nullptr;
+};
+
+/// The first experiment from whose perfect record the method makes an estimate.
+std::optional<Setting> setting_for(const identify::MethodEntry& method,
+                                   const std::vector<scenarios::MotionRecord>& motions) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (!method.lacks(motions[i].exact).empty()) continue;
+    if (estimate(method, experiments()[i], motions[i], 0.0, 0).outcome.ok())
+      return Setting{&experiments()[i], &motions[i]};
+  }
+  return std::nullopt;
+}
+
+/// One number of every estimate against its truth.
+Score score(const std::vector<identify::Estimate>& estimates, double truth, double identify::ParameterSet::* number,
+            std::array<double, 2> identify::ParameterIntervals::* interval) {
+  Score result;
+  double sum = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (const identify::Estimate& estimate : estimates) {
+    if (!estimate.outcome.ok()) continue;
+    const double error = estimate.value.*number / truth - 1.0;
+    ++count;
+    sum += error;
+    squares += error * error;
+    if (!estimate.interval95) continue;
+    const auto [low, high] = (*estimate.interval95).*interval;
+    ++result.intervals;
+    result.covered += low <= truth && truth <= high ? 1 : 0;
+  }
+  if (count == 0) return result;
+  result.bias = sum / count;
+  result.spread = std::sqrt(std::max(0.0, squares / count - result.bias * result.bias));
+  return result;
+}
+
+/// Regressions whose columns are measured too, the filter that rests on a smoothed sign, the average that knows of
+/// no friction: their pages say that the intervals leave out what that does.
+constexpr std::array<std::string_view, 5> partial_intervals = {"acceleration_velocity_displacement",
+                                                               "extended_kalman", "friction_force",
+                                                               "random_decrement", "recursive_least_squares"};
+
+Cell cell_of(const identify::MethodEntry& method, const Setting& setting, double noise, int seeds) {
+  std::vector<identify::Estimate> estimates(static_cast<std::size_t>(seeds));
+  constexpr std::size_t grain = 8;
+  sim::in_parts(estimates.size(), grain, 0, [&](std::size_t first, std::size_t count) {
+    for (std::size_t seed = first; seed < first + count; ++seed)
+      estimates[seed] = estimate(method, *setting.experiment, *setting.motion, noise, seed);
+  });
+  Cell cell{.method = std::string(method.name),
+            .experiment = setting.experiment->name,
+            .noise = noise,
+            .seeds = seeds,
+            .claims_coverage = std::ranges::find(partial_intervals, method.name) == partial_intervals.end()};
+  for (const identify::Estimate& estimate : estimates) {
+    cell.estimates += estimate.outcome.ok() ? 1 : 0;
+    cell.usable += estimate.outcome.ok() && estimate.usable ? 1 : 0;
+  }
+  using identify::ParameterIntervals;
+  using identify::ParameterSet;
+  cell.zeta = score(estimates, truth().zeta, &ParameterSet::zeta, &ParameterIntervals::zeta);
+  cell.F0 = score(estimates, truth().F0, &ParameterSet::F0, &ParameterIntervals::F0);
+  return cell;
+}
+
+std::string noise_text(double noise) { return fmt::format("{:.0f} um", noise / micrometre); }
+
+bool outside(const Cell& cell, const Score& score) {
+  return cell.claims_coverage && score.intervals > 0 &&
+         (score.coverage() < least_coverage || score.coverage() > most_coverage);
+}
+
+std::string coverage_text(const Cell& cell, const Score& score) {
+  if (score.intervals == 0) return "-";
+  const std::string text = fmt::format("{:.1f}", 100.0 * score.coverage());
+  if (!cell.claims_coverage) return "(" + text + ")";
+  return text + (outside(cell, score) ? " !" : "");
+}
+
+}  // namespace
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> list = {sweep(), sweeps(),    response(),
+                                               decay(), histories(), random_response()};
+  return list;
+}
+
+Truth truth() { return {damping / (2.0 * std::sqrt(mass * stiffness)), friction_force}; }
+
+std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& methods,
+                           const std::vector<double>& noises, int seeds) {
+  std::vector<scenarios::MotionRecord> motions;
+  for (const Experiment& experiment : experiments())
+    motions.push_back(scenarios::motion_of(experiment.model, experiment.measurement, experiment.sensors));
+  std::vector<Cell> cells;
+  for (const identify::MethodEntry* method : methods) {
+    const std::optional<Setting> setting = setting_for(*method, motions);
+    for (std::size_t i = 0; setting && i < noises.size(); ++i)
+      cells.push_back(cell_of(*method, *setting, noises[i], seeds));
+  }
+  return cells;
+}
+
+Coverage coverage(const std::vector<Cell>& cells) {
+  Coverage result;
+  for (const Cell& cell : cells) {
+    for (const auto& [name, score] : {std::pair<std::string, const Score&>{"zeta", cell.zeta}, {"F0", cell.F0}}) {
+      if (score.intervals == 0 || !cell.claims_coverage) continue;
+      ++result.claimed;
+      if (outside(cell, score))
+        result.outside.push_back(fmt::format("{}, {}, {}: {:.1f} %", cell.method, noise_text(cell.noise), name,
+                                             100.0 * score.coverage()));
+    }
+  }
+  return result;
+}
+
+std::string accuracy_row(const Cell& cell) {
+  return fmt::format("| `{}` | {} | {} | {:.1f} | {:+.2f} | {:.2f} | {} | {:+.2f} | {:.2f} | {} |\n", cell.method,
+                     cell.experiment, noise_text(cell.noise), 100.0 * cell.usable / cell.seeds,
+                     100.0 * cell.zeta.bias, 100.0 * cell.zeta.spread, coverage_text(cell, cell.zeta),
+                     100.0 * cell.F0.bias, 100.0 * cell.F0.spread, coverage_text(cell, cell.F0));
+}
+
+std::string accuracy_page(const std::vector<Cell>& cells) {
+  std::string page = fmt::format(
+      R"(# How accurate the methods are
+
+Generated by `scripts/accuracy`. Every method reads a synthetic measurement of the paper's rig with the friction that it assumes,
+zeta = {:.5f} and F0 = {:.0f} N, {} times over, each time with other noise. Noise is the standard deviation of one reading of x; that of
+y is a tenth of it, that of the acceleration wn^2 times it. Bias and spread are in per cent of the true value. Coverage is the share of
+95 % intervals that hold it: an exclamation mark where it is not between {:.0f} and {:.0f} %, in brackets where the method's page says that
+its intervals know only a part of the errors. Usable is the share of estimates that the method stands by.
+
+)",
+      truth().zeta, truth().F0, cells.empty() ? 0 : cells.front().seeds, 100.0 * least_coverage,
+      100.0 * most_coverage);
+  for (const Experiment& experiment : experiments())
+    page += fmt::format("* {}: {}\n", experiment.name, experiment.meaning);
+  page +=
+      "\n| method | experiment | noise | usable | zeta bias | spread | coverage | F0 bias | spread | coverage |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Cell& cell : cells) page += accuracy_row(cell);
+  const Coverage covered = coverage(cells);
+  return page + fmt::format("\n{} of the {} coverages that are claimed lie outside.\n", covered.outside.size(),
+                            covered.claimed);
+}
+
+}  // namespace dualdamp::bench

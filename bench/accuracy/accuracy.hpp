@@ -1,0 +1,80 @@
+#pragma once
+/// Bias, spread and coverage of every identification method on synthetic records whose truth is known.
+///
+/// Each method meets the first of the `experiments()` that it can use: a measurement of Coulomb and viscous
+/// friction, which all of them assume. Its motion is computed once; every seed is another reading of it. Coverage
+/// counts the 95 % intervals that hold the truth, of all estimates that have one, whether usable or not: to leave
+/// out those that the method doubts would bias it. A method claims it unless its page says that its intervals know
+/// only a part of the errors. Results do not depend on the number of threads.
+
+#include <string>
+#include <vector>
+
+#include "identify/method.hpp"
+#include "scenarios/measure.hpp"
+
+namespace dualdamp::bench {
+
+struct Experiment {
+  std::string name;
+  std::string meaning;
+  sim::Model model;
+  scenarios::Measurement measurement;
+  /// For a noise of one metre in x: readings are linear in it.
+  identify::Sensors sensors;
+};
+
+[[nodiscard]] const std::vector<Experiment>& experiments();
+
+/// The friction of all of them.
+struct Truth {
+  double zeta = 0.0;
+  double F0 = 0.0;  ///< N
+};
+[[nodiscard]] Truth truth();
+
+/// What the seeds made of one parameter.
+struct Score {
+  double bias = 0.0;    ///< mean minus truth, relative to the truth
+  double spread = 0.0;  ///< standard deviation, likewise
+  int intervals = 0;
+  int covered = 0;
+
+  [[nodiscard]] double coverage() const { return static_cast<double>(covered) / intervals; }
+};
+
+/// One method at one noise.
+struct Cell {
+  std::string method;
+  std::string experiment;
+  double noise = 0.0;  ///< standard deviation of a reading of x [m]
+  int seeds = 0;
+  int estimates = 0;  ///< of them gave numbers
+  int usable = 0;
+  bool claims_coverage = false;
+  Score zeta;
+  Score F0;
+};
+
+/// Seeds 0, 1, ... For a method that can use none of the experiments there is no cell.
+[[nodiscard]] std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& methods,
+                                         const std::vector<double>& noises, int seeds);
+
+/// Share in which 1,000 seeds of a 95 % interval should lie.
+inline constexpr double least_coverage = 0.93;
+inline constexpr double most_coverage = 0.97;
+
+/// Coverages that the cells claim, of zeta and F0 together, and those that lie outside.
+struct Coverage {
+  int claimed = 0;
+  std::vector<std::string> outside;  ///< "resonance_deming, 20 um, zeta: 91.2 %"
+};
+[[nodiscard]] Coverage coverage(const std::vector<Cell>& cells);
+
+/// One line of the page's table.
+[[nodiscard]] std::string accuracy_row(const Cell& cell);
+
+/// docs/methods/accuracy.md
+[[nodiscard]] std::string accuracy_page(const std::vector<Cell>& cells);
+
+}  // namespace dualdamp::bench
