@@ -353,8 +353,8 @@ void Problems::add(core::Diagnostic diagnostic) {
 
 void Problems::throw_if_any() {
   if (diagnostics_.empty()) return;
-  std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+  std::sort(diagnostics_.begin(), diagnostics_.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.place.line, a.place.column, a.message) < std::tie(b.place.line, b.place.column, b.message);
   });
   throw core::InputError(diagnostics_);
 }
@@ -374,7 +374,7 @@ std::optional<double> factor_of_caller(const std::map<std::string, std::string>&
   const std::string* unit = find_unit(units, known);
   if (unit == nullptr) return std::nullopt;
   const core::QuantityText factor = core::unit_factor(*unit, known.unit.empty() ? "1" : known.unit);
-  if (factor.value) return *factor.value;
+  if (factor.value) return factor.value;
   problems.add({{file, 0, 0, {}},
                 "the unit of column " + std::string(known.name) + ": " + factor.fault,
                 core::describe_dimension(known.unit),
@@ -383,7 +383,7 @@ std::optional<double> factor_of_caller(const std::map<std::string, std::string>&
   return 1.0;
 }
 
-DataTable join(const std::string& file, std::vector<TestColumns> tests) {
+DataTable join(const std::string& file, const std::vector<TestColumns>& tests) {
   DataTable table;
   table.file = file;
   for (const TestColumns& test : tests) {

@@ -101,7 +101,7 @@ struct TestColumns {
 };
 
 /// The tests below each other. Tests that do not hold the same columns are refused.
-[[nodiscard]] DataTable join(const std::string& file, std::vector<TestColumns> tests);
+[[nodiscard]] DataTable join(const std::string& file, const std::vector<TestColumns>& tests);
 
 /// Pairs where there is a column Y; a decay where there is nothing but extremes, which alternate; histories
 /// otherwise. Every fault goes to `problems`; what is left out goes to `warnings`.

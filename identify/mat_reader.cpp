@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -68,6 +69,100 @@ bool is_mat_5(std::string_view bytes) {
 
 bool is_mat_73(std::string_view bytes) { return is_mat_5(bytes) && bytes.starts_with("MATLAB 7.3"); }
 
+[[noreturn]] void refuse_truncated(const std::string& file) {
+  refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
+}
+
+/// A data element of version 5: its type and where its content lies.
+struct Element {
+  std::uint32_t type = 0;
+  std::size_t begin = 0;
+  std::size_t size = 0;
+  std::size_t next = 0;  ///< where the following element begins
+};
+
+/// Holds a file of version 5 against its own statements: every element ends within the one around it, and every
+/// array of numbers has as many as its dimensions say. What is compressed is left to zlib's checksum.
+class Elements {
+ public:
+  Elements(std::string_view bytes, const std::string& file)
+      : bytes_(bytes), file_(file), swap_(word(bytes, header_size - 4, false) >> 16U != 0x4D49U) {}
+
+  void check() const {
+    for (std::size_t at = header_size; at < bytes_.size();) {
+      const Element element = read(at, bytes_.size());
+      if (element.type == matrix) check_matrix(element, 0);
+      at = element.next;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t matrix = 14;
+  static constexpr std::uint32_t compressed = 15;
+  static constexpr std::size_t tag = 8;
+
+  [[nodiscard]] Element read(std::size_t at, std::size_t end) const {
+    if (at > end || end - at < tag) refuse_truncated(file_);
+    const std::uint32_t first = word(bytes_, at, swap_);
+    if (first >> 16U != 0) {  // up to four bytes in the tag itself
+      const std::size_t size = first >> 16U;
+      if (size > 4) refuse_truncated(file_);
+      return {first & 0xFFFFU, at + 4, size, at + tag};
+    }
+    const std::size_t size = word(bytes_, at + 4, swap_);
+    if (size > end - at - tag) refuse_truncated(file_);
+    const std::size_t padded = first == compressed ? size : (size + 7) / 8 * 8;
+    return {first, at + tag, size, std::min(at + tag + padded, end)};
+  }
+
+  void check_matrix(const Element& element, int depth) const {
+    constexpr int deepest = 16;
+    constexpr std::uint32_t cell = 1;
+    constexpr std::uint32_t structure = 2;
+    constexpr std::uint32_t first_numeric = 6;
+    constexpr std::uint32_t last_numeric = 15;
+    const std::size_t end = element.begin + element.size;
+    if (element.size == 0) return;  // an empty field
+    if (depth > deepest) refuse_truncated(file_);
+    const Element flags = read(element.begin, end);
+    const Element sides = read(flags.next, end);
+    const Element name = read(sides.next, end);
+    if (flags.size < 8) refuse_truncated(file_);
+    const std::uint32_t kind = word(bytes_, flags.begin, swap_) & 0xFFU;
+    if (kind >= first_numeric && kind <= last_numeric) {
+      const Element numbers = read(name.next, end);
+      if (count(sides) != static_cast<double>(numbers.size) / width(numbers.type)) refuse_truncated(file_);
+      return;
+    }
+    if (kind != cell && kind != structure) return;
+    std::size_t at = name.next;
+    if (kind == structure) at = read(read(at, end).next, end).next;  // length and text of the names of its fields
+    while (at < end) {
+      const Element field = read(at, end);
+      if (field.type != matrix) refuse_truncated(file_);
+      check_matrix(field, depth + 1);
+      at = field.next;
+    }
+  }
+
+  /// Numbers that the dimensions ask for; a double, which no product of them leaves.
+  [[nodiscard]] double count(const Element& sides) const {
+    double product = 1.0;
+    for (std::size_t i = 0; i + 4 <= sides.size; i += 4) product *= word(bytes_, sides.begin + i, swap_);
+    return product;
+  }
+
+  /// Bytes of a number of a type; of an unknown type it is infinite, which fits no count but zero.
+  [[nodiscard]] static double width(std::uint32_t type) {
+    constexpr std::array<double, 14> widths = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
+    return type < widths.size() && widths[type] > 0 ? widths[type] : std::numeric_limits<double>::infinity();
+  }
+
+  std::string_view bytes_;
+  const std::string& file_;
+  bool swap_;
+};
+
 /// Neither matio nor HDF5 promises to be safe in threads.
 std::mutex one_at_a_time;
 
@@ -82,10 +177,6 @@ bool is_whole_hdf5(const std::string& path) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file >= 0) H5Fclose(file);
   return file >= 0;
-}
-
-[[noreturn]] void refuse_truncated(const std::string& file) {
-  refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
 }
 
 std::string describe(const matvar_t& variable) {
@@ -157,7 +248,7 @@ class Reader {
       if (scopes.size() > 1 && tests.back().label.empty()) tests.back().label = std::to_string(i + 1);
     }
     problems_.throw_if_any();
-    DataTable table = join(file_, std::move(tests));
+    DataTable table = join(file_, tests);
     if (row_labels_) table.sweeps = std::move(*row_labels_);
     return table;
   }
@@ -386,13 +477,13 @@ void check_mat(std::string_view bytes, const std::string& path, const std::strin
     return;
   }
   const bool is_5 = is_mat_5(bytes);
-  constexpr std::size_t tag = 8;
-  const bool swap = is_5 && word(bytes, header_size - 4, false) >> 16U != 0x4D49U;
-  std::uint64_t at = is_5 ? header_size : 0;
-  if (at == bytes.size()) refuse_file(file, "the MATLAB file is empty: it holds no variables");
-  while (at < bytes.size()) {
-    if (is_5 && bytes.size() - at < tag) refuse_truncated(file);
-    const std::uint64_t size = is_5 ? tag + word(bytes, at + 4, swap) : head4(bytes, at).size;
+  if (is_5 && bytes.size() == header_size) refuse_file(file, "the MATLAB file is empty: it holds no variables");
+  if (is_5) {
+    Elements(bytes, file).check();
+    return;
+  }
+  for (std::uint64_t at = 0; at < bytes.size();) {
+    const std::uint64_t size = head4(bytes, at).size;
     if (size == 0 || size > bytes.size() - at) refuse_truncated(file);
     at += size;
   }

@@ -320,7 +320,7 @@ class Mapping {
     problems_.throw_if_any();
     if (tests.empty()) refuse_file(file_, "no data set of the file is a signal that could be used", allowed());
     for (std::size_t i = 0; tests.size() > 1 && i < tests.size(); ++i) tests[i].label = std::to_string(i + 1);
-    DataTable table = join(file_, std::move(tests));
+    DataTable table = join(file_, tests);
     if (std::ranges::any_of(functions, [](const Function& f) { return !f.is_even; }))
       table.time_digits = 6;  // E13.5
     return table;
