@@ -9,7 +9,7 @@
 /// tells whether they are: at K = 1 and many periods they are those of the closed form, std(A) = sigma sqrt(2/n),
 /// std(phi) = std(A)/A, std(w) = sigma/A sqrt(24/n^3)/T.
 ///
-/// Source: IEEE Std 1057 (sine fit with three and four parameters), here with harmonics.
+/// Source: ieee1057, the sine fits of three and four parameters, here with harmonics.
 /// Errors: `outcome`, not_identifiable: fewer samples than parameters, less than one period, K w beyond half the
 /// sample rate, a constant signal where the frequency is to be refined. Cost: about 10 ns a sample and harmonic.
 

@@ -11,7 +11,7 @@
 /// Two data sets for one signal with the same samples are two tests only where the whole set of signals repeats.
 /// Units: the caller's, else the ordinate's units label, else the factors of data set 164, else SI.
 ///
-/// Source: the format's description by SDRC, University of Cincinnati (key uff58 in docs/refs.bib).
+/// Source: uff58.
 /// Errors: no time response, complex numbers, a data set that ends early, a number that cannot be read, a signal
 /// that does not follow, samples that differ within a test.
 
