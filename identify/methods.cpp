@@ -12,12 +12,14 @@
 #include "identify/jacobsen_ayre.hpp"
 #include "identify/law_selection.hpp"
 #include "identify/output_error.hpp"
+#include "identify/random_decrement.hpp"
 #include "identify/receptance.hpp"
 #include "identify/recursive_least_squares.hpp"
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "identify/resonance_two_point.hpp"
 #include "identify/resonance_within_sweep.hpp"
+#include "identify/stochastic_averaging.hpp"
 
 namespace dualdamp::identify {
 
@@ -33,12 +35,14 @@ const std::vector<MethodEntry>& methods() {
       jacobsen_ayre_method,
       law_selection_method,
       output_error_method,
+      random_decrement_method,
       receptance_method,
       recursive_least_squares_method,
       resonance_deming_method,
       resonance_least_squares_method,
       resonance_two_point_method,
       resonance_within_sweep_method,
+      stochastic_averaging_method,
   };
   return list;
 }

@@ -30,7 +30,7 @@ inline History sampled(const sim::Model& model, double duration, double rate, do
   sim::SimulateOptions options;
   options.duration = start + duration;
   options.sample_rate = rate;
-  const bool forced = model.excitation.type == sim::ExcitationType::force_harmonic;
+  const bool forced = !model.excitation.moves_base() && model.excitation.type != sim::ExcitationType::none;
   History history;
   history.start = start;
   history.sample_rate = rate;
