@@ -140,6 +140,8 @@ Fields diagnostics() {
                  {at + "candidates[].law", "", "a law that was compared, best first"},
                  {at + "candidates[].parameters[].name", "", "a parameter of it"},
                  {at + "candidates[].parameters[].value", "", "its value"},
+                 {at + "candidates[].parameters[].std", "", "its standard error"},
+                 {at + "candidates[].parameters[].interval95[]", "", "its 95 % interval"},
                  {at + "candidates[].residual_deviation", "m", "standard deviation of its residuals"},
                  {at + "candidates[].AICc", "1", "Akaike's criterion, corrected for few data"},
                  {at + "candidates[].BIC", "1", "Bayesian criterion"},
