@@ -17,7 +17,7 @@ struct CheckOptions {
 
 /// Adds problems to `reading` and completes its values. The data are those of `analysis.data`, if it is there.
 [[nodiscard]] std::optional<identify::MeasuredRecord> check(const Document& document, Reading& reading,
-                                                const CheckOptions& options);
+                                                            const CheckOptions& options);
 
 /// `points[12].x` as the pattern `points[].x` of the tables and its indices; nothing when it is no path.
 struct ResultPath {

@@ -99,8 +99,8 @@ Experiment histories() {
   identify::Sensors sensors = unit_sensors();
   sensors.sample_rate = 500.0;
   sensors.y.noise = 0.0;
-  return {"histories", "y, x and a at 4 and 6 mm, three seconds each at 500 Hz", rig(at_resonance(0.0)), measurement,
-          sensors};
+  return {"histories", "y, x and a at 4 and 6 mm, three seconds each at 500 Hz", rig(at_resonance(0.0)),
+          measurement, sensors};
 }
 
 Experiment random_response() {

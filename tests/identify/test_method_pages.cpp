@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/units.hpp"
-#include "identify/record_reader.hpp"
 #include "identify/methods.hpp"
+#include "identify/record_reader.hpp"
 
 using namespace dualdamp;
 
