@@ -42,6 +42,8 @@ class Model {
 
   [[nodiscard]] const std::vector<Datum>& pairs() const { return pairs_; }
   [[nodiscard]] std::size_t frequencies() const { return ratios_.size(); }
+  [[nodiscard]] const std::vector<double>& ratios() const { return ratios_; }
+  [[nodiscard]] std::size_t frequency(std::size_t pair) const { return frequency_[pair]; }
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(pairs_.size()); }
   [[nodiscard]] Eigen::Index size() const { return size_; }
 
@@ -109,15 +111,18 @@ double sum_of_squares(const Model& model, const Eigen::Vector3d& p) {
 std::optional<Eigen::Vector3d> starting_point(const Model& model) {
   std::optional<Eigen::Vector3d> best;
   double least = infinity;
+  std::vector<analytic::DenHartog> functions;
   const double reach = model.size() == 3 ? 0.15 : 0.0;
   for (double u = -reach; u <= reach; u += 0.03) {
     for (double zeta = 0.003; zeta < greatest_zeta; zeta *= 1.35) {
+      functions.clear();
+      for (const double r : model.ratios()) functions.push_back(analytic::den_hartog(zeta, r * std::exp(-u)));
       double S_GG = 0.0;
       double S_Gx = 0.0;
-      for (const Datum& datum : model.pairs()) {
-        const analytic::DenHartog d = analytic::den_hartog(zeta, datum.r * std::exp(-u));
+      for (std::size_t i = 0; i < model.pairs().size(); ++i) {
+        const analytic::DenHartog& d = functions[model.frequency(i)];
         S_GG += d.G * d.G;
-        S_Gx += d.G * (datum.Y / d.q - datum.x);
+        S_Gx += d.G * (model.pairs()[i].Y / d.q - model.pairs()[i].x);
       }
       const Eigen::Vector3d p(zeta, std::max(S_Gx / S_GG, 0.0), u);
       const double squares = sum_of_squares(model, p);

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "identify/force_parameters.hpp"
+#include "identify/history_energy.hpp"
+#include "identify/signals.hpp"
 #include "identify/statistics.hpp"
 #include "identify/steady_states.hpp"
 
@@ -69,11 +71,44 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
   return true;
 }
 
-std::string lacks_energy(const Record& record) { return lacks_phases(record); }
+namespace {
 
-Estimate energy_balance(const Record& record, const KnownConstants& constants, const MethodOptions& /*options*/) {
-  Estimate estimate;
-  estimate.method = energy_balance_method.name;
+/// Histories in windows of about a cycle each, filtered with the first cut-off.
+std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
+                                               const MethodOptions& options, Estimate& estimate) {
+  std::vector<EnergyTerms> accounts;
+  for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
+    const Motion motion = motion_of(*item.history, cutoffs_for(*item.history, options).front());
+    int reversals = 0;
+    for (std::size_t i = 1; i < motion.v.size(); ++i) reversals += motion.v[i] * motion.v[i - 1] < 0.0 ? 1 : 0;
+    for (const WindowEnergy& window : energy_of(motion, constants, std::max(reversals / 2, 1)))
+      if (window.path > 0.0)
+        accounts.push_back({.work = window.input - window.stored,
+                            .path = window.path,
+                            .speed_square = window.square_speed,
+                            .number = item.number});
+  }
+  return accounts;
+}
+
+Estimate of_histories(const Record& record, const KnownConstants& constants, const MethodOptions& options,
+                      Estimate estimate) {
+  if (std::string fault = fault_of(constants); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return estimate;
+  }
+  const std::vector<EnergyTerms> accounts = accounts_of_histories(record, constants, options, estimate);
+  std::vector<std::string> faults;
+  if (!estimate.outcome.ok() || !balance(accounts, constants, estimate, faults)) return estimate;
+  const auto repeated = std::ranges::unique(estimate.used);
+  estimate.used.erase(repeated.begin(), repeated.end());
+  conclude(estimate, faults,
+           "rests on " + std::to_string(accounts.size()) + " cycles of " + std::to_string(estimate.used.size()) +
+               (estimate.used.size() == 1 ? " history" : " histories"));
+  return estimate;
+}
+
+Estimate of_states(const Record& record, const KnownConstants& constants, Estimate estimate) {
   const std::optional<std::vector<Pair>> states = take_states(record, constants, true, estimate);
   if (!states) return estimate;
   const bool approximate = std::ranges::any_of(
@@ -104,6 +139,21 @@ Estimate energy_balance(const Record& record, const KnownConstants& constants, c
            "rests on " + std::to_string(estimate.used.size()) + " of " +
                std::to_string(record.pairs->pairs.size()) + " steady states");
   return estimate;
+}
+
+}  // namespace
+
+std::string lacks_energy(const Record& record) {
+  return record.histories.empty() || lacks_phases(record).empty() ? lacks_phases(record) : "";
+}
+
+/// States, being averaged over many cycles, come before histories.
+Estimate energy_balance(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = energy_balance_method.name;
+  if (record.histories.empty() || lacks_phases(record).empty())
+    return of_states(record, constants, std::move(estimate));
+  return of_histories(record, constants, options, std::move(estimate));
 }
 
 }  // namespace dualdamp::identify

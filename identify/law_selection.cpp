@@ -78,7 +78,7 @@ std::optional<double> output(const FundamentalLaw& law, const Eigen::VectorXd& p
     if (!(slope > 0.0)) return std::nullopt;
     const double step = 0.5 * (along * along + across * across - point.Y * point.Y) / slope;
     X = std::max(X - step, 0.2 * X);
-    if (std::abs(step) < 1e-13 * X) return X;
+    if (std::abs(step) < 1e-8 * X) return X;  // and the error after it is of its square
   }
   return std::nullopt;
 }

@@ -89,9 +89,17 @@ bool drop_sticking(std::vector<Pair>& states, const ParameterSet& value, const K
 std::vector<Pair> exact_states(const std::vector<Pair>& states, const ParameterSet& value,
                                const KnownConstants& constants) {
   std::vector<Pair> exact;
+  exact.reserve(states.size());
+  analytic::DenHartog functions;
+  double limit = 0.0;
+  double omega = 0.0;
   for (const Pair& measured : states) {
-    const double r = measured.omega / natural_frequency(constants);
-    const auto state = analytic::non_sticking_state(analytic::den_hartog(value.zeta, r), measured.Y, value.x_f);
+    if (measured.omega != omega) {
+      omega = measured.omega;
+      functions = analytic::den_hartog(value.zeta, omega / natural_frequency(constants));
+      limit = analytic::non_sticking_limit(functions);
+    }
+    const auto state = analytic::non_sticking_state(functions, limit, measured.Y, value.x_f);
     if (!state) continue;
     Pair pair = measured;
     pair.x = state->amplitude;

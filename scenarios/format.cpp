@@ -224,6 +224,7 @@ Variant identify_variant() {
         quantity("least_speed", {"m/s"}, "slower samples are left out where friction is regressed on speed")
             .at_least(0),
         integer("bootstrap", "replicates of a bootstrap by sweeps").at_least(0).at_most(1'000'000),
+        boolean("profile", "profiles of the likelihood of zeta and F0").with_fallback(false),
         quantity("forgetting", {"1"}, "forgetting factor of recursive_least_squares; 1 forgets nothing")
             .above(0)
             .at_most(1),

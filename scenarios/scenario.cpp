@@ -210,6 +210,7 @@ Identify identify_question(const Json& section, const sim::Model& model,
   result.options.zero_offset = section.at("zero_offset").get<bool>();
   result.options.sigma_x = number_or(section, "sigma_x", 0.0);
   result.options.sigma_Y = number_or(section, "sigma_Y", 0.0);
+  result.options.profile = section.at("profile").get<bool>();
   result.options.free_natural_frequency = section.at("free_natural_frequency").get<bool>();
   result.options.least_speed = number_or(section, "least_speed", result.options.least_speed);
   result.options.forgetting = number_or(section, "forgetting", result.options.forgetting);

@@ -320,8 +320,12 @@ std::optional<double> amplitude(const DenHartog& d, double Y, double x_f) {
 }
 
 std::optional<NonStickingState> non_sticking_state(const DenHartog& d, double Y, double x_f) {
+  return non_sticking_state(d, x_f > 0.0 ? non_sticking_limit(d) : 0.0, Y, x_f);
+}
+
+std::optional<NonStickingState> non_sticking_state(const DenHartog& d, double limit, double Y, double x_f) {
   const std::optional<double> x_o = amplitude(d, Y, x_f);
-  if (!x_o || (x_f > 0.0 && !(*x_o > non_sticking_limit(d) * x_f))) return std::nullopt;
+  if (!x_o || (x_f > 0.0 && !(*x_o > limit * x_f))) return std::nullopt;
   NonStickingState state;
   state.amplitude = *x_o;
   const double viscous_lag = std::atan2(2.0 * d.zeta * d.r, (1.0 - d.r) * (1.0 + d.r));

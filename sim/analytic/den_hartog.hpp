@@ -80,5 +80,8 @@ struct NonStickingState {
 
 /// The steady state that never sticks; nothing where there is none. Y > 0, x_f >= 0 [m].
 [[nodiscard]] std::optional<NonStickingState> non_sticking_state(const DenHartog& functions, double Y, double x_f);
+/// The same for many inputs, with `limit` = `non_sticking_limit(functions)`, which is most of the cost.
+[[nodiscard]] std::optional<NonStickingState> non_sticking_state(const DenHartog& functions, double limit, double Y,
+                                                                 double x_f);
 
 }  // namespace dualdamp::sim::analytic

@@ -6,7 +6,7 @@
 
 #include "friction_models/coulomb.hpp"
 #include "sim/steady_state.hpp"
-#include "tests/identify/records.hpp"
+#include "tests/identify/histories.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify;
@@ -43,7 +43,7 @@ Pair measure(double r, double Y, double damping = c, double friction_force = F0)
           .mean_square_speed = state.energy.viscous / (damping * state.period)};
 }
 
-Record record_of(std::vector<Pair> pairs) {
+Record states_record(std::vector<Pair> pairs) {
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].number = static_cast<int>(i) + 1;
   return {PairRecord{std::move(pairs)}, std::nullopt};
 }
@@ -67,7 +67,7 @@ TEST_CASE("The energy balance is an identity") {
 }
 
 TEST_CASE("Exact quantities give the truth at any frequency, with stops or without") {
-  const Estimate e = energy_balance(record_of(sliding_states()), bearing, {});
+  const Estimate e = energy_balance(states_record(sliding_states()), bearing, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
   CHECK(e.value.c == Approx(c).epsilon(1e-9));
@@ -78,14 +78,14 @@ TEST_CASE("Exact quantities give the truth at any frequency, with stops or witho
   // Y = 1.4 and 1.5 x_f stick in every period at resonance; two sticks do no work.
   const double x_f = F0 / stiffness;
   const Estimate sticking = energy_balance(
-      record_of({measure(1.0, 1.4 * x_f), measure(1.0, 1.5 * x_f), measure(0.6, 3.0 * x_f)}), bearing, {});
+      states_record({measure(1.0, 1.4 * x_f), measure(1.0, 1.5 * x_f), measure(0.6, 3.0 * x_f)}), bearing, {});
   REQUIRE(sticking.outcome.ok());
   CHECK(sticking.value.c == Approx(c).epsilon(1e-9));
   CHECK(sticking.value.F0 == Approx(F0).epsilon(1e-9));
 }
 
 TEST_CASE("The mass is not needed, and without it there is no damping ratio") {
-  const Estimate e = energy_balance(record_of(sliding_states()), {unknown, stiffness, unknown}, {});
+  const Estimate e = energy_balance(states_record(sliding_states()), {unknown, stiffness, unknown}, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
   CHECK(e.value.c == Approx(c).epsilon(1e-9));
@@ -113,7 +113,7 @@ TEST_CASE("Harmonic quantities bias the estimate by what the method says") {
   // The method keeps the path, which is measured; and it tells the bias of the rest, above 1 %.
   std::vector<Pair> states = sliding_states();
   for (Pair& pair : states) pair.mean_square_speed = unknown;
-  const Estimate e = energy_balance(record_of(states), bearing, {});
+  const Estimate e = energy_balance(states_record(states), bearing, {});
   REQUIRE(e.outcome.ok());
   const double worst = std::max(std::abs(e.value.c / c - 1.0), std::abs(e.value.F0 / F0 - 1.0));
   CHECK(worst < 0.03);
@@ -123,7 +123,7 @@ TEST_CASE("Harmonic quantities bias the estimate by what the method says") {
   REQUIRE(e.lack_of_fit.has_value());
   CHECK_FALSE(e.lack_of_fit->fired);
 
-  const Estimate no_mass = energy_balance(record_of(states), {unknown, stiffness, unknown}, {});
+  const Estimate no_mass = energy_balance(states_record(states), {unknown, stiffness, unknown}, {});
   REQUIRE_FALSE(no_mass.warnings.empty());
   CHECK(mentions(no_mass.warnings[0], "harmonic motion"));
 }
@@ -136,7 +136,7 @@ TEST_CASE("A phase error does nothing at resonance and much beside it") {
       states.push_back(measure(r, Y));
       states.back().phase += e;
     }
-    return energy_balance(record_of(states), bearing, {});
+    return energy_balance(states_record(states), bearing, {});
   };
   const double e = pi / 180.0;
   const auto change = [](const Estimate& estimate) {
@@ -167,7 +167,7 @@ TEST_CASE("Intervals of the energy balance hold in a Monte Carlo experiment") {
       pair.mean_square_speed *= error * error;
       pair.phase += 0.5 * pi / 180.0 * normal();
     }
-    const Estimate e = energy_balance(record_of(states), bearing, {});
+    const Estimate e = energy_balance(states_record(states), bearing, {});
     covered_c += e.interval95->c[0] < c && c < e.interval95->c[1];
     covered_F0 += e.interval95->F0[0] < F0 && F0 < e.interval95->F0[1];
   }
@@ -190,18 +190,41 @@ TEST_CASE("Friction that bends is told by the energy balance") {
   CHECK(faults.size() == 1);
 }
 
+TEST_CASE("Histories of any motion give the energy balance") {
+  // Two levels from rest, transients and sticks included. Turns between samples are known to (w T)^2 = 4e-4 of
+  // themselves.
+  const std::vector<History> histories = {sampled(driven_bearing(c, F0, 4e-3), 2.0, 2000.0),
+                                          sampled(driven_bearing(c, F0, 7e-3), 2.0, 2000.0)};
+  const Estimate e = energy_balance(testing::record_of(histories), bearing_constants, {});
+  REQUIRE(e.outcome.ok());
+  CHECK(e.usable);
+  CHECK(e.value.c == Approx(c).epsilon(1e-3));
+  CHECK(e.value.F0 == Approx(F0).epsilon(1e-3));
+  CHECK(e.used == std::vector<int>{1, 2});
+  CHECK(mentions(e.reason, "cycles of 2 histories"));
+  // x alone, differentiated and filtered, with noise of 1 um: that of rounding to the 3 um of the paper's sensors.
+  Normal normal(91);
+  std::vector<History> noisy;
+  for (const History& history : histories) noisy.push_back(displacement_only(history, 1e-6, normal));
+  const Estimate measured = energy_balance(testing::record_of(noisy), bearing_constants, {});
+  REQUIRE(measured.outcome.ok());
+  CHECK(measured.value.c == Approx(c).epsilon(0.05));
+  CHECK(measured.value.F0 == Approx(F0).epsilon(0.05));
+  CHECK(mentions(energy_balance(testing::record_of(histories), {unknown, stiffness}, {}).reason, "needs the mass"));
+}
+
 TEST_CASE("Records that allow no energy balance are refused with the reason") {
   CHECK(energy_balance(Record{}, bearing, {}).reason == "the record holds no x-Y pairs");
   CHECK(energy_balance(pairs(table_1), table_1_constants, {}).reason ==
         "the record holds no x-Y pairs with phases");
   const Pair one = measure(1.0, 6.0e-3);
-  CHECK(
-      mentions(energy_balance(record_of({one, one}), bearing, {}).reason, "two steady states of different speeds"));
-  CHECK(
-      mentions(energy_balance(record_of({one, one}), {mass, unknown, unknown}, {}).reason, "needs the stiffness"));
+  CHECK(mentions(energy_balance(states_record({one, one}), bearing, {}).reason,
+                 "two steady states of different speeds"));
+  CHECK(mentions(energy_balance(states_record({one, one}), {mass, unknown, unknown}, {}).reason,
+                 "needs the stiffness"));
   Pair backward = one;
   backward.phase = -1.5;
-  const Estimate e = energy_balance(record_of({one, measure(1.0, 7.0e-3), backward}), bearing, {});
+  const Estimate e = energy_balance(states_record({one, measure(1.0, 7.0e-3), backward}), bearing, {});
   REQUIRE(e.excluded.size() == 1);
   CHECK(mentions(e.excluded[0].reason, "drives the base"));
 }
