@@ -73,45 +73,51 @@ std::string label_of(const Test& test) {
 /// Samples signals that come late, each by its own lag, from a stream of intervals.
 class Recorder {
  public:
-  /// From `begin` [s] on, `count` samples at `rate` [Hz]; a motion starts at 0, and was there before.
+  /// From `begin` [s] on, `count` > 0 samples at `rate` [Hz]; a motion starts at 0, and was there before.
   Recorder(const identify::Sensors& sensors, double omega, double begin, double rate, std::size_t count)
       : begin_(begin), rate_(rate), count_(count) {
     const std::array<const identify::Sensor*, signals> order = {&sensors.y, &sensors.x, &sensors.v, &sensors.a,
                                                                 &sensors.force};
     for (std::size_t i = 0; i < signals; ++i) {
-      lags_[i] = order[i]->lag(omega);
-      values_[i].reserve(count);
+      const double lag = order[i]->lag(omega);
+      const auto known = std::ranges::find(series_, lag, &Series::lag);
+      series_of_[i] = static_cast<std::size_t>(known - series_.begin());
+      if (known == series_.end()) series_.push_back({lag, {}});
     }
+    for (Series& series : series_) series.samples.reserve(count);
   }
 
-  /// Time from which on nothing is missing any more [s].
-  [[nodiscard]] double end() const { return time(count_ - 1) - *std::ranges::min_element(lags_) + 1e-9 / rate_; }
-  [[nodiscard]] double longest_lag() const { return std::max(0.0, *std::ranges::max_element(lags_)); }
+  /// Time from which on nothing is missing any more [s]: a sample at the end of an interval belongs to the next.
+  [[nodiscard]] double end() const {
+    constexpr double beyond_rounding = 1e-3;
+    return time(count_ - 1) - std::ranges::min(series_, {}, &Series::lag).lag + beyond_rounding / rate_;
+  }
+  [[nodiscard]] double longest_lag() const { return std::ranges::max(series_, {}, &Series::lag).lag; }
   void delay_begin(double s) { begin_ += s; }
 
   void observe(const sim::Interval& interval) {
-    for (std::size_t i = 0; i < signals; ++i) {
-      while (values_[i].size() < count_) {
-        const double t = std::max(time(values_[i].size()) - lags_[i], 0.0);
+    for (auto& [lag, samples] : series_) {
+      while (samples.size() < count_) {
+        const double t = std::max(time(samples.size()) - lag, 0.0);
         if (t >= interval.end()) break;
-        values_[i].push_back(value(i, interval.state_at(std::max(t, interval.begin))));
+        samples.push_back(interval.state_at(std::max(t, interval.begin)));
       }
     }
   }
 
   [[nodiscard]] bool complete() const {
-    return std::ranges::all_of(values_, [&](const auto& values) { return values.size() == count_; });
+    return std::ranges::all_of(series_, [&](const Series& series) { return series.samples.size() == count_; });
   }
 
-  History take(const Test& test, const Measurement& measurement) {
+  [[nodiscard]] History history(const Test& test, const Measurement& measurement) const {
     History history{.start = begin_, .sample_rate = rate_, .sweep = label_of(test)};
     const sim::Excitation& excitation = test.model.excitation;
-    if (excitation.moves_base()) history.y = std::move(values_[0]);
-    history.x = std::move(values_[1]);
-    if (measurement.with_v) history.v = std::move(values_[2]);
-    if (measurement.with_a) history.a = std::move(values_[3]);
+    if (excitation.moves_base()) history.y = signal(0, &sim::Sample::y);
+    history.x = signal(1, &sim::Sample::x);
+    if (measurement.with_v) history.v = signal(2, &sim::Sample::v);
+    if (measurement.with_a) history.a = signal(3, &sim::Sample::a);
     if (excitation.type != sim::ExcitationType::none && !excitation.moves_base()) {
-      history.force = std::move(values_[4]);
+      history.force = signal(4, &sim::Sample::external);
       for (double& force : history.force) force *= test.friction;
     }
     return history;
@@ -119,25 +125,30 @@ class Recorder {
 
  private:
   static constexpr std::size_t signals = 5;
+  struct Series {
+    double lag = 0.0;  ///< s
+    std::vector<sim::Sample> samples;
+  };
 
   [[nodiscard]] double time(std::size_t i) const { return begin_ + static_cast<double>(i) / rate_; }
-  static double value(std::size_t i, const sim::Sample& sample) {
-    return std::array{sample.y, sample.x, sample.v, sample.a, sample.external}[i];
+  [[nodiscard]] std::vector<double> signal(std::size_t number, double sim::Sample::* value) const {
+    std::vector<double> values;
+    values.reserve(count_);
+    for (const sim::Sample& sample : series_[series_of_[number]].samples) values.push_back(sample.*value);
+    return values;
   }
 
   double begin_;
   double rate_;
   std::size_t count_;
-  std::array<double, signals> lags_{};
-  std::array<std::vector<double>, signals> values_;
+  std::vector<Series> series_;  ///< one for each lag
+  std::array<std::size_t, signals> series_of_{};
 };
 
 /// Walks on until the recorder has all it wants; empty, or why it has not.
 std::string record_motion(sim::Engine& engine, Recorder& recorder) {
-  // A sample at the very end belongs to the interval behind it.
-  const double end = recorder.end() * (1.0 + 1e-12);
-  while (const sim::Interval* interval = engine.next(end)) recorder.observe(*interval);
-  return recorder.complete() ? "" : engine.outcome().reason;
+  while (const sim::Interval* interval = engine.next(recorder.end())) recorder.observe(*interval);
+  return recorder.complete() ? "" : "the motion ends early: " + engine.outcome().reason;
 }
 
 /// What one test gave.
@@ -157,7 +168,7 @@ void sample_steady_state(const Test& test, const sim::SteadyState& steady, const
   const std::unique_ptr<sim::Engine> engine = sim::make_engine(test.model);
   engine->restart(steady.start);
   result.failure = record_motion(*engine, recorder);
-  if (result.failure.empty()) result.history = recorder.take(test, measurement);
+  if (result.failure.empty()) result.history = recorder.history(test, measurement);
 }
 
 Result measure_steady_state(const Test& test, const Measurement& measurement, const identify::Sensors& sensors,
@@ -188,7 +199,7 @@ Result measure_history(const Test& test, const Measurement& measurement, const i
   Recorder recorder(sensors, omega, measurement.settle, sensors.sample_rate, count);
   const std::unique_ptr<sim::Engine> engine = sim::make_engine(test.model);
   result.failure = record_motion(*engine, recorder);
-  if (result.failure.empty()) result.history = recorder.take(test, measurement);
+  if (result.failure.empty()) result.history = recorder.history(test, measurement);
   return result;
 }
 
