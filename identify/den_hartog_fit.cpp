@@ -319,7 +319,7 @@ void bootstrap(const Model& model, const Fit& fit, const ResonanceData& data, in
 std::string fault_of(const Model& model, const std::vector<Exclusion>& excluded) {
   if (model.size() == 3 && model.frequencies() < 3)
     return "the natural frequency cannot be told from fewer than three frequencies, and the record has " +
-           std::to_string(model.frequencies()) + ": zeta would be known ten times worse";
+           std::to_string(model.frequencies()) + ": zeta would be known tens of times worse";
   if (model.rows() < model.size()) {
     std::string fault = std::to_string(model.size()) + " pairs are needed, and " + std::to_string(model.rows()) +
                         (model.rows() == 1 ? " is" : " are") + " left";

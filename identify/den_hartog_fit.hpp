@@ -5,7 +5,7 @@
 ///
 /// by least squares over zeta and x_f, with analytic derivatives; over wn too with `free_natural_frequency`.
 /// Nothing is neglected, so the frequencies need not be near resonance, and detuning is no error. From one
-/// frequency wn cannot be told in practice (zeta would be known ten times worse), so a free wn is refused with
+/// frequency wn cannot be told in practice (zeta would be known tens of times worse), so a free wn is refused with
 /// fewer than three.
 ///
 /// Holds for Coulomb and viscous friction, zeta < 0.95, without sticking, errors of x independent and alike. Phases

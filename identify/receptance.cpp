@@ -34,8 +34,10 @@ struct Fit {
   [[nodiscard]] double variance() const { return residuals.squaredNorm() / freedom(); }
 };
 
+using Row = std::function<Eigen::Vector3d(const Pair&)>;
+
 /// Least squares of two columns; `row` gives them and the value of one state.
-Fit fit_states(const std::vector<Pair>& states, const std::function<Eigen::Vector3d(const Pair&)>& row) {
+Fit fit_states(const std::vector<Pair>& states, const Row& row) {
   Fit fit;
   fit.columns.resize(static_cast<Eigen::Index>(states.size()), 2);
   Eigen::VectorXd values(fit.columns.rows());
@@ -49,11 +51,28 @@ Fit fit_states(const std::vector<Pair>& states, const std::function<Eigen::Vecto
   return fit;
 }
 
+Eigen::Vector3d imaginary_row(const Pair& state, double stiffness) {
+  return {state.omega, 4.0 / (pi * fundamental(state)),
+          dynamic_stiffness(state, stiffness) * std::sin(state.phase)};
+}
+
 /// Coefficients (c, F0).
 Fit imaginary_part(const std::vector<Pair>& states, double stiffness) {
-  return fit_states(states, [stiffness](const Pair& state) {
-    return Eigen::Vector3d(state.omega, 4.0 / (pi * fundamental(state)),
-                           dynamic_stiffness(state, stiffness) * std::sin(state.phase));
+  return fit_states(states, [stiffness](const Pair& state) { return imaginary_row(state, stiffness); });
+}
+
+/// What an error of x, as long in the direction of x as across it, makes of the imaginary part less its fit, per
+/// metre: across it turns the real part in, along it changes both sides and leaves c w/X.
+double error_gain(const Pair& state, double c, double stiffness) {
+  const double real = dynamic_stiffness(state, stiffness) * std::cos(state.phase);
+  return std::hypot(real, c * state.omega) / fundamental(state);
+}
+
+/// The same fit with states weighted by their errors: what remains are residuals alike.
+Fit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weights, double c, double stiffness) {
+  std::size_t i = 0;
+  return fit_states(states, [&](const Pair& state) -> Eigen::Vector3d {
+    return imaginary_row(state, stiffness) / error_gain(weights[i++], c, stiffness);
   });
 }
 
@@ -71,15 +90,24 @@ std::optional<ParameterSet> read(const std::vector<Pair>& states, const KnownCon
   return parameters(ForceParameters{constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1]});
 }
 
-void set_estimate(const Fit& fit, const KnownConstants& constants, Estimate& estimate) {
-  const ForceParameters force{constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1]};
+/// The covariance is that of an unweighted fit to data of unequal errors; their size is told by the weighted one.
+void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownConstants& constants,
+                  Estimate& estimate) {
+  const double c = fit.coefficients[0];
+  const ForceParameters force{constants.mass, c, constants.stiffness, fit.coefficients[1]};
   estimate.value = parameters(force);
   const std::optional<Eigen::MatrixXd> unit = unit_covariance(fit.columns);
   if (fit.freedom() < 1.0 || !unit) return;
+  Eigen::VectorXd gain(fit.residuals.size());
+  for (Eigen::Index i = 0; i < gain.size(); ++i)
+    gain[i] = error_gain(states[static_cast<std::size_t>(i)], c, constants.stiffness);
+  const Eigen::MatrixXd scaled = gain.asDiagonal() * fit.columns * *unit;
+  const Eigen::Matrix2d of_fit =
+      weighted_part(states, states, c, constants.stiffness).variance() * (scaled.transpose() * scaled);
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  covariance(1, 1) = fit.variance() * (*unit)(0, 0);
-  covariance(3, 3) = fit.variance() * (*unit)(1, 1);
-  covariance(1, 3) = covariance(3, 1) = fit.variance() * (*unit)(0, 1);
+  covariance(1, 1) = of_fit(0, 0);
+  covariance(3, 3) = of_fit(1, 1);
+  covariance(1, 3) = covariance(3, 1) = of_fit(0, 1);
   set_estimate(estimate, force, covariance, quantile95(fit.freedom()));
 }
 
@@ -151,19 +179,21 @@ void list_limacon(const std::vector<Pair>& states, const KnownConstants& constan
                                 " N.s/m: damping, sticking or the phases are not what the method assumes");
 }
 
-/// A friction that grows with the amplitude adds X to the imaginary part. What harmonic balance itself leaves of
-/// the exact motion at the estimate speaks for the law and not against it.
-void test_amplitude(const std::vector<Pair>& states, const Fit& fit, const KnownConstants& constants,
-                    Estimate& estimate, std::vector<std::string>& faults) {
+/// A friction that grows with the amplitude adds w^2 X to the imaginary part. What harmonic balance itself leaves
+/// of the exact motion at the estimate speaks for the law and not against it.
+void test_amplitude(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate,
+                    std::vector<std::string>& faults) {
+  const double c = estimate.value.c;
+  const Fit fit = weighted_part(states, states, c, constants.stiffness);
   Eigen::VectorXd residuals = fit.residuals;
   if (estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
     const std::vector<Pair> exact = exact_states(states, estimate.value, constants);
-    if (exact.size() == states.size()) residuals -= imaginary_part(exact, constants.stiffness).residuals;
+    if (exact.size() == states.size()) residuals -= weighted_part(exact, states, c, constants.stiffness).residuals;
   }
   Eigen::VectorXd term(residuals.size());
   for (Eigen::Index i = 0; i < term.size(); ++i) {
     const Pair& state = states[static_cast<std::size_t>(i)];
-    term[i] = state.omega * state.omega * fundamental(state);
+    term[i] = state.omega * state.omega * fundamental(state) / error_gain(state, c, constants.stiffness);
   }
   const Eigen::VectorXd values = fit.columns * fit.coefficients + fit.residuals;
   estimate.lack_of_fit = added_term_test(fit.columns, residuals, term, values.maxCoeff() - values.minCoeff(),
@@ -218,14 +248,14 @@ Estimate receptance(const Record& record, const KnownConstants& constants, const
     refuse(estimate, "the outputs are such that c and F0 cannot be told apart");
     return estimate;
   }
-  set_estimate(fit, constants, estimate);
+  set_estimate(*states, fit, constants, estimate);
   for (const Pair& state : *states) estimate.used.push_back(state.number);
 
   std::vector<std::string> faults;
   constexpr double rounding = 1e-9;
   judge_force_signs(estimate, rounding * constants.stiffness / states->front().omega,
                     rounding * constants.stiffness * states->front().x, faults);
-  test_amplitude(*states, fit, constants, estimate, faults);
+  test_amplitude(*states, constants, estimate, faults);
   judge_own_reading(
       *states, constants, [&](const auto& exact) { return read(exact, constants); },
       "because the motion is not harmonic", estimate, faults);
