@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -112,7 +113,7 @@ Experiment random_response() {
   identify::Sensors sensors = unit_sensors();
   sensors.sample_rate = 200.0;
   return {
-      "random response", "x and the random force on the mass, 100 s at 200 Hz",
+      "random response", "x and the random force on the mass, 100 s at 200 Hz, each seed with a motion of its own",
       rig({.type = sim::ExcitationType::force_noise, .noise = {.intensity = 2.0, .bandwidth = 380.0, .seed = 1}}),
       measurement, sensors};
 }
@@ -169,23 +170,21 @@ Score score(const std::vector<identify::Estimate>& estimates, double truth, doub
   return result;
 }
 
-/// Regressions whose columns are measured too, the filter that rests on a smoothed sign, the average that knows of
-/// no friction: their pages say that the intervals leave out what that does.
-constexpr std::array<std::string_view, 5> partial_intervals = {"acceleration_velocity_displacement",
-                                                               "extended_kalman", "friction_force",
-                                                               "random_decrement", "recursive_least_squares"};
+/// Regressions whose columns are measured too, the filter that rests on a smoothed sign, averages that are
+/// approximations: their pages say what the intervals leave out.
+constexpr std::array<std::string_view, 6> partial_intervals = {"acceleration_velocity_displacement",
+                                                               "extended_kalman",
+                                                               "friction_force",
+                                                               "random_decrement",
+                                                               "recursive_least_squares",
+                                                               "stochastic_averaging"};
 
-Cell cell_of(const identify::MethodEntry& method, const Setting& setting, double noise, int seeds) {
-  std::vector<identify::Estimate> estimates(static_cast<std::size_t>(seeds));
-  constexpr std::size_t grain = 8;
-  sim::in_parts(estimates.size(), grain, 0, [&](std::size_t first, std::size_t count) {
-    for (std::size_t seed = first; seed < first + count; ++seed)
-      estimates[seed] = estimate(method, *setting.experiment, *setting.motion, noise, seed);
-  });
+Cell cell_of(const identify::MethodEntry& method, const Experiment& experiment, double noise,
+             const std::vector<identify::Estimate>& estimates) {
   Cell cell{.method = std::string(method.name),
-            .experiment = setting.experiment->name,
+            .experiment = experiment.name,
             .noise = noise,
-            .seeds = seeds,
+            .seeds = static_cast<int>(estimates.size()),
             .claims_coverage = std::ranges::find(partial_intervals, method.name) == partial_intervals.end()};
   for (const identify::Estimate& estimate : estimates) {
     cell.estimates += estimate.outcome.ok() ? 1 : 0;
@@ -196,6 +195,34 @@ Cell cell_of(const identify::MethodEntry& method, const Setting& setting, double
   cell.zeta = score(estimates, truth().zeta, &ParameterSet::zeta, &ParameterIntervals::zeta);
   cell.F0 = score(estimates, truth().F0, &ParameterSet::F0, &ParameterIntervals::F0);
   return cell;
+}
+
+/// Where the motion is random every seed has one of its own; chance is in the motion there, not in the reading.
+scenarios::MotionRecord motion_for(const Experiment& experiment, std::uint64_t seed) {
+  sim::Model model = experiment.model;
+  model.excitation.noise.seed = seed;
+  return scenarios::motion_of(model, experiment.measurement, experiment.sensors);
+}
+
+/// A cell for each noise.
+std::vector<Cell> cells_of(const identify::MethodEntry& method, const Setting& setting,
+                           const std::vector<double>& noises, int seeds) {
+  const Experiment& experiment = *setting.experiment;
+  const auto count = static_cast<std::size_t>(seeds);
+  std::vector<std::vector<identify::Estimate>> estimates(noises.size(), std::vector<identify::Estimate>(count));
+  constexpr std::size_t grain = 8;
+  sim::in_parts(count, grain, 0, [&](std::size_t first, std::size_t part) {
+    for (std::size_t seed = first; seed < first + part; ++seed) {
+      std::optional<scenarios::MotionRecord> own;
+      if (experiment.model.excitation.is_noise()) own = motion_for(experiment, seed);
+      for (std::size_t i = 0; i < noises.size(); ++i)
+        estimates[i][seed] = estimate(method, experiment, own ? *own : *setting.motion, noises[i], seed);
+    }
+  });
+  std::vector<Cell> cells;
+  for (std::size_t i = 0; i < noises.size(); ++i)
+    cells.push_back(cell_of(method, experiment, noises[i], estimates[i]));
+  return cells;
 }
 
 std::string noise_text(double noise) { return fmt::format("{:.0f} um", noise / micrometre); }
@@ -230,8 +257,7 @@ std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& meth
   std::vector<Cell> cells;
   for (const identify::MethodEntry* method : methods) {
     const std::optional<Setting> setting = setting_for(*method, motions);
-    for (std::size_t i = 0; setting && i < noises.size(); ++i)
-      cells.push_back(cell_of(*method, *setting, noises[i], seeds));
+    if (setting) std::ranges::move(cells_of(*method, *setting, noises, seeds), std::back_inserter(cells));
   }
   return cells;
 }

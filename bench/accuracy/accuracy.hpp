@@ -2,10 +2,11 @@
 /// Bias, spread and coverage of every identification method on synthetic records whose truth is known.
 ///
 /// Each method meets the first of the `experiments()` that it can use: a measurement of Coulomb and viscous
-/// friction, which all of them assume. Its motion is computed once; every seed is another reading of it. Coverage
-/// counts the 95 % intervals that hold the truth, of all estimates that have one, whether usable or not: to leave
-/// out those that the method doubts would bias it. A method claims it unless its page says that its intervals know
-/// only a part of the errors. Results do not depend on the number of threads.
+/// friction, which all of them assume. Its motion is computed once, and every seed is another reading of it;
+/// where the motion itself is random every seed has its own. Coverage counts the 95 % intervals that hold the
+/// truth, of all estimates that have one, whether usable or not: to leave out those that the method doubts would
+/// bias it. A method claims it unless its page says that its intervals know only a part of the errors. Results
+/// do not depend on the number of threads.
 
 #include <string>
 #include <vector>
