@@ -49,7 +49,7 @@ class Parser {
     add_plugins(app_);
     app_.footer(
         "Exit status: 0 done, 1 a requested check failed, 2 wrong usage, 3 invalid scenario or data,\n"
-        "4 numerical failure, 70 a bug of this program, 130 interrupted.");
+        "4 numerical failure, 5 some cases of a stress test failed, 70 a bug of this program, 130 interrupted.");
     add_run();
     add_check();
     add_identify();
@@ -93,10 +93,13 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
     constexpr int max_jobs = 1024;
-    run_command_->add_option("--jobs", run_.jobs, "Files to run at the same time")
+    run_command_
+        ->add_option("--jobs", run_.jobs,
+                     "Files to run at the same time; threads of a stress test, by default all cores")
         ->check(CLI::Range(1, max_jobs))
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and say what would be run");
+    run_command_->add_flag("--resume", run_.resume, "Go on with a stress test that was interrupted");
     add_plugins(*run_command_);
   }
 

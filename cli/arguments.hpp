@@ -11,10 +11,11 @@ struct RunCommand {
   std::vector<std::string> files;
   std::string out;
   std::vector<std::string> set;
-  int jobs = 1;
+  int jobs = 0;  ///< 0: one file at a time, a stress test on all cores
   bool json = false;
   bool quiet = false;
   bool dry_run = false;
+  bool resume = false;
 };
 
 struct CheckCommand {

@@ -1,7 +1,10 @@
 #include "cli/commands.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -11,12 +14,14 @@
 #include <thread>
 #include <tuple>
 
+#include "bench/campaign.hpp"
 #include "cli/conformance.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "core/build_info.hpp"
+#include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "friction_models/plugin.hpp"
 #include "scenarios/output.hpp"
@@ -89,10 +94,44 @@ void refuse_unusable(const std::string& directory) {
     throw scenarios::OutputError("cannot write results to " + directory + ": it is not a directory");
 }
 
-Report run_and_write(Scenario loaded, const std::string& directory) {
+/// Those that mpirun started; one otherwise. They part when the program ends.
+bench::Processes& processes() {
+  static bench::Processes all;
+  return all;
+}
+
+/// A line on a terminal that is written over and over.
+void show(const bench::Progress& progress) {
+  std::cerr << "\r\x1b[K" << progress.done << " of " << progress.all << " cases, "
+            << core::format_number(progress.rate, 3) << " a second";
+  if (progress.done < progress.all)
+    std::cerr << ", " << core::format_number(std::ceil(progress.remaining), 3) << " s left" << std::flush;
+  else
+    std::cerr << "\n";
+}
+
+struct CampaignChoice {
+  int threads = 0;
+  bool resume = false;
+  bool quiet = false;
+};
+
+scenarios::RunResult compute(const Scenario& scenario, const std::string& directory, const CampaignChoice& choice) {
+  if (!bench::is_campaign(scenario)) return scenarios::run(scenario);
+  bench::CampaignOptions options{.threads = choice.threads, .resume = choice.resume};
+  if (!choice.quiet && processes().rank() == 0 && ::isatty(STDERR_FILENO) != 0) options.progress = show;
+  return bench::run_campaign(scenario, directory, options, processes());
+}
+
+/// Of several processes only the first has anything to say.
+bool is_silent() { return bench::Processes::several() && processes().rank() != 0; }
+
+Report run_and_write(Scenario loaded, const std::string& directory, const CampaignChoice& choice = {}) {
   refuse_unusable(directory);
+  if (is_silent() && !bench::is_campaign(loaded)) return {};
   const auto scenario = std::make_shared<const Scenario>(std::move(loaded));
-  const auto result = std::make_shared<const scenarios::RunResult>(scenarios::run(*scenario));
+  const auto result = std::make_shared<const scenarios::RunResult>(compute(*scenario, directory, choice));
+  if (is_silent()) return {};
   const std::vector<scenarios::OutputFile> files = scenarios::output_files(scenario, result);
 
   Report report;
@@ -113,11 +152,20 @@ Report run_and_write(Scenario loaded, const std::string& directory) {
   return report;
 }
 
+/// `directory`: where results would go; empty when nothing would be run.
 Report checked(const Scenario& scenario, const std::string& directory) {
   Report report;
   report.text = scenario.file + ": valid: " + scenario.analysis_name;
   if (!directory.empty()) report.text += ", results would go to " + directory;
   report.text += "\n";
+  if (bench::is_campaign(scenario) && !directory.empty()) {
+    const bench::CampaignSize size = bench::size_of(scenario);
+    constexpr int digits = 2;
+    report.text += "  " + std::to_string(size.cases) + " cases of " + std::to_string(size.motions) + " motions, " +
+                   std::to_string(size.estimates) + " estimates: about " +
+                   core::format_number(size.seconds, digits) + " s on this machine's cores, " +
+                   core::format_number(size.megabytes, digits) + " MB\n";
+  }
   report.json = scenarios::json_checked(scenario);
   return report;
 }
@@ -134,7 +182,10 @@ Report run_file(const RunCommand& command, const std::string& file) {
     for (const std::string& assignment : command.set) options.set.push_back({assignment});
     Scenario scenario = scenarios::load_scenario(file, options);
     const std::string directory = output_directory(command, file);
-    return command.dry_run ? checked(scenario, directory) : run_and_write(std::move(scenario), directory);
+    if (command.resume && !bench::is_campaign(scenario))
+      return refused(ExitStatus::usage, file + ": --resume goes on with a stress test, and this is none");
+    if (command.dry_run) return checked(scenario, directory);
+    return run_and_write(std::move(scenario), directory, {command.jobs, command.resume, command.quiet});
   });
 }
 
@@ -219,12 +270,14 @@ int execute(const RunCommand& command) {
       reports.put(i, run_file(command, command.files[i]));
   };
   {
-    const std::size_t workers = std::min(static_cast<std::size_t>(command.jobs), command.files.size());
+    // Processes that share campaigns take them in the same order.
+    const int jobs = bench::Processes::several() ? 1 : std::max(command.jobs, 1);
+    const std::size_t workers = std::min(static_cast<std::size_t>(jobs), command.files.size());
     std::vector<std::jthread> threads;
     for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
     work();
   }
-  if (command.json) reports.write_json(std::cout);
+  if (command.json && !is_silent()) reports.write_json(std::cout);
   return finish(reports.worst());
 }
 

@@ -13,6 +13,7 @@
 #include "scenarios/format.hpp"
 #include "scenarios/formulas.hpp"
 #include "scenarios/result_fields.hpp"
+#include "sim/departures.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -58,6 +59,7 @@ class Checker {
     if (analysis_ == "regime_map") check_map();
     std::optional<identify::MeasuredRecord> data = read_data();
     if (analysis_ == "identify") resolve_methods(data);
+    if (analysis_ == "stress_test") check_stress_test();
     check_expectations();
     return data;
   }
@@ -348,10 +350,8 @@ class Checker {
     }
   }
 
-  void resolve_methods(const std::optional<identify::MeasuredRecord>& data) {
-    const bool synthetic = needs_ != nullptr && needs_->measurement != "data";
-    if (needs_ == nullptr || (!synthetic && !data)) return;
-    const identify::Record record = synthetic ? outline() : data->record;
+  /// All methods that such a record allows, or those of the file, each of which it must allow.
+  void resolve_methods_for(const identify::Record& record) {
     std::vector<std::string> fitting;
     for (const identify::MethodEntry& method : identify::methods())
       if (method.lacks(record).empty()) fitting.emplace_back(method.name);
@@ -368,6 +368,77 @@ class Checker {
                    "method '" + name + "' cannot be used: " + lack, joined(fitting));
       }
     }
+  }
+
+  void check_stress_test() {
+    const Json& analysis = values_.at("analysis");
+    if (!has("analysis", "severities") || !has("analysis", "ranges")) return;
+    check_truth();
+    check_names("ranges");
+    check_names("sensors");
+    if (!stands_in_file("analysis", "laws")) {
+      Json all = Json::array();
+      for (const sim::Departure& departure : sim::departures()) all.push_back(departure.name);
+      values_["analysis"]["laws"] = std::move(all);
+      put_in_order(values_["analysis"], analyses().find(analysis_)->section);
+    }
+    identify::Record record;
+    record.pairs.emplace().pairs.resize(
+        3, {.Y = 1.0, .x = 1.0, .omega = 1.0, .phase = 0.0, .fundamental = 1.0, .mean_square_speed = 1.0});
+    if (analysis.contains("decay")) record.decay = identify::DecayRecord{{1.0}, {0.0}};
+    resolve_methods_for(record);
+    if (!analysis.contains("laws")) return;
+    const std::size_t motions =
+        (1 + analysis.at("laws").size() * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
+    const std::size_t sets = analysis.contains("sensors") ? analysis.at("sensors").size() : 1;
+    const double cases = static_cast<double>(motions) * static_cast<double>(sets) * analysis.value("seeds", 1);
+    if (cases > max_cases)
+      complain(place_of("analysis.type"), "the stress test has too many cases",
+               "at most " + core::format_number(max_cases, 6) +
+                   ": laws times severities times ranges times sensors times seeds",
+               core::format_number(cases, 9));
+  }
+
+  /// The truth is Coulomb + viscous friction.
+  void check_truth() {
+    const std::string allowed = "{law: coulomb, kinetic: ...}";
+    if (!has("system", "friction")) {
+      if (node("system") != nullptr && !stands_in_file("system", "friction"))
+        complain(node("system")->head(), "'system.friction' is missing: a stress test departs from it", allowed);
+      return;
+    }
+    const Json& friction = values_.at("system").at("friction");
+    const bool plain = friction.is_object() && friction.value("law", "") == "coulomb" &&
+                       friction.contains("kinetic") && friction.contains("static") &&
+                       friction.at("static") == friction.at("kinetic") && friction.size() == 3;
+    if (!plain)
+      complain(place_of("system.friction"), "a stress test departs from Coulomb friction, and from nothing else",
+               allowed);
+    else if (number(friction.at("kinetic")) == 0.0)
+      complain(place_of("system.friction.kinetic"),
+               "'system.friction.kinetic' is out of range: errors are relative to it", "> 0 N", "0 N");
+    if (number_at("system", "damping").value_or(1.0) <= 0.0)
+      complain(place_of("system"), "'system' has no damping: errors are relative to it", "damping > 0 N.s/m");
+  }
+
+  void check_names(const std::string& key) {
+    if (!has("analysis", key)) return;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < values_.at("analysis").at(key).size(); ++i) {
+      const Json& item = values_.at("analysis").at(key).at(i);
+      if (!item.contains("name")) continue;
+      names.push_back(item.at("name").get<std::string>());
+      if (std::ranges::count(names, names.back()) > 1)
+        complain(place_of("analysis." + key + "[" + std::to_string(i) + "].name"),
+                 "there are two " + key + " with this name", "distinct names", names.back());
+    }
+  }
+
+  void resolve_methods(const std::optional<identify::MeasuredRecord>& data) {
+    const bool synthetic = needs_ != nullptr && needs_->measurement != "data";
+    if (needs_ == nullptr || (!synthetic && !data)) return;
+    const identify::Record record = synthetic ? outline() : data->record;
+    resolve_methods_for(record);
     const bool is_free = node("excitation") == nullptr || text_at("excitation", "type") == "none";
     const bool pairs = record.pairs.has_value();
     if (pairs && is_free &&

@@ -5,6 +5,7 @@
 #include "identify/methods.hpp"
 #include "identify/record_reader.hpp"
 #include "scenarios/formulas.hpp"
+#include "sim/departures.hpp"
 #include "sim/excitation.hpp"
 #include "sim/steady_state.hpp"
 
@@ -182,18 +183,52 @@ Field sensor(const std::string& name, const std::string& unit, const std::string
                  "sensor of " + what);
 }
 
+std::vector<Field> sensor_fields() {
+  return {quantity("sample_rate", {"1/s"}, "signals are sampled, and amplitudes taken from the samples").above(0),
+          integer("average_cycles", "forcing periods that an amplitude is averaged over")
+              .with_fallback(1)
+              .at_least(1)
+              .at_most(10'000),
+          seed(),
+          sensor("y", "m", "the base's displacement"),
+          sensor("x", "m", "the mass's displacement"),
+          sensor("v", "m/s", "its velocity"),
+          sensor("a", "m/s^2", "its acceleration"),
+          sensor("force", "N", "the force on it")};
+}
+
 Field sensors() {
-  return section(
-      "sensors",
-      {{quantity("sample_rate", {"1/s"}, "signals are sampled, and amplitudes taken from the samples").above(0),
-        integer("average_cycles", "forcing periods that an amplitude is averaged over")
-            .with_fallback(1)
-            .at_least(1)
-            .at_most(10'000),
-        seed(), sensor("y", "m", "the base's displacement"), sensor("x", "m", "the mass's displacement"),
-        sensor("v", "m/s", "its velocity"), sensor("a", "m/s^2", "its acceleration"),
-        sensor("force", "N", "the force on it")}},
-      "what the sensors make of a synthetic measurement; default: perfect ones");
+  return section("sensors", {sensor_fields()},
+                 "what the sensors make of a synthetic measurement; default: perfect ones");
+}
+
+std::vector<std::string> departure_names() {
+  std::vector<std::string> names;
+  for (const sim::Departure& departure : sim::departures()) names.emplace_back(departure.name);
+  return names;
+}
+
+Variant stress_test_variant() {
+  constexpr int max_seeds = 1'000'000;
+  constexpr std::size_t max_sets = 100;
+  std::vector<Field> set = {text("name", "what the results call it").required()};
+  for (Field& field : sensor_fields())
+    if (field.name != "seed") set.push_back(std::move(field));
+  const Section range = {{text("name", "what the results call it").required(), amplitudes()}};
+  const Section decay = {
+      {quantity("displacement", {"m"}, "from which the mass is released at rest").required().above(0), peaks()}};
+  return {
+      "stress_test",
+      "how wrong each method is under friction that is not Coulomb + viscous, and whether it knew",
+      {{word_list("laws", departure_names(), "departures from Coulomb + viscous friction; default: all"),
+        grid("severities", {"1"}, "their sizes, in the sense of each").required().above(0).items(1, max_sets),
+        section_list("ranges", range, "input amplitudes of the x-Y curves").required().items(1, max_sets),
+        section_list("sensors", Section{std::move(set)},
+                     "what the curves are measured with; default: perfect sensors")
+            .items(1, max_sets),
+        integer("seeds", "of the sensors' noise: 0 to seeds - 1").with_fallback(1).at_least(1).at_most(max_seeds),
+        section("decay", decay, "a free vibration beside each curve, for the methods that need one"),
+        word_list("methods", method_names(), "identification methods; default: all that the measurements allow")}}};
 }
 
 Variant identify_variant() {
@@ -265,6 +300,7 @@ Choice make_analyses() {
             {{range("frequencies", {"rad/s"}, "forcing frequencies, in place of the excitation's own")}}},
            {"free_decay", "extremes of the free vibration from the initial state", {{peaks()}}},
            identify_variant(),
+           stress_test_variant(),
            formula_variant()}};
 }
 
@@ -352,6 +388,7 @@ const std::vector<Needs>& needs() {
        {"frequency"},
        false,
        "the methods need the amplitude of the base"},
+      {"stress_test", "", {"base_harmonic"}, {"frequency"}, true, "the methods need the amplitude of the base"},
       {"formula", "", {}, {}, false, ""},
   };
   return table;

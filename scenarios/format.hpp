@@ -13,6 +13,7 @@ inline constexpr std::string_view schema_name = "dualdamp/1";
 /// What a file may ask for.
 inline constexpr double max_points = 1e6;   ///< values of a list, points of a curve
 inline constexpr double max_samples = 1e6;  ///< rows of a history
+inline constexpr double max_cases = 1e7;    ///< of a stress test
 inline constexpr double max_cycles = 1e5;   ///< forcing or natural periods of a history
 inline constexpr double max_nodes = 1e7;    ///< random values of a noise
 

@@ -181,6 +181,47 @@ Fields identify() {
                          {"fit.points[].fitted", "m", "x by the fit"}});
 }
 
+Fields stress_test() {
+  return {{"cases.all", "1", "cases of the grid"},
+          {"cases.failed", "1", "cases without an estimate by any method"},
+          {"cases.motions", "1", "motions behind them"},
+          {"cases.estimates", "1", "cases times methods"},
+          {"ranking[].method", "", "a method, best first"},
+          {"ranking[].unwarned", "1", "share of cases that are wrong and not doubted"},
+          {"ranking[].wrong", "1", "share of cases that are off by more than 5 %"},
+          {"ranking[].knew", "1", "share of the wrong ones that the method doubted"},
+          {"ranking[].false_alarm", "1", "share doubted where friction is Coulomb + viscous"},
+          {"ranking[].coverage", "1", "share of 95 % intervals that hold the true F0 there"},
+          {"breakdown[].law", "", "departure"},
+          {"breakdown[].range", "", "range of excitation"},
+          {"breakdown[].sensors", "", "sensors"},
+          {"breakdown[].method", "", "method"},
+          {"breakdown[].zeta_5", "1", "severity from which zeta is off by more than 5 %"},
+          {"breakdown[].zeta_20", "1", "or by more than 20 %"},
+          {"breakdown[].F0_5", "1", "severity from which F0 is off by more than 5 %"},
+          {"breakdown[].F0_20", "1", "or by more than 20 %"},
+          {"breakdown[].wrong", "1", "share of cases that are off by more than 5 %"},
+          {"breakdown[].knew", "1", "share of the wrong ones that the method doubted"},
+          {"scores[].law", "", "departure, or coulomb_viscous"},
+          {"scores[].severity", "1", "its size"},
+          {"scores[].range", "", "range of excitation"},
+          {"scores[].sensors", "", "sensors"},
+          {"scores[].method", "", "method"},
+          {"scores[].cases", "1", "seeds"},
+          {"scores[].estimates", "1", "seeds with a number"},
+          {"scores[].zeta_bias", "1", "mean error of zeta, relative"},
+          {"scores[].zeta_spread", "1", "standard deviation of it"},
+          {"scores[].zeta_error", "1", "median of its modulus"},
+          {"scores[].zeta_coverage", "1", "share of 95 % intervals that hold the truth"},
+          {"scores[].F0_bias", "1", "mean error of F0, relative"},
+          {"scores[].F0_spread", "1", "standard deviation of it"},
+          {"scores[].F0_error", "1", "median of its modulus"},
+          {"scores[].F0_coverage", "1", "share of 95 % intervals that hold the truth"},
+          {"scores[].wrong", "1", "share of cases that are off by more than 5 %"},
+          {"scores[].knew", "1", "share of the wrong ones that the method doubted"},
+          {"scores[].false_alarm", "1", "share of the right ones that the method doubted"}};
+}
+
 }  // namespace
 
 std::vector<ResultField> result_fields(const std::string& analysis, const std::string& formula) {
@@ -194,7 +235,8 @@ std::vector<ResultField> result_fields(const std::string& analysis, const std::s
       {"xy_branch", branch({"Y", "m or N", "excitation amplitude"})},
       {"frequency_branch", branch({"omega", "rad/s", "forcing frequency"})},
       {"free_decay", free_decay()},
-      {"identify", identify()}};
+      {"identify", identify()},
+      {"stress_test", stress_test()}};
   if (const auto found = table.find(analysis); found != table.end()) return found->second;
   const FormulaEntry* entry = find_formula(formula);
   return entry == nullptr ? Fields{} : entry->results;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <stdexcept>
 
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
@@ -81,6 +83,11 @@ class Runner {
     return result;
   }
 
+  /// A campaign writes as it goes: bench/campaign.hpp.
+  Answer operator()(const StressTest& /*question*/) const {
+    throw std::logic_error("a stress test is no single question");
+  }
+
   Answer operator()(const Formula& question) const {
     Answer result;
     result.result = find_formula(question.name)->evaluate(Json::parse(question.arguments));
@@ -134,6 +141,18 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
   }
 }
 
+Answer ask(const Scenario& scenario) {
+  try {
+    return std::visit(Runner(scenario), scenario.analysis);
+  } catch (const friction::LawFault& fault) {
+    Answer none;
+    none.failure = fault.what();
+    return none;
+  }
+}
+
+}  // namespace
+
 core::Provenance provenance_of(const Scenario& scenario) {
   core::Provenance provenance;
   provenance.source = scenario.file;
@@ -150,38 +169,37 @@ core::Provenance provenance_of(const Scenario& scenario) {
   return provenance;
 }
 
-Answer ask(const Scenario& scenario) {
-  try {
-    return std::visit(Runner(scenario), scenario.analysis);
-  } catch (const friction::LawFault& fault) {
-    Answer none;
-    none.failure = fault.what();
-    return none;
-  }
+RunResult assemble(const Scenario& scenario, const std::string& json, std::vector<Table> tables,
+                   core::Provenance provenance) {
+  RunResult result;
+  result.provenance = std::move(provenance);
+  result.warnings = scenario.warnings;
+  result.result = json;
+  const Json answer = Json::parse(json);
+  if (answer.contains("verdict")) result.verdict = answer.at("verdict").get<std::string>();
+  summarise(scenario, answer, result.summary);
+  result.tables = std::move(tables);
+  result.checks = compare(scenario.expect, answer, result.tables);
+  if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
+  return result;
 }
 
-}  // namespace
-
 RunResult run(const Scenario& scenario) {
-  RunResult result;
-  result.provenance = provenance_of(scenario);
+  core::Provenance provenance = provenance_of(scenario);
   const auto start = std::chrono::steady_clock::now();
   Answer answer = ask(scenario);
-  result.provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-  result.warnings = scenario.warnings;
-  result.warnings.insert(result.warnings.end(), answer.warnings.begin(), answer.warnings.end());
-  if (answer.result.is_null()) {
-    result.status = core::ExitStatus::numerical_failure;
-    result.failure = std::move(answer.failure);
+  provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!answer.result.is_null()) {
+    RunResult result = assemble(scenario, answer.result.dump(), std::move(answer.tables), std::move(provenance));
+    std::ranges::move(answer.warnings, std::back_inserter(result.warnings));
     return result;
   }
-  result.result = answer.result.dump();
-  if (answer.result.contains("verdict")) result.verdict = answer.result.at("verdict").get<std::string>();
-  summarise(scenario, answer.result, result.summary);
-  result.tables = std::move(answer.tables);
-  result.checks = compare(scenario.expect, answer.result, result.tables);
-  if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
+  RunResult result;
+  result.provenance = std::move(provenance);
+  result.warnings = scenario.warnings;
+  std::ranges::move(answer.warnings, std::back_inserter(result.warnings));
+  result.status = core::ExitStatus::numerical_failure;
+  result.failure = std::move(answer.failure);
   return result;
 }
 

@@ -42,7 +42,16 @@ struct RunResult {
   core::Provenance provenance;
 };
 
-/// Errors: `core::InputError` when an expected value turns out not to be in the result.
+/// What is known of a run's origin before it begins.
+[[nodiscard]] core::Provenance provenance_of(const Scenario& scenario);
+
+/// The result of a run that gave this JSON, null where a list is one of the tables: its summary and its comparison
+/// with the expected values.
+[[nodiscard]] RunResult assemble(const Scenario& scenario, const std::string& json, std::vector<Table> tables,
+                                 core::Provenance provenance);
+
+/// Of every analysis but `stress_test`, which is bench/campaign.hpp's. Errors: `core::InputError` when an expected
+/// value turns out not to be in the result.
 [[nodiscard]] RunResult run(const Scenario& scenario);
 
 }  // namespace dualdamp::scenarios

@@ -238,11 +238,34 @@ Identify identify_question(const Json& section, const sim::Model& model,
   return result;
 }
 
+/// `system`: its friction is the truth, one Coulomb law (checks.cpp).
+StressTest stress_test(const Json& section, const Json& system) {
+  StressTest result;
+  result.F0 = number(system.at("friction").at("kinetic"));
+  for (const Json& name : section.at("laws")) result.laws.push_back(sim::find_departure(name.get<std::string>()));
+  result.severities = grid_values(section.at("severities"));
+  std::ranges::sort(result.severities);
+  for (const Json& range : section.at("ranges"))
+    result.ranges.push_back({range.at("name").get<std::string>(), grid_values(range.at("amplitudes"))});
+  if (section.contains("sensors"))
+    for (const Json& set : section.at("sensors"))
+      result.sensors.push_back({set.at("name").get<std::string>(), sensors(set)});
+  else
+    result.sensors.push_back({"perfect", {}});
+  result.seeds = section.at("seeds").get<int>();
+  if (section.contains("decay"))
+    result.decay = {number(section.at("decay").at("displacement")), section.at("decay").at("peaks").get<int>()};
+  for (const Json& name : section.at("methods"))
+    result.methods.push_back(identify::find_method(name.get<std::string>()));
+  return result;
+}
+
 BranchQuestion branch(sim::BranchParameter parameter, const Json& range) {
   return {parameter, number(range.at("from")), number(range.at("to"))};
 }
 
-Analysis analysis(const Json& section, const sim::Model& model, std::optional<identify::MeasuredRecord> data) {
+Analysis analysis(const Json& section, const Json& system, const sim::Model& model,
+                  std::optional<identify::MeasuredRecord> data) {
   const auto type = section.at("type").get<std::string>();
   if (type == "simulate") {
     const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
@@ -259,6 +282,7 @@ Analysis analysis(const Json& section, const sim::Model& model, std::optional<id
   if (type == "xy_branch") return branch(sim::BranchParameter::amplitude, section.at("amplitudes"));
   if (type == "frequency_branch") return branch(sim::BranchParameter::frequency, section.at("frequencies"));
   if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
+  if (type == "stress_test") return stress_test(section, system);
   if (type == "identify") return identify_question(section, model, std::move(data));
   const Json& formula = section.at("formula");
   return Formula{formula.at("name").get<std::string>(), formula.dump()};
@@ -320,7 +344,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
     scenario.warnings = law_warnings(values.at("system").at("friction"));
   scenario.tolerance = tolerance_of(values, scenario.model);
   scenario.analysis_name = values.at("analysis").at("type").get<std::string>();
-  scenario.analysis = analysis(values.at("analysis"), scenario.model, std::move(data));
+  scenario.analysis =
+      analysis(values.at("analysis"), values.value("system", Json()), scenario.model, std::move(data));
   scenario.expect = expectations(values, document, reading);
   return scenario;
 }

@@ -13,6 +13,7 @@
 #include "friction_models/parameters.hpp"
 #include "identify/methods.hpp"
 #include "scenarios/measure.hpp"
+#include "scenarios/stress_test.hpp"
 #include "sim/continuation.hpp"
 #include "sim/model.hpp"
 
@@ -69,7 +70,7 @@ struct Formula {
 };
 
 using Analysis = std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, RegimeMap, BranchQuestion,
-                              FreeDecayQuestion, Identify, Formula>;
+                              FreeDecayQuestion, Identify, StressTest, Formula>;
 
 /// One expected value of a result.
 struct Expectation {

@@ -4,7 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dualdamp::scenarios {
@@ -31,6 +34,25 @@ struct Column {
     return choices.empty() ? texts[row] : texts[choices[row]];
   }
 };
+
+/// A number that does not exist.
+inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// A column of what `get` says of each item.
+template <typename Item, typename Get>
+Column column(std::string name, std::string unit, const std::vector<Item>& items, Get get) {
+  Column result{.name = std::move(name), .unit = std::move(unit)};
+  result.numbers.reserve(items.size());
+  for (const Item& item : items) result.numbers.push_back(std::invoke(get, item));
+  return result;
+}
+
+template <typename Item, typename Get>
+Column text_column(std::string name, const std::vector<Item>& items, Get get) {
+  Column result{.name = std::move(name), .kind = CellKind::text};
+  for (const Item& item : items) result.texts.emplace_back(std::invoke(get, item));
+  return result;
+}
 
 struct Table {
   std::string name;  ///< of the file, without .csv

@@ -106,8 +106,19 @@ function scaled(spec) {
   };
 }
 
+/** 1, 2 and 5 times the powers of ten inside a range; only the powers where that would be too many. */
+function decades([low, high]) {
+  const steps = high / low > 1e4 ? [1] : [1, 2, 5];
+  const list = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += 1)
+    for (const step of steps) list.push(Number(`${step}e${power}`));
+  return list.filter((v) => v >= low && v <= high);
+}
+
 function options(shape, ranges, width, height) {
-  const axis = (label, side) => ({
+  const axis = (label, side, isLog, range) => ({
+    // uPlot's own go astray between the powers of ten.
+    ...(isLog ? { splits: () => decades(range()), filter: (u, splits) => splits } : {}),
     label, labelSize: 22, space: side ? 34 : 80,
     size: (u, texts) => (side ? Math.max(40, 14 + 7 * Math.max(0, ...(texts ?? []).map((text) => text?.length ?? 0))) : 34), stroke: () => ink("--soft"), font: "12px system-ui", labelFont: "13px system-ui",
     grid: { stroke: () => ink("--line"), width: 1 }, ticks: { stroke: () => ink("--line"), width: 1 },
@@ -116,7 +127,7 @@ function options(shape, ranges, width, height) {
   return {
     mode: 2, width, height, legend: { show: false }, padding: [8, 12, 0, 0],
     scales: { x: { time: false, distr: shape.xLog ? 3 : 1, range: () => ranges.x }, y: { distr: shape.yLog ? 3 : 1, range: () => ranges.y } },
-    axes: [axis(shape.xLabel, false), axis(shape.yLabel, true)],
+    axes: [axis(shape.xLabel, false, shape.xLog, () => ranges.x), axis(shape.yLabel, true, shape.yLog, () => ranges.y)],
     cursor: { drag: { x: false, y: false, setScale: false }, points: { show: false }, x: false, y: false },
     series: [{}, ...shape.series.map((s) => ({
       label: s.label, show: true, stroke: () => colour(s.colour), paths: drawSeries(s), points: { show: false },

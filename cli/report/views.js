@@ -197,6 +197,7 @@ const views = {
   free_decay: () => [chart({ title: "Extremes", wide: true, x: axis("peaks", "t", "time"), y: axis("peaks", "x", "extreme x"),
     series: [series("peaks", "t", "x", { label: "extremes", kind: "points" }), series("peaks", "t", "x", { label: "", width: 1, colour: 6 })] })],
   identify: identifyView,
+  stress_test: severityCharts,
 };
 
 function orbitView() {

@@ -77,9 +77,9 @@ class Page(unittest.TestCase):
         copy.unlink()
         return result.stdout, [line for line in result.stderr.splitlines() if "CONSOLE" in line]
 
-    def check(self, name, charts):
+    def check(self, name, charts, folder="examples"):
         out = self.folder / name
-        self.run_program("run", ROOT / "scenarios/examples" / f"{name}.yaml", "--out", out, "--quiet")
+        self.run_program("run", ROOT / "scenarios" / folder / f"{name}.yaml", "--out", out, "--quiet")
         page = out / "report.html"
         self.assertNotRegex(page.read_text(), r"""(src|href)=["']?(https?:)?//""", "the page is self-contained")
         dom, console = self.load(page)
@@ -101,6 +101,11 @@ class Page(unittest.TestCase):
                 _, shown = self.check(name, charts)
                 if name.startswith("identify"):
                     self.assertIn("estimates[0].zeta", [path for path, _ in shown])
+
+    def test_a_stress_test_has_its_maps_and_a_chart_for_each_law(self):
+        dom, _ = self.check("small", 3, "stress")
+        for heading in ("Ranking", "Law by method", "Breakdown"):
+            self.assertIn(f"<h2>{heading}</h2>", dom)
 
     def test_a_title_cannot_become_markup(self):
         scenario = self.folder / "markup.yaml"

@@ -25,7 +25,7 @@ def files(folder):
     return found
 
 
-for folder in ["scenarios/paper", "scenarios/examples", "tests/valid"]:
+for folder in ["scenarios/paper", "scenarios/examples", "scenarios/stress", "tests/valid"]:
     for path in files(folder):
         for error in validator.iter_errors(yaml.safe_load(path.read_text())):
             faults.append(f"{path}: refused: {list(error.absolute_path)}: {error.message}")

@@ -1,0 +1,243 @@
+#include "bench/campaign.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "bench/case.hpp"
+#include "bench/case_file.hpp"
+#include "bench/grid.hpp"
+#include "bench/scores.hpp"
+#include "core/build_info.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using scenarios::Scenario;
+using scenarios::StressTest;
+using scenarios::Table;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+const StressTest& question_of(const Scenario& scenario) { return std::get<StressTest>(scenario.analysis); }
+
+/// The scenario's system with its Coulomb friction taken out.
+sim::Truth truth_of(const Scenario& scenario) {
+  sim::Truth truth{.model = scenario.model, .F0 = question_of(scenario).F0};
+  truth.model.friction.clear();
+  return truth;
+}
+
+sim::SteadyStateOptions steady_options(const Scenario& scenario) {
+  sim::SteadyStateOptions options;
+  options.tolerance = scenario.tolerance;
+  return options;
+}
+
+/// The same scenario run by the same program gives the same lines.
+std::string fingerprint(const Scenario& scenario) {
+  const core::BuildInfo build = core::build_info();
+  return core::sha256(scenario.resolved + "\n" + std::string(build.version) + "\n" + std::string(build.commit));
+}
+
+/// Counts finished cases and tells of them now and then.
+class Meter {
+ public:
+  Meter(std::size_t done, std::size_t all, const CampaignOptions& options)
+      : first_(done), done_(done), all_(all), options_(options), start_(Clock::now()), told_(start_) {}
+
+  void add() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    constexpr double pause = 0.2;
+    if (!options_.progress || (seconds_since(told_) < pause && done_ < all_)) return;
+    told_ = Clock::now();
+    const double rate = static_cast<double>(done_ - first_) / std::max(seconds_since(start_), 1e-9);
+    options_.progress({done_, all_, rate, static_cast<double>(all_ - done_) / rate});
+  }
+
+ private:
+  std::size_t first_;
+  std::size_t done_;
+  std::size_t all_;
+  const CampaignOptions& options_;
+  Clock::time_point start_;
+  Clock::time_point told_;
+  std::mutex mutex_;
+};
+
+/// All motions that are left, on all threads of all processes.
+void run_cases(const Scenario& scenario, const Grid& grid, const CampaignOptions& options, Processes& processes,
+               CaseFile& file) {
+  const sim::Truth truth = truth_of(scenario);
+  const sim::SteadyStateOptions steady = steady_options(scenario);
+  Meter meter(file.finished(), grid.cases(), options);
+  const auto wanted = [&](std::size_t number) { return !file.is_finished(number); };
+  const auto take = [&](std::size_t number, const std::string& line) {
+    file.add(number, line);
+    meter.add();
+  };
+  const auto work = [&] {
+    for (std::size_t motion = processes.next(); motion < grid.motions(); motion = processes.next()) {
+      run_motion(grid, truth, steady, motion, wanted, take);
+    }
+  };
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  sim::in_parts(static_cast<std::size_t>(threads), 1, threads, [&](std::size_t, std::size_t) { work(); });
+}
+
+Table score_table(const Scores& scores, const Grid& grid) {
+  const StressTest& question = grid.question();
+  const auto motion = [&](const Score& score) { return grid.motion(score.motion); };
+  const auto of = [](ParameterScore Score::* parameter, double ParameterScore::* member) {
+    return [=](const Score& score) { return (score.*parameter).*member; };
+  };
+  using scenarios::column;
+  using scenarios::text_column;
+  const std::vector<Score>& list = scores.scores;
+  Table table{"scores",
+              {text_column("law", list, [&](const Score& s) { return motion(s).name(); }),
+               column("severity", "", list, [&](const Score& s) { return motion(s).severity; }),
+               text_column("range", list, [&](const Score& s) { return motion(s).range->name; }),
+               text_column("sensors", list, [&](const Score& s) { return question.sensors[s.sensors].name; }),
+               text_column("method", list, [&](const Score& s) { return question.methods[s.method]->name; }),
+               column("cases", "", list, &Score::cases), column("estimates", "", list, &Score::estimates)},
+              true};
+  for (const auto& [name, parameter] : {std::pair("zeta", &Score::zeta), std::pair("F0", &Score::F0)}) {
+    const std::string prefix = name;
+    table.columns.push_back(column(prefix + "_bias", "", list, of(parameter, &ParameterScore::bias)));
+    table.columns.push_back(column(prefix + "_spread", "", list, of(parameter, &ParameterScore::spread)));
+    table.columns.push_back(column(prefix + "_error", "", list, of(parameter, &ParameterScore::median_error)));
+    table.columns.push_back(column(prefix + "_coverage", "", list, of(parameter, &ParameterScore::coverage)));
+  }
+  table.columns.push_back(column("wrong", "", list, &Score::wrong));
+  table.columns.push_back(column("knew", "", list, &Score::knew));
+  table.columns.push_back(column("false_alarm", "", list, &Score::false_alarm));
+  table.key = "scores";
+  return table;
+}
+
+Table breakdown_table(const Scores& scores, const Grid& grid) {
+  const StressTest& question = grid.question();
+  const std::vector<Breakdown>& list = scores.breakdowns;
+  using scenarios::column;
+  using scenarios::text_column;
+  Table table{"breakdown",
+              {text_column("law", list, &Breakdown::law),
+               text_column("range", list, [&](const Breakdown& b) { return question.ranges[b.range].name; }),
+               text_column("sensors", list, [&](const Breakdown& b) { return question.sensors[b.sensors].name; }),
+               text_column("method", list, [&](const Breakdown& b) { return question.methods[b.method]->name; }),
+               column("zeta_5", "", list, &Breakdown::zeta_5), column("zeta_20", "", list, &Breakdown::zeta_20),
+               column("F0_5", "", list, &Breakdown::F0_5), column("F0_20", "", list, &Breakdown::F0_20),
+               column("wrong", "", list, &Breakdown::wrong), column("knew", "", list, &Breakdown::knew)},
+              true};
+  table.key = "breakdown";
+  return table;
+}
+
+Table ranking_table(const Scores& scores, const Grid& grid) {
+  const std::vector<Ranking>& list = scores.ranking;
+  using scenarios::column;
+  using scenarios::text_column;
+  Table table{
+      "ranking",
+      {text_column("method", list, [&](const Ranking& r) { return grid.question().methods[r.method]->name; }),
+       column("unwarned", "", list, &Ranking::unwarned), column("wrong", "", list, &Ranking::wrong),
+       column("knew", "", list, &Ranking::knew), column("false_alarm", "", list, &Ranking::false_alarm),
+       column("coverage", "", list, &Ranking::coverage)}};
+  table.key = "ranking";
+  return table;
+}
+
+std::string summary(const Scores& scores, const Grid& grid) {
+  nlohmann::ordered_json json;
+  json["cases"] = {{"all", grid.cases()},
+                   {"failed", scores.failed_cases},
+                   {"motions", grid.motions()},
+                   {"estimates", grid.cases() * grid.question().methods.size()}};
+  json["severities"] = nlohmann::ordered_json::object();
+  for (const sim::Departure* law : grid.question().laws) json["severities"][std::string(law->name)] = law->severity;
+  for (const char* key : {"ranking", "breakdown", "scores"}) json[key] = nullptr;
+  return json.dump();
+}
+
+}  // namespace
+
+bool is_campaign(const Scenario& scenario) { return std::holds_alternative<StressTest>(scenario.analysis); }
+
+CampaignSize size_of(const Scenario& scenario) {
+  StressTest sample = question_of(scenario);
+  const Grid whole(question_of(scenario));
+  CampaignSize size{whole.motions(), whole.cases(), whole.cases() * sample.methods.size(), 0.0, 0.0};
+  // One motion of each law, read once: all others like it.
+  const std::size_t severities = sample.severities.size();
+  sample.severities = {sample.severities[severities / 2]};
+  sample.ranges.resize(1);
+  sample.seeds = 1;
+  const Grid grid(sample);
+  const sim::Truth truth = truth_of(scenario);
+  const Clock::time_point start = Clock::now();
+  for (std::size_t motion = 0; motion < grid.motions(); ++motion)
+    run_motion(
+        grid, truth, steady_options(scenario), motion, [](std::size_t) { return true; },
+        [](std::size_t, const std::string&) {});
+  const double motions = seconds_since(start);
+  const Clock::time_point again = Clock::now();
+  sample.seeds = 2;
+  const Grid twice(sample);
+  run_motion(
+      twice, truth, steady_options(scenario), 0, [](std::size_t) { return true; },
+      [](std::size_t, const std::string&) {});
+  const double reading = seconds_since(again) / static_cast<double>(twice.cases_per_motion());
+  size.seconds = (motions * static_cast<double>(severities * question_of(scenario).ranges.size()) +
+                  reading * static_cast<double>(size.cases)) /
+                 std::thread::hardware_concurrency();
+  constexpr double of_program = 60.0;
+  constexpr double of_case = 30e-6;
+  constexpr double of_score = 250e-6;
+  size.megabytes = of_program + of_case * static_cast<double>(size.cases) +
+                   of_score * static_cast<double>(size.motions * sample.sensors.size() * sample.methods.size());
+  return size;
+}
+
+scenarios::RunResult run_campaign(const Scenario& scenario, const std::string& directory,
+                                  const CampaignOptions& options, Processes& processes) {
+  const Grid grid(question_of(scenario));
+  core::Provenance provenance = scenarios::provenance_of(scenario);
+  const Clock::time_point start = Clock::now();
+  CaseFile file(directory, fingerprint(scenario), grid.cases(), processes.rank());
+  // Parts of an earlier run are gone before anybody begins a new one.
+  if (processes.rank() == 0 && !options.resume) file.begin();
+  processes.wait();
+  if (options.resume)
+    file.resume();
+  else if (processes.rank() != 0)
+    file.begin();
+  processes.wait();
+  run_cases(scenario, grid, options, processes, file);
+  file.close();
+  processes.wait();
+  if (processes.rank() != 0) return {};
+  file.finish();
+  const Scores scores =
+      score(file.path(), grid, sim::damping_ratio(scenario.model.oscillator), question_of(scenario).F0);
+  provenance.duration = seconds_since(start);
+  scenarios::RunResult result =
+      scenarios::assemble(scenario, summary(scores, grid),
+                          {ranking_table(scores, grid), breakdown_table(scores, grid), score_table(scores, grid)},
+                          std::move(provenance));
+  if (scores.failed_cases > 0 && result.status == core::ExitStatus::done)
+    result.status = core::ExitStatus::some_cases_failed;
+  return result;
+}
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,40 @@
+#pragma once
+/// The processes that share a campaign: one alone, or those that `mpirun -n N` has started.
+///
+/// Work is handed out one item at a time to whichever process asks, by a counter that process 0 keeps; which
+/// process does what is left to chance and must not matter. Source: the MPI standard, one-sided communication.
+/// Errors: `std::runtime_error` when MPI fails.
+
+#include <cstddef>
+#include <memory>
+
+namespace dualdamp::bench {
+
+class Processes {
+ public:
+  /// Joins the others when this process is one of several.
+  Processes();
+  ~Processes();
+  Processes(const Processes&) = delete;
+  Processes& operator=(const Processes&) = delete;
+
+  [[nodiscard]] int rank() const { return rank_; }
+  [[nodiscard]] int count() const { return count_; }
+
+  /// The next item, 0, 1, 2, ... over all processes; from any thread.
+  [[nodiscard]] std::size_t next();
+  /// Waits for all processes.
+  void wait();
+
+  /// Whether mpirun started this process; without joining.
+  [[nodiscard]] static bool several();
+
+ private:
+  struct Shared;
+
+  int rank_ = 0;
+  int count_ = 1;
+  std::unique_ptr<Shared> shared_;
+};
+
+}  // namespace dualdamp::bench

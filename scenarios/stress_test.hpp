@@ -1,0 +1,43 @@
+#pragma once
+/// The question of a stress test: which departures from Coulomb + viscous friction, how large, measured how, and
+/// identified by which methods.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identify/methods.hpp"
+#include "identify/sensors.hpp"
+#include "sim/departures.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Input amplitudes of one x-Y curve.
+struct ExcitationRange {
+  std::string name;
+  std::vector<double> amplitudes;  ///< m
+};
+
+struct SensorSet {
+  std::string name;
+  identify::Sensors sensors;
+};
+
+/// A free decay beside each curve, for the methods that need one: from rest at a displacement.
+struct DecayTest {
+  double displacement = 0.0;  ///< m
+  int peaks = 0;
+};
+
+struct StressTest {
+  double F0 = 0.0;  ///< the Coulomb friction of the truth [N]
+  std::vector<const sim::Departure*> laws;
+  std::vector<double> severities;  ///< ascending, > 0
+  std::vector<ExcitationRange> ranges;
+  std::vector<SensorSet> sensors;
+  int seeds = 1;  ///< 0 to seeds - 1
+  std::vector<const identify::MethodEntry*> methods;
+  std::optional<DecayTest> decay;
+};
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""The stress test: the same scores for any number of threads and processes, and after being killed at any time.
+
+usage: test_stress.py PROGRAM ROOT [TEST...]; DUALDAMP_KILLS: how often it is killed (default 4)
+"""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+SCENARIO = ROOT / "scenarios/stress/small.yaml"
+KILLS = int(os.environ.get("DUALDAMP_KILLS", "4"))
+# As root, on more processes than cores.
+MPI = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+       "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+def rows(path):
+    """A table without its provenance, which tells of times."""
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+class Stress(unittest.TestCase):
+    undisturbed = None
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def run_program(self, *arguments, status=0, launcher=(), **options):
+        result = subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
+
+    def reference(self):
+        """A run on one thread that nothing disturbed; one for all tests."""
+        if not Stress.undisturbed:
+            Stress.temporary = tempfile.TemporaryDirectory()
+            Stress.undisturbed = Path(Stress.temporary.name)
+            self.run_program("run", SCENARIO, "--out", Stress.undisturbed, "--quiet", "--jobs", 1)
+        return Stress.undisturbed
+
+    def check_same(self, out, reference):
+        self.assertEqual((out / "cases.jsonl").read_bytes(), (reference / "cases.jsonl").read_bytes())
+        for name in ("scores.csv", "breakdown.csv", "ranking.csv"):
+            self.assertEqual(rows(out / name), rows(reference / name))
+        self.assertEqual([path.name for path in out.glob("cases.*.jsonl")], [])
+
+    def test_threads(self):
+        reference = self.reference()
+        self.assertEqual(len(rows(reference / "cases.jsonl")), 1 + 40)
+        for threads in (2, 4):
+            out = self.folder / f"threads{threads}"
+            self.run_program("run", SCENARIO, "--out", out, "--quiet", "--jobs", threads)
+            self.check_same(out, reference)
+
+    @unittest.skipIf(shutil.which("mpirun") is None, "there is no mpirun on this machine")
+    def test_processes(self):
+        reference = self.reference()
+        for count in (1, 2, 3):
+            out = self.folder / f"processes{count}"
+            result = self.run_program("run", SCENARIO, "--out", out, "--jobs", 1, launcher=["mpirun", "-n", str(count)], env=MPI)
+            self.assertEqual(result.stdout.count("stress_test: Three laws"), 1)
+            self.check_same(out, reference)
+
+    def test_killed_at_any_time_and_resumed(self):
+        reference = self.reference()
+        draws = random.Random(1)
+        for attempt in range(KILLS):
+            out = self.folder / f"killed{attempt}"
+            command = [PROGRAM, "run", str(SCENARIO), "--out", str(out), "--quiet", "--resume"]
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+            time.sleep(draws.uniform(0.0, 0.12))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            if draws.random() < 0.5 and (out / "cases.jsonl").exists():
+                with (out / "cases.jsonl").open("a") as file:  # as if the machine had stopped in the middle of a line
+                    file.write('{"case":39,"law":"vis')
+            self.run_program("run", SCENARIO, "--out", out, "--quiet", "--resume")
+            self.check_same(out, reference)
+
+    def test_another_campaign_is_not_mixed_in(self):
+        out = self.folder / "one"
+        shutil.copytree(self.reference(), out)
+        before = (out / "cases.jsonl").read_bytes()
+        result = self.run_program("run", SCENARIO, "--set", "analysis.seeds=5", "--out", out, "--resume", status=3)
+        self.assertIn("another campaign", result.stderr)
+        self.assertEqual((out / "cases.jsonl").read_bytes(), before)
+
+    def test_failed_cases_are_rows_with_a_reason(self):
+        out = self.folder / "failed"
+        result = self.run_program("run", SCENARIO, "--set", "analysis.laws=[detuning]", "--set", "analysis.severities=[1]",
+                                  "--out", out, "--quiet", "--jobs", 1, "--set", "expect=[{value: cases.failed, equals: 4}]", status=5)
+        self.assertIn("cases.failed 4", " ".join(result.stdout.split()))
+        lines = (out / "cases.jsonl").read_text().splitlines()
+        self.assertEqual(sum('"reason"' in line for line in lines), 4)
+
+    def test_dry_run_counts_and_writes_nothing(self):
+        out = self.folder / "nothing"
+        result = self.run_program("run", SCENARIO, "--out", out, "--dry-run")
+        self.assertIn("40 cases of 10 motions, 120 estimates", result.stdout)
+        self.assertFalse(out.exists())
+        result = self.run_program("run", SCENARIO, "--set", "analysis.seeds=1000000", "--set",
+                                  "analysis.severities={from: 0.01, to: 1, count: 50, spacing: log}", "--dry-run", status=3)
+        self.assertIn("too many cases", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,43 @@
+// Every departure from Coulomb + viscous friction tends to it as its severity falls.
+
+#include "sim/departures.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/steady_state.hpp"
+
+using namespace dualdamp;
+
+TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") {
+  const auto& list = sim::departures();
+  CHECK(list.size() >= 12);
+  CHECK(std::ranges::is_sorted(list, {}, &sim::Departure::name));
+  sim::Truth truth;
+  truth.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
+  truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
+  truth.F0 = 2.0;
+  const sim::SteadyState reference = sim::steady_state(sim::undisturbed(truth));
+  REQUIRE(reference.outcome.ok());
+  const sim::ReferenceMotion motion{.amplitude = reference.amplitude, .frequency = 10.0, .Y = 0.1};
+  for (const sim::Departure& departure : list) {
+    CAPTURE(departure.name);
+    CHECK(sim::find_departure(departure.name) == &departure);
+    CHECK_FALSE(departure.severity.empty());
+    const auto distance = [&](double s) {
+      const sim::SteadyState state = sim::steady_state(departure.apply(truth, motion, s));
+      REQUIRE(state.outcome.ok());
+      return std::abs(state.amplitude / reference.amplitude - 1.0) + std::abs(state.phase - reference.phase);
+    };
+    const double small = distance(1e-3);
+    // A static limit that the motion never meets changes nothing.
+    if (departure.name == "static_friction") {
+      CHECK(small < 1e-12);
+      continue;
+    }
+    CHECK(small < 0.02);
+    CHECK(small > 1e-8);
+    CHECK(distance(0.1) > 3.0 * small);
+  }
+}
