@@ -39,7 +39,7 @@ std::optional<std::size_t> number_of(std::string_view line) {
 
 }  // namespace
 
-CaseFile::CaseFile(std::string directory, std::string fingerprint, std::size_t cases, int part)
+CaseFile::CaseFile(std::string directory, const std::string& fingerprint, std::size_t cases, int part)
     : directory_(std::move(directory)),
       head_("{\"campaign\":\"" + fingerprint + "\",\"cases\":" + std::to_string(cases) + "}"),
       part_(part),

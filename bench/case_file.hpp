@@ -21,7 +21,7 @@ namespace dualdamp::bench {
 class CaseFile {
  public:
   /// `part`: number of the process; part 0 writes `cases.jsonl` itself.
-  CaseFile(std::string directory, std::string fingerprint, std::size_t cases, int part = 0);
+  CaseFile(std::string directory, const std::string& fingerprint, std::size_t cases, int part = 0);
   ~CaseFile();
   CaseFile(const CaseFile&) = delete;
   CaseFile& operator=(const CaseFile&) = delete;

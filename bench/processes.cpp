@@ -35,7 +35,8 @@ Processes::Processes() : shared_(std::make_unique<Shared>()) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   const MPI_Aint size = rank_ == 0 ? sizeof(long) : 0;
-  check(MPI_Win_allocate(size, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, &shared_->counter, &shared_->window),
+  check(MPI_Win_allocate(size, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, static_cast<void*>(&shared_->counter),
+                         &shared_->window),
         "shared counter");
   if (rank_ == 0) *shared_->counter = 0;
   wait();

@@ -310,6 +310,15 @@ Estimate output_error(const Record& record, const KnownConstants& constants, con
       estimate.excluded.push_back({item.number, "the mass does not move"});
   }
   if (!estimate.outcome.ok()) return estimate;
+  // Each step of the fit walks through all samples.
+  constexpr std::size_t most_samples = 300'000;
+  std::size_t samples = 0;
+  for (const Test& test : tests) samples += test.history->x.size();
+  if (samples > most_samples) {
+    refuse(estimate, "the method takes at most " + std::to_string(most_samples) + " samples, and the record has " +
+                         std::to_string(samples) + ": give it a part, or every n-th sample");
+    return estimate;
+  }
   const bool sprung =
       std::isnan(constants.stiffness) || (constants.stiffness > 0.0 && std::isfinite(constants.stiffness));
   const bool has_mass = std::isnan(constants.mass) || (constants.mass > 0.0 && std::isfinite(constants.mass));

@@ -145,6 +145,19 @@ TEST_CASE("What is missing is said") {
   CHECK(output_error(still, bearing_constants, {}).reason == "the mass moves in no history");
 }
 
+TEST_CASE("A record too long to be fitted in reasonable time is refused, and how it would go is said") {
+  History history{.sample_rate = 1000.0};
+  for (int i = 0; i < 300'001; ++i) {
+    history.y.push_back(std::sin(0.03 * i));
+    history.x.push_back(std::cos(0.03 * i));
+  }
+  Record record;
+  record.histories = {history};
+  const Estimate e = output_error(record, {1.0, 100.0, unknown}, {});
+  CHECK_FALSE(e.outcome.ok());
+  CHECK(e.reason.find("at most 300000 samples, and the record has 300001") != std::string::npos);
+}
+
 TEST_CASE("Ten seconds at 1 kHz take less than a second") {
   Normal normal(2);
   const Record record =
