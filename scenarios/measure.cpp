@@ -90,9 +90,9 @@ class Recorder {
   /// Time from which on nothing is missing any more [s]: a sample at the end of an interval belongs to the next.
   [[nodiscard]] double end() const {
     constexpr double beyond_rounding = 1e-3;
-    return time(count_ - 1) - std::ranges::min(series_, {}, &Series::lag).lag + beyond_rounding / rate_;
+    return time(count_ - 1) - std::ranges::min_element(series_, {}, &Series::lag)->lag + beyond_rounding / rate_;
   }
-  [[nodiscard]] double longest_lag() const { return std::ranges::max(series_, {}, &Series::lag).lag; }
+  [[nodiscard]] double longest_lag() const { return std::ranges::max_element(series_, {}, &Series::lag)->lag; }
   void delay_begin(double s) { begin_ += s; }
 
   void observe(const sim::Interval& interval) {
