@@ -5,8 +5,8 @@
 /// friction, which all of them assume. Its motion is computed once, and every seed is another reading of it;
 /// where the motion itself is random every seed has its own. Coverage counts the 95 % intervals that hold the
 /// truth, of all estimates that have one, whether usable or not: to leave out those that the method doubts would
-/// bias it. A method claims it unless its page says that its intervals know only a part of the errors. Results
-/// do not depend on the number of threads.
+/// bias it. A method claims it unless its intervals leave something out by what the method assumes; those are
+/// counted apart. Results do not depend on the number of threads.
 
 #include <string>
 #include <vector>
@@ -68,6 +68,8 @@ inline constexpr double most_coverage = 0.97;
 /// Coverages that the cells claim, of zeta and F0 together, and those that lie outside.
 struct Coverage {
   int claimed = 0;
+  int partial = 0;  ///< of intervals that leave something out
+  int partial_outside = 0;
   std::vector<std::string> outside;  ///< "resonance_deming, 20 um, zeta: 91.2 %"
 };
 [[nodiscard]] Coverage coverage(const std::vector<Cell>& cells);
