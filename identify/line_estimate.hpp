@@ -64,6 +64,16 @@ struct CurvatureColumns {
 /// Greatest less least output.
 [[nodiscard]] double output_range(const std::vector<Datum>& pairs);
 
+/// Does a friction quadratic in x describe the pairs better than Coulomb and viscous friction do? At resonance the
+/// balance of the fundamental is k Y = Phi(x): a term in x^2 is added to the line of Y over x, with a height of its
+/// own for each of `sweeps` (indices of `pairs`), and tested by F. Y is first relieved of what the exact law
+/// (`exact`, in the order of `pairs`; may be empty) departs from such a line, which speaks for the law and not
+/// against it. The errors of x stand in the regressors: as long as they are small beside the range of x the test
+/// keeps its level (docs/theory.md, section 4).
+[[nodiscard]] std::optional<LackOfFit> friction_curvature_test(const std::vector<Datum>& pairs,
+                                                               const std::vector<Datum>& exact,
+                                                               const std::vector<std::vector<std::size_t>>& sweeps);
+
 /// One method of the family: its name, and lambda for pairs with these moments.
 struct LineRule {
   std::string_view method;

@@ -11,8 +11,8 @@
 /// Uncertainty: covariance of (a, b) from the scatter about the line with n - 2 degrees of freedom (or from
 /// `sigma_x` and `sigma_Y`, when given), taken to (zeta, F0) by the derivatives of the formulas; intervals by
 /// Student's t. For small zeta  std(zeta) = 2 zeta^2 s/sqrt(S_YY)  and  std(F0) = (pi/4)(k s/b) sqrt(1/n + (mean Y
-/// + a/b)^2/S_YY). Doubts: pairs that stick are left out (and named); an F test of a quadratic term; fits of the
-/// lower 4/5, 3/5, 2/5. Source: liang2004identifying. Errors: `outcome`. Cost: n log n.
+/// + a/b)^2/S_YY). Doubts: pairs that stick are left out (and named); an F test of a friction quadratic in x; fits
+/// of the lower 4/5, 3/5, 2/5. Source: liang2004identifying. Errors: `outcome`. Cost: n log n.
 
 #include "identify/method.hpp"
 
@@ -25,7 +25,7 @@ inline constexpr MethodEntry resonance_least_squares_method{
     "resonance_least_squares",
     "damping ratio and friction force from a straight line through amplitude pairs",
     "excitation at w = wn, zeta small, no sticking, errors in x alone; checked: sticking pairs are left out, "
-    "quadratic term F-test, what the method would make of its own estimate by the exact law",
+    "quadratic friction F-test, what the method would make of its own estimate by the exact law",
     "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn",
     "liang2004identifying",
     RecordKind::pairs,

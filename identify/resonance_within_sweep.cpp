@@ -135,27 +135,9 @@ void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
                        "): friction may have drifted within sweeps");
 }
 
-/// Curvature common to the sweeps. Their means are taken out of every column first, which spends a degree of
-/// freedom for each but the one that the constant column stands for.
-void test_curvature(const std::vector<Sweep>& sweeps, const ParallelLines& lines, Estimate& estimate,
+void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate,
                     std::vector<std::string>& faults) {
-  std::vector<Datum> pairs;
-  for (const Sweep& sweep : sweeps) pairs.insert(pairs.end(), sweep.pairs.begin(), sweep.pairs.end());
-  CurvatureColumns columns = curvature_columns(pairs);
-  Eigen::VectorXd residuals(columns.square.size());
-  Eigen::Index row = 0;
-  for (std::size_t j = 0; j < sweeps.size(); ++j) {
-    const auto size = static_cast<Eigen::Index>(sweeps[j].pairs.size());
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const Datum& datum = sweeps[j].pairs[static_cast<std::size_t>(i)];
-      residuals[row + i] = datum.x - lines.intercepts[j] - lines.slope * datum.Y;
-    }
-    columns.line.col(1).segment(row, size).array() -= columns.line.col(1).segment(row, size).mean();
-    columns.square.segment(row, size).array() -= columns.square.segment(row, size).mean();
-    row += size;
-  }
-  estimate.lack_of_fit = added_term_test(columns.line, residuals, columns.square, output_range(pairs),
-                                         "quadratic term F-test", static_cast<int>(sweeps.size()) - 1);
+  estimate.lack_of_fit = friction_curvature_test(used, exact, sweep_blocks(used));
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
     faults.emplace_back("the pairs of the sweeps do not lie on straight lines, so no single zeta describes them");
 }
@@ -266,13 +248,14 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * used.front().Y * data->unit, faults);
-  test_curvature(sweeps, *lines, estimate, faults);
-  judge_slopes(sweeps, *lines, estimate.warnings);
   // The exact law with one friction for all: its departure from a line is that of each sweep.
+  const std::vector<Datum> exact = exact_pairs(*data, used, *friction);
+  test_curvature(used, exact, estimate, faults);
+  judge_slopes(sweeps, *lines, estimate.warnings);
   const auto line_through = [](const std::vector<Datum>& pairs) {
     return line_of(moments_of(pairs), std::numeric_limits<double>::infinity());
   };
-  judge_method(*data, exact_pairs(*data, used, *friction), *friction, line_through, estimate, faults);
+  judge_method(*data, exact, *friction, line_through, estimate, faults);
   list_sweeps(sweeps, *lines, *friction, *data, estimate);
   if (options.bootstrap > 0) bootstrap(sweeps, *data, options.bootstrap, estimate);
   conclude(estimate, faults,

@@ -13,7 +13,7 @@
 /// J
 /// - 1 degrees of freedom for N pairs in J sweeps (or from `sigma_x`, `sigma_Y`); the mean friction from the
 /// scatter of the sweeps, J - 1 degrees of freedom, and from b, the two combined after welch1947. Doubts: pairs
-/// that stick are left out, an F test of a common quadratic term, an F test of separate slopes. Source:
+/// that stick are left out, an F test of a friction quadratic in x, an F test of separate slopes. Source:
 /// liang2004identifying (the drift, section 4); the fit is the analysis of covariance, draper1998. Errors:
 /// `outcome`. Cost: n log n.
 
@@ -32,7 +32,7 @@ inline constexpr MethodEntry resonance_within_sweep_method{
     "one damping ratio and a friction force for each sweep from parallel lines",
     "excitation at w = wn, zeta small, no sticking, errors in x alone, friction that may drift between sweeps but "
     "not "
-    "within one; checked: sticking pairs are left out, quadratic term F-test, separate slopes F-test, what the "
+    "within one; checked: sticking pairs are left out, quadratic friction F-test, separate slopes F-test, what the "
     "method "
     "would make of its own estimate by the exact law",
     "x = a_j + b Y, zeta = 1/(2 b), x_f,j = -a_j/G(zeta), G by Eq (4) at w = wn",

@@ -151,6 +151,25 @@ TEST_CASE("What is not parallel or not straight is told") {
   CHECK(std::abs(spread - 50) < 28);
 }
 
+TEST_CASE("The test for curvature keeps its level under drift, with errors of x and of Y") {
+  // As for one line (test_resonance_least_squares.cpp), with the heights of the sweeps taken out. 4000 samples know
+  // 5 % to 0.34 %; four times that is allowed.
+  Normal normal(35);
+  const auto levels = levels_of(normal);
+  constexpr int samples = 4000;
+  for (const double sigma_Y : {0.0, 20e-6})
+    for (const double sigma_x : {20e-6, 50e-6, 100e-6}) {
+      int fired = 0;
+      for (int i = 0; i < samples; ++i) {
+        Record record = measure(levels, drift_of(normal, 0.15e-3), sigma_x, 0.0, normal);
+        for (Pair& pair : record.pairs->pairs) pair.Y += sigma_Y * normal();
+        fired += resonance_within_sweep(record, at_resonance, {}).lack_of_fit->p_value < 0.05;
+      }
+      CAPTURE(sigma_Y, sigma_x);
+      CHECK(fired / double(samples) == Approx(0.05).margin(0.014));
+    }
+}
+
 TEST_CASE("Pairs that stick are left out by the friction of their own sweep") {
   // x = 3.2 mm slides where x_f = 2.8 mm (S = 1.063) and sticks where it is 3.4 mm.
   const double G = analytic::den_hartog(zeta, 1.0).G;

@@ -20,7 +20,7 @@ Estimate estimate(const std::string& method, double zeta, double F0, double spre
 
 LackOfFit test(double p, bool fired) {
   LackOfFit result;
-  result.test = "quadratic term F-test";
+  result.test = "quadratic friction F-test";
   result.p_value = p;
   result.fired = fired;
   return result;
@@ -57,7 +57,7 @@ TEST_CASE("A rejected law is said first, with the trend and the law that describ
   Estimate selection = estimate("law_selection", 0.2, 3.0, 0.1);
   selection.candidates = {{"saturating_viscous", {}, 0.0, 1.0, 1.0, 0.97}};
   const std::string text = verdict({estimate("resonance_two_point", 0.1, 4.0, 0.01), fit, selection});
-  CHECK(mentions(text, "rejected by these data: resonance_least_squares (quadratic term F-test, p = 0.0004)"));
+  CHECK(mentions(text, "rejected by these data: resonance_least_squares (quadratic friction F-test, p = 0.0004)"));
   CHECK(mentions(text, "From 5/5 to 2/5 of the data zeta goes from 0.0987 to 0.142 and F0 from 4.39 to 3.69 N"));
   CHECK(mentions(text, "saturating_viscous describes them best (weight 0.97)"));
 }
