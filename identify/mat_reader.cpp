@@ -5,17 +5,21 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/isolated.hpp"
+#include "identify/mat_content.hpp"
 #include "identify/text.hpp"
 
 namespace dualdamp::identify {
@@ -163,9 +167,6 @@ class Elements {
   bool swap_;
 };
 
-/// Neither matio nor HDF5 promises to be safe in threads.
-std::mutex one_at_a_time;
-
 /// What is wrong with a file is said by us, not on stderr by the libraries.
 void silence() {
   Mat_LogInitFunc("dualdamp", [](int, char*) {});
@@ -233,24 +234,22 @@ using Scope = std::vector<std::pair<std::string, const matvar_t*>>;
 
 class Reader {
  public:
-  Reader(std::string path, const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
-      : path_(std::move(path)), file_(options.name), options_(options), problems_(problems), warnings_(warnings) {}
+  Reader(std::string path, const ReadOptions& options)
+      : path_(std::move(path)), file_(options.name), options_(options) {}
 
-  DataTable run() {
-    check_names(options_.units, "unit", file_, problems_);
-    check_names(options_.columns, "column", file_, problems_);
-    problems_.throw_if_any();
+  MatContent run() {
     read_variables();
-    std::vector<TestColumns> tests;
+    MatContent content;
     const std::vector<Scope> scopes = find_scopes();
     for (std::size_t i = 0; i < scopes.size(); ++i) {
-      tests.push_back(test(scopes[i]));
-      if (scopes.size() > 1 && tests.back().label.empty()) tests.back().label = std::to_string(i + 1);
+      content.tests.push_back(test(scopes[i]));
+      if (scopes.size() > 1 && content.tests.back().label.empty())
+        content.tests.back().label = std::to_string(i + 1);
     }
     problems_.throw_if_any();
-    DataTable table = join(file_, tests);
-    if (row_labels_) table.sweeps = std::move(*row_labels_);
-    return table;
+    content.row_labels = std::move(row_labels_);
+    content.warnings = std::move(warnings_);
+    return content;
   }
 
  private:
@@ -261,7 +260,7 @@ class Reader {
   /// The variables that are asked for, and structs; others are not read into memory.
   void read_variables() {
     const MatFile file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
-    if (!file) refuse_truncated(file_);
+    if (!file || (Mat_GetVersion(file.get()) == MAT_FT_MAT73 && !is_whole_hdf5(path_))) refuse_truncated(file_);
     while (true) {
       Variable variable(Mat_VarReadNextInfo(file.get()));
       if (!variable) break;
@@ -458,24 +457,48 @@ class Reader {
   std::string path_;
   std::string file_;
   const ReadOptions& options_;
-  Problems& problems_;
-  std::vector<std::string>& warnings_;
+  Problems problems_;
+  std::vector<std::string> warnings_;
   std::vector<Variable> variables_;
   std::optional<std::vector<LabelRun>> row_labels_;
   std::size_t label_count_ = 0;
 };
 
+/// A file of a gigabyte in two minutes, whatever is compressed in it, and one of no size in some seconds. Under
+/// load the clock on the wall runs faster than the processor's.
+IsolationLimits limits_of(const std::string& path) {
+  constexpr std::chrono::seconds least{2};
+  constexpr std::uintmax_t bytes_a_second = std::uintmax_t{8} << 20U;
+  constexpr int load = 8;
+  constexpr std::size_t memory = std::size_t{4} << 30U;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  const std::chrono::seconds time = least + std::chrono::seconds(error ? 0 : size / bytes_a_second);
+  return {time, load * time, memory};
+}
+
+[[noreturn]] void refuse_unread(const std::string& file, IsolatedEnd end) {
+  switch (end) {
+    case IsolatedEnd::out_of_time:
+      refuse_file(file, "the MATLAB file is damaged: reading it comes to no end", "the whole file");
+    case IsolatedEnd::out_of_memory:
+      refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
+                  "the whole file, or a part of the record");
+    case IsolatedEnd::not_started:
+      refuse_file(file, "the MATLAB file cannot be read: the system starts no process for it");
+    case IsolatedEnd::crashed:
+    case IsolatedEnd::done:
+      break;
+  }
+  refuse_truncated(file);
+}
+
 }  // namespace
 
 bool is_mat(std::string_view bytes) { return is_mat_5(bytes) || head4(bytes, 0).size > 0; }
 
-void check_mat(std::string_view bytes, const std::string& path, const std::string& file) {
-  if (is_mat_73(bytes)) {
-    const std::lock_guard lock(one_at_a_time);
-    silence();
-    if (!is_whole_hdf5(path)) refuse_truncated(file);
-    return;
-  }
+void check_mat(std::string_view bytes, const std::string& file) {
+  if (is_mat_73(bytes)) return;  // HDF5 itself knows where its files end
   const bool is_5 = is_mat_5(bytes);
   if (is_5 && bytes.size() == header_size) refuse_file(file, "the MATLAB file is empty: it holds no variables");
   if (is_5) {
@@ -491,9 +514,23 @@ void check_mat(std::string_view bytes, const std::string& path, const std::strin
 
 DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
                    std::vector<std::string>& warnings) {
-  const std::lock_guard lock(one_at_a_time);
-  silence();
-  return Reader(path, options, problems, warnings).run();
+  check_names(options.units, "unit", options.name, problems);
+  check_names(options.columns, "column", options.name, problems);
+  problems.throw_if_any();
+  const IsolatedResult result = run_isolated(limits_of(path), [&](const ByteSink& sink) {
+    silence();
+    try {
+      send(Reader(path, options).run(), sink);
+    } catch (const core::InputError& error) {
+      send(error.diagnostics(), sink);
+    }
+  });
+  std::optional<MatContent> content = result.end == IsolatedEnd::done ? receive(result.bytes) : std::nullopt;
+  if (!content) refuse_unread(options.name, result.end);
+  DataTable table = join(options.name, content->tests);
+  if (content->row_labels) table.sweeps = std::move(*content->row_labels);
+  std::ranges::move(content->warnings, std::back_inserter(warnings));
+  return table;
 }
 
 }  // namespace dualdamp::identify

@@ -111,7 +111,7 @@ MeasuredRecord read_record(const std::string& path, const ReadOptions& options) 
     refuse_file(named.name, "a MATLAB file cannot be read from a pipe", "the name of a file");
   Problems problems;
   std::vector<std::string> warnings;
-  check_mat(bytes, path, named.name);
+  check_mat(bytes, named.name);
   DataTable table = read_mat(path, named, problems, warnings);
   return assemble(std::move(table), problems, std::move(warnings), bytes);
 }
