@@ -94,8 +94,9 @@ class Parser {
         ->type_name("PATH=VALUE");
     constexpr int max_jobs = 1024;
     run_command_
-        ->add_option("--jobs", run_.jobs,
-                     "Files to run at the same time; threads of a stress test, by default all cores")
+        ->add_option(
+            "--jobs", run_.jobs,
+            "Threads, by default all cores; of several files, how many run at the same time (by default one)")
         ->check(CLI::Range(1, max_jobs))
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and say what would be run");

@@ -11,7 +11,7 @@ struct RunCommand {
   std::vector<std::string> files;
   std::string out;
   std::vector<std::string> set;
-  int jobs = 0;  ///< 0: one file at a time, a stress test on all cores
+  int jobs = 0;  ///< threads, shared by files that run at the same time; 0: one file at a time, on all cores
   bool json = false;
   bool quiet = false;
   bool dry_run = false;

@@ -28,6 +28,7 @@
 #include "scenarios/run.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/schema.hpp"
+#include "sim/parallel.hpp"
 
 namespace dualdamp::cli {
 
@@ -273,6 +274,8 @@ int execute(const RunCommand& command) {
     // Processes that share campaigns take them in the same order.
     const int jobs = bench::Processes::several() ? 1 : std::max(command.jobs, 1);
     const std::size_t workers = std::min(static_cast<std::size_t>(jobs), command.files.size());
+    std::optional<sim::ThreadLimit> limit;
+    if (command.jobs > 0) limit.emplace(std::max(command.jobs - static_cast<int>(workers) + 1, 1));
     std::vector<std::jthread> threads;
     for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
     work();

@@ -27,7 +27,4 @@ struct ResultPath {
 
 [[nodiscard]] std::optional<ResultPath> parse_result_path(const std::string& text);
 
-/// Number of values of a grid in its resolved form.
-[[nodiscard]] std::size_t grid_size(const Json& grid);
-
 }  // namespace dualdamp::scenarios

@@ -1,5 +1,6 @@
 #include "sim/parallel.hpp"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -20,5 +21,15 @@ void in_parts(std::size_t size, std::size_t grain, int threads,
     });
   });
 }
+
+struct ThreadLimit::Control {
+  oneapi::tbb::global_control limit;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : control_(
+          new Control{{oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}}) {}
+
+ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace dualdamp::sim

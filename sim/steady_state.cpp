@@ -36,6 +36,32 @@ constexpr int max_newton = 60;
 /// Growth over the first periods' motion that counts as growth without bound.
 constexpr double runaway = 1e9;
 
+/// Tells growth without end from growth that slows down and from beats. Asked at 500, 1000, 2000, ... periods: an
+/// amplitude grows on when it gained 1.7 times as much over the last doubling of time as over the one before; 2 is
+/// in proportion to time. One that tends to its end as 1 - exp(-n/tau) or as tanh(n/tau) gains so much for n below
+/// tau/4 or tau/3.4 only, and would not settle within `max_periods` from there. One that beats was larger before.
+class Growth {
+ public:
+  bool goes_on(int period, double amplitude) {
+    largest_ = std::max(largest_, amplitude);
+    if (period != next_) return false;
+    next_ *= 2;
+    constexpr double gained_more = 1.7;
+    constexpr double beating = 0.9;
+    const double gain = amplitude < beating * largest_ ? 0.0 : amplitude - last_;
+    const bool on = gain_ > 0.0 && gain > gained_more * gain_;
+    gain_ = last_ > 0.0 ? gain : 0.0;
+    last_ = amplitude;
+    return on;
+  }
+
+ private:
+  int next_ = 500;
+  double largest_ = 0.0;
+  double last_ = 0.0;
+  double gain_ = 0.0;
+};
+
 class OrbitFinder {
  public:
   OrbitFinder(const Model& model, const SteadyStateOptions& options)
@@ -73,6 +99,7 @@ class OrbitFinder {
   double rounding_closure_ = 0.0;
   double first_half_ = 0.0;  ///< largest |x| in either half of the periods followed [m]
   double second_half_ = 0.0;
+  bool grows_ = false;        ///< and nothing slows it down
   bool may_coexist_ = false;  ///< static above kinetic, or laws that remember: more than one orbit may attract
 };
 
@@ -80,9 +107,12 @@ class OrbitFinder {
 bool OrbitFinder::follow(Passage& passage, double closure, int periods, SteadyState& result) {
   first_half_ = second_half_ = 0.0;
   const double early = passage.size;
+  Growth growth;
   for (int i = 0; i < periods; ++i) {
     if (passage.closure(omega_) <= closure) return true;
     if (early > 0.0 && passage.size > runaway * early) return false;
+    grows_ = growth.goes_on(i, passage.size);
+    if (grows_) return false;
     double& largest = i < periods / 2 ? first_half_ : second_half_;
     largest = std::max(largest, passage.size);
     passage = map_.next(Derivative::without);
@@ -119,7 +149,7 @@ bool OrbitFinder::newton(Passage& passage, SteadyState& result) {
 /// Why following the motion found no orbit. Without numbers of one point, so that many can share a reason.
 core::Outcome OrbitFinder::failure(const Passage& passage) const {
   const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
-  if (second_half_ > 1.5 * first_half_ || passage.size > 1.5 * first_half_) {
+  if (grows_ || second_half_ > 1.5 * first_half_ || passage.size > 1.5 * first_half_) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the amplitude still grows; damping does not limit the motion"};
   }

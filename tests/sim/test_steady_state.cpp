@@ -5,6 +5,7 @@
 #include <random>
 
 #include "friction_models/coulomb.hpp"
+#include "friction_models/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/curves.hpp"
 #include "sim/simulate.hpp"
@@ -160,6 +161,17 @@ TEST_CASE("no number is returned where there is none") {
     const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.5, 0.5, 1.0, 1.0));
     CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
     CHECK(state.outcome.reason.find("grows") != std::string::npos);
+    // In proportion to time from the start: the first time it can be told is after 2,000 periods.
+    CHECK(state.transient_periods < 2010);
+  }
+  SECTION("a viscous force that saturates below what the drive puts in") {
+    // At large amplitude the drive's fundamental k Y = 3 N stands against (4/pi)(F0 + c v0) = 2.5 N.
+    sim::Model model = base_driven(1.0, 1.0, 0.0, 1.0, 1.0, 3.0, 1.0);
+    model.friction.emplace_back(friction::ViscousSaturating(2.0, 0.5));
+    const sim::SteadyState state = sim::steady_state(model);
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows") != std::string::npos);
+    CHECK(state.transient_periods < 4010);
   }
   SECTION("just above that limit it is bounded") {
     CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.79, 0.79, 1.0, 1.0)).outcome.ok());
@@ -169,8 +181,11 @@ TEST_CASE("no number is returned where there is none") {
     CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
   }
   SECTION("nothing damps: the transient beats for ever") {
-    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.7));
+    const double r = GENERATE(0.7, 0.7001, 0.83, 0.917, 0.9901, 1.013, 1.37);
+    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.0, 0.0, 1.0, r));
+    CAPTURE(r);
     CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows") == std::string::npos);
   }
   SECTION("a continuum of orbits at r = 1/2 without viscous damping") {
     const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.1, 0.1, 1.0, 0.5));

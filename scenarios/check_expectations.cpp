@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <cctype>
+
+#include "scenarios/checks_of_analyses.hpp"
+#include "scenarios/result_fields.hpp"
+#include "scenarios/text_checks.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// Indices whose bound is known before the run.
+void check_index(CheckedFile& file, Place place, const ResultPath& path) {
+  std::optional<std::size_t> count;
+  if (path.pattern.starts_with("points[]")) count = file.points();
+  if (path.pattern.starts_with("boundary[]") && file.has("analysis", "frequencies"))
+    count = grid_size(file.values().at("analysis").at("frequencies"));
+  if (path.pattern.starts_with("estimates[]") && file.has("analysis", "methods"))
+    count = file.values().at("analysis").at("methods").size();
+  if (count && path.indices.front() >= *count)
+    file.complain(place, "there is no such item in the result", "an index below " + std::to_string(*count),
+                  std::to_string(path.indices.front()));
+}
+
+}  // namespace
+
+void check_expectations(CheckedFile& file) {
+  if (!file.values().contains("expect")) return;
+  std::string formula;
+  if (file.has("analysis", "formula"))
+    formula = file.values().at("analysis").at("formula").at("name").get<std::string>();
+  std::vector<std::string> patterns;
+  for (const ResultField& field : result_fields(file.analysis(), formula)) patterns.push_back(field.path);
+  for (std::size_t i = 0; i < file.values().at("expect").size(); ++i) {
+    const Json& expectation = file.values().at("expect").at(i);
+    if (!expectation.contains("value") || patterns.empty()) continue;
+    const Place place = file.place_of("expect[" + std::to_string(i) + "].value");
+    const auto text = expectation.at("value").get<std::string>();
+    const auto path = parse_result_path(text);
+    if (!path || std::ranges::find(patterns, path->pattern) == patterns.end()) {
+      file.complain(place, "the result of analysis '" + file.analysis() + "' has no number '" + text + "'",
+                    joined(patterns), {}, nearest(path ? path->pattern : text, patterns));
+    } else {
+      check_index(file, place, *path);
+    }
+  }
+}
+
+std::optional<ResultPath> parse_result_path(const std::string& text) {
+  ResultPath path;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] != '[') {
+      path.pattern += text[at];
+      continue;
+    }
+    const std::size_t end = text.find(']', at);
+    const std::string digits = text.substr(at + 1, end == std::string::npos ? 0 : end - at - 1);
+    constexpr std::size_t longest = 9;
+    const bool is_index = !digits.empty() && digits.size() <= longest &&
+                          std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (!is_index) return std::nullopt;
+    path.indices.push_back(std::stoul(digits));
+    path.pattern += "[]";
+    at = end;
+  }
+  return path;
+}
+
+}  // namespace dualdamp::scenarios

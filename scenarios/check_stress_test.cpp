@@ -1,0 +1,78 @@
+#include <algorithm>
+
+#include "core/numbers.hpp"
+#include "scenarios/checks_of_analyses.hpp"
+#include "scenarios/formulas.hpp"
+#include "sim/departures.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// The truth is Coulomb + viscous friction.
+void check_truth(CheckedFile& file) {
+  const std::string allowed = "{law: coulomb, kinetic: ...}";
+  if (!file.has("system", "friction")) {
+    if (file.node("system") != nullptr && !file.stands_in_file("system", "friction"))
+      file.complain(file.node("system")->head(), "'system.friction' is missing: a stress test departs from it",
+                    allowed);
+    return;
+  }
+  const Json& friction = file.values().at("system").at("friction");
+  const bool plain = friction.is_object() && friction.value("law", "") == "coulomb" &&
+                     friction.contains("kinetic") && friction.contains("static") &&
+                     friction.at("static") == friction.at("kinetic") && friction.size() == 3;
+  if (!plain)
+    file.complain("system.friction", "a stress test departs from Coulomb friction, and from nothing else", allowed);
+  else if (number(friction.at("kinetic")) == 0.0)
+    file.complain("system.friction.kinetic", "'system.friction.kinetic' is out of range: errors are relative to it",
+                  "> 0 N", "0 N");
+  if (file.number_at("system", "damping").value_or(1.0) <= 0.0)
+    file.complain("system", "'system' has no damping: errors are relative to it", "damping > 0 N.s/m");
+}
+
+void check_names(CheckedFile& file, const std::string& key) {
+  if (!file.has("analysis", key)) return;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < file.values().at("analysis").at(key).size(); ++i) {
+    const Json& item = file.values().at("analysis").at(key).at(i);
+    if (!item.contains("name")) continue;
+    names.push_back(item.at("name").get<std::string>());
+    if (std::ranges::count(names, names.back()) > 1)
+      file.complain("analysis." + key + "[" + std::to_string(i) + "].name",
+                    "there are two " + key + " with this name", "distinct names", names.back());
+  }
+}
+
+}  // namespace
+
+void check_stress_test(CheckedFile& file) {
+  const Json& analysis = file.values().at("analysis");
+  if (!file.has("analysis", "severities") || !file.has("analysis", "ranges")) return;
+  check_truth(file);
+  check_names(file, "ranges");
+  check_names(file, "sensors");
+  if (!file.stands_in_file("analysis", "laws")) {
+    Json all = Json::array();
+    for (const sim::Departure& departure : sim::departures()) all.push_back(departure.name);
+    file.values()["analysis"]["laws"] = std::move(all);
+    put_in_order(file.values()["analysis"], analyses().find(file.analysis())->section);
+  }
+  identify::Record record;
+  record.pairs.emplace().pairs.resize(
+      3, {.Y = 1.0, .x = 1.0, .omega = 1.0, .phase = 0.0, .fundamental = 1.0, .mean_square_speed = 1.0});
+  if (analysis.contains("decay")) record.decay = identify::DecayRecord{{1.0}, {0.0}};
+  resolve_methods_for(file, record);
+  if (!analysis.contains("laws")) return;
+  const std::size_t motions =
+      (1 + analysis.at("laws").size() * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
+  const std::size_t sets = analysis.contains("sensors") ? analysis.at("sensors").size() : 1;
+  const double cases = static_cast<double>(motions) * static_cast<double>(sets) * analysis.value("seeds", 1);
+  if (cases > max_cases)
+    file.complain("analysis.type", "the stress test has too many cases",
+                  "at most " + core::format_number(max_cases, 6) +
+                      ": laws times severities times ranges times sensors times seeds",
+                  core::format_number(cases, 9));
+}
+
+}  // namespace dualdamp::scenarios

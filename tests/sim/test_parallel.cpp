@@ -1,0 +1,46 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "sim/parallel.hpp"
+
+namespace {
+
+using namespace dualdamp;
+
+/// Largest number of items under way at once in nested loops of 4 by 4, each of a millisecond.
+int most_at_once() {
+  std::atomic<int> now{0};
+  std::atomic<int> most{0};
+  sim::in_parts(4, 1, 0, [&](std::size_t, std::size_t) {
+    sim::in_parts(4, 1, 0, [&](std::size_t, std::size_t) {
+      const int here = ++now;
+      for (int seen = most; seen < here && !most.compare_exchange_weak(seen, here);) {
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      --now;
+    });
+  });
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a limit on threads holds for nested loops, and ends with its scope") {
+  {
+    const sim::ThreadLimit limit(1);
+    CHECK(most_at_once() == 1);
+  }
+  // Sixteen items of a millisecond meet on any machine with two cores.
+  if (std::thread::hardware_concurrency() > 1) CHECK(most_at_once() > 1);
+}
+
+TEST_CASE("parts cover every item once, the last part shorter") {
+  std::vector<int> visits(10, 0);
+  sim::in_parts(visits.size(), 4, 0, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) ++visits[i];
+  });
+  CHECK(visits == std::vector<int>(10, 1));
+}
