@@ -60,24 +60,54 @@ struct Phasor {
   [[nodiscard]] double size() const { return std::hypot(cos, sin); }
 };
 
-/// Pieces of whole cycles; those at the beginning that are farther from the second half's mean than its scatter
-/// explains are the transient.
+/// How far noise alone puts a piece from the mean of the late ones, but for one history in 5000.
+///
+/// Such a distance is that of two components, each of variance s^2 (1 + 1/L) for L late pieces: its square over
+/// 2 s^2 (1 + 1/L) is F(2, n) distributed, n = 2 (L - 1), when s is the scatter of the late pieces, and exceeds
+/// (n/2)(p^(-2/n) - 1) with probability p. Few late pieces know their scatter badly. Where it is what the residuals
+/// of the fits make of white noise these know it better: n = infinity, -ln p. Slower noise has the scatter alone.
+double reach_of_noise(std::span<const Phasor> late, const Phasor& mean) {
+  constexpr double p = 1e-4;  // of each of the two ways
+  constexpr double alike = 4.0;
+  const auto count = static_cast<double>(late.size());
+  double scatter = 0.0;
+  double white = 0.0;
+  for (const Phasor& phasor : late) {
+    scatter += phasor.distance(mean) * phasor.distance(mean);
+    white += phasor.std * phasor.std / count;
+  }
+  double square = -std::log(p) * white;
+  if (late.size() > 1) {
+    const double freedom = 2.0 * (count - 1.0);
+    const double by_scatter = scatter / freedom * 0.5 * freedom * (std::pow(p, -2.0 / freedom) - 1.0);
+    square = scatter / freedom < alike * white ? std::min(square, by_scatter) : by_scatter;
+  }
+  return std::sqrt(2.0 * (1.0 + 1.0 / count) * square);
+}
+
+/// Pieces of whole cycles; those at the beginning that are farther from the second half's mean than noise puts them
+/// are the transient.
 std::optional<SteadyPart> steady_part(const History& history, double omega) {
   const std::span<const double> x = history.x;
   const double period = two_pi / omega * history.sample_rate;
-  const auto cycles = static_cast<int>(static_cast<double>(x.size()) / period);
+  constexpr double rounding = 1e-9;
+  const auto cycles = static_cast<int>(static_cast<double>(x.size()) / period * (1.0 + rounding));
   if (cycles < 1) return std::nullopt;
   const int cycles_a_block = (cycles + most_blocks - 1) / most_blocks;
   const int blocks = cycles / cycles_a_block;
   const int harmonics = harmonics_within(omega, history.sample_rate, 3);
+  const auto samples_of = [&](int count) {
+    return std::min(static_cast<std::size_t>(std::ceil(count * cycles_a_block * period * (1.0 - rounding))),
+                    x.size());
+  };
+  // No piece may be shorter than its cycles: the last one begins a sample early rather.
+  const std::size_t size = samples_of(1);
   const auto begin = [&](int block) {
-    return static_cast<std::size_t>(std::llround(block * cycles_a_block * period));
+    return std::min(static_cast<std::size_t>(std::llround(block * cycles_a_block * period)), x.size() - size);
   };
   std::vector<Phasor> phasors;
   for (int block = 0; block < blocks; ++block) {
     const std::size_t first = begin(block);
-    // Rounding may leave a piece one sample short of its cycles.
-    const std::size_t size = std::min(begin(block + 1) + 1, x.size()) - first;
     const SineFit fit = fit_sine(x.subspan(first, size), history.sample_rate, omega, {.harmonics = harmonics});
     if (!fit.outcome.ok()) return std::nullopt;
     const double phase = fit.harmonics[0].phase - omega * static_cast<double>(first) / history.sample_rate;
@@ -91,17 +121,13 @@ std::optional<SteadyPart> steady_part(const History& history, double omega) {
     mean.cos += phasor.cos / static_cast<double>(late.size());
     mean.sin += phasor.sin / static_cast<double>(late.size());
   }
-  double scatter = 0.0;
-  for (const Phasor& phasor : late) scatter = std::max(scatter, phasor.distance(mean));
-  const double tolerance = std::max(1.5 * scatter, settled * mean.size());
+  const double tolerance = std::max(reach_of_noise(late, mean), settled * mean.size());
   std::size_t skipped = 0;
   while (skipped < half && phasors[skipped].distance(mean) > tolerance) ++skipped;
 
   SteadyPart part;
   part.first = begin(static_cast<int>(skipped));
-  const int used = blocks - static_cast<int>(skipped);
-  part.size =
-      std::min(x.size() - part.first, static_cast<std::size_t>(std::llround(used * cycles_a_block * period)) + 1);
+  part.size = std::min(x.size() - part.first, samples_of(blocks - static_cast<int>(skipped)));
   const Phasor& early = phasors[skipped];
   part.drift = (phasors.back().size() - early.size()) / mean.size();
   part.drift_error = std::hypot(phasors.back().std, early.std) / mean.size();
@@ -148,7 +174,9 @@ class PairReader {
   }
 
   [[nodiscard]] SineFit fit(std::span<const double> signal, double omega, int most, bool refine = false) const {
-    const int harmonics = harmonics_within(omega, history_.sample_rate, most);
+    // A single cycle may have as many samples as its harmonics have unknowns.
+    const auto enough = static_cast<int>(std::max<std::size_t>(signal.size(), 5) - 3) / 2;
+    const int harmonics = std::min(harmonics_within(omega, history_.sample_rate, most), enough);
     return fit_sine(signal, history_.sample_rate, omega, {.harmonics = harmonics, .refine = refine});
   }
 

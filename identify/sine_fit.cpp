@@ -201,7 +201,9 @@ std::string fault_of(std::size_t samples, double theta, const SineFitOptions& op
   if (samples <= 2 * static_cast<std::size_t>(options.harmonics) + 2)
     return "there are fewer samples than unknowns";
   if (!(theta > 0.0)) return "there is no frequency to fit a sine of";
-  if (theta * static_cast<double>(samples) < two_pi) return "the record is shorter than one period";
+  constexpr double rounding = 1e-9;  // a period that is a whole number of samples may be stated a little longer
+  if (theta * static_cast<double>(samples) < two_pi * (1.0 - rounding))
+    return "the record is shorter than one period";
   if (theta * options.harmonics >= std::numbers::pi)
     return "the highest harmonic lies beyond half of the sample rate";
   return {};
