@@ -40,9 +40,9 @@ Table history_table(std::string name, const std::vector<sim::Sample>& samples, c
   table.columns.push_back(column("x", "m", samples, &sim::Sample::x));
   table.columns.push_back(column("v", "m/s", samples, &sim::Sample::v));
   table.columns.push_back(column("a", "m/s^2", samples, &sim::Sample::a));
-  table.columns.push_back(column("force", "N", samples, &sim::Sample::force));
+  table.columns.push_back(column("friction", "N", samples, &sim::Sample::force));
   if (excitation.type != sim::ExcitationType::none && !excitation.moves_base())
-    table.columns.push_back(column("external", "N", samples, &sim::Sample::external));
+    table.columns.push_back(column("force", "N", samples, &sim::Sample::external));
   return table;
 }
 

@@ -29,10 +29,10 @@ function simulateView() {
         { ...part("events", "t", "x", () => true, {}), label: "events", kind: "points", colour: 2 }] }),
     over("v", "Velocity", "velocity v"),
     chart({ title: "Phase plane", x: axis("history", "x", "displacement x"), y: axis("history", "v", "velocity v"), series: [series("history", "x", "v")] }),
-    chart({ title: "Friction over velocity", note: "the force against the motion", x: axis("history", "v", "velocity v"), y: axis("history", "force", "friction force"),
-      series: [series("history", "v", "force")] }),
-    chart({ title: "Friction over displacement", x: axis("history", "x", "displacement x"), y: axis("history", "force", "friction force"),
-      series: [series("history", "x", "force")] }),
+    chart({ title: "Friction over velocity", note: "the force against the motion", x: axis("history", "v", "velocity v"), y: axis("history", "friction", "friction force"),
+      series: [series("history", "v", "friction")] }),
+    chart({ title: "Friction over displacement", x: axis("history", "x", "displacement x"), y: axis("history", "friction", "friction force"),
+      series: [series("history", "x", "friction")] }),
   ];
 }
 
@@ -207,7 +207,7 @@ function orbitView() {
     chart({ title: "One period", wide: true, x: axis("orbit", "t", "time t"), y: axis("orbit", "x", "displacement"),
       series: [series("orbit", "t", "x", { label: "mass x" }), series("orbit", "t", "y", { label: "base y", kind: "dashed" })] }),
     plot("Phase plane", "x", "v", ["displacement x", "velocity v"]),
-    plot("Friction over velocity", "v", "force", ["velocity v", "friction force"], { note: "the force against the motion" }),
-    plot("Friction over displacement", "x", "force", ["displacement x", "friction force"]),
+    plot("Friction over velocity", "v", "friction", ["velocity v", "friction force"], { note: "the force against the motion" }),
+    plot("Friction over displacement", "x", "friction", ["displacement x", "friction force"]),
   ];
 }

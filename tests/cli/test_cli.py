@@ -290,6 +290,42 @@ class Identify(Case):
         self.assertTrue(estimate["usable"])
         self.assertEqual(list(tree(self.folder / "results")), ["pairs/estimates.csv", "pairs/report.html", "pairs/result.json"])
 
+    def test_a_simulated_history_read_back_gives_its_friction(self):
+        # Signals without noise. Methods that regress forces or follow the motion exactly leave rounding, 1e-9 at most.
+        # Harmonics of x beyond the ninth leave 1e-4 to the energy balance, local fits as much to the extremes of a free
+        # decay; a smoothed sign of the velocity 1 % to the Kalman filter.
+        exact = dict.fromkeys(
+            ["acceleration_velocity_displacement", "friction_force", "recursive_least_squares", "output_error"], 1e-9
+        )
+        followed = {**exact, "energy_balance": 1e-4, "extended_kalman": 0.01}
+        c, friction, mass, stiffness = 11, 3.7, 1.042, 1568
+        zeta = c / (2 * (mass * stiffness) ** 0.5)
+        drives = {
+            "{type: base_harmonic, amplitude: 6 mm, frequency: 38.79 rad/s}": ("t y x v a friction", followed),
+            "{type: force_harmonic, amplitude: 9.4 N, frequency: 38.79 rad/s}": ("t x v a friction force", followed),
+            "{type: none}": ("t x v a friction", {**exact, "free_decay": 1e-4}),
+        }
+        for excitation, (columns, tolerances) in drives.items():
+            with self.subTest(excitation):
+                self.write("run.yaml", f"""schema: dualdamp/1
+title: read back
+system: {{mass: {mass} kg, stiffness: {stiffness} N/m, damping: {c} N.s/m,
+  friction: {{law: coulomb, kinetic: {friction} N}}}}
+excitation: {excitation}
+initial: {{position: 60 mm}}
+analysis: {{type: simulate, duration: 3 s, sample_rate: 1 kHz}}
+""")
+                self.run_program("run", "run.yaml", "--out", "run", "--quiet")
+                lines = (self.folder / "run/history.csv").read_text().splitlines()
+                header = next(line for line in lines if not line.startswith("#"))
+                self.assertEqual([name.split()[0] for name in header.split(",")], columns.split())
+                given = ["--mass", f"{mass} kg", "--stiffness", f"{stiffness} N/m", "--json"]
+                document = self.document("identify", "run/history.csv", *given)
+                estimates = {estimate["method"]: estimate for estimate in document["result"]["estimates"]}
+                for method, tolerance in tolerances.items():
+                    self.assertAlmostEqual(estimates[method]["zeta"] / zeta, 1, delta=tolerance, msg=method)
+                    self.assertAlmostEqual(estimates[method]["F0"] / friction, 1, delta=tolerance, msg=method)
+
     def test_data_anywhere(self):
         with tempfile.TemporaryDirectory() as elsewhere:
             path = Path(elsewhere) / "it's data: #1.csv"
