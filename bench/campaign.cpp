@@ -151,6 +151,7 @@ Table ranking_table(const Scores& scores, const Grid& grid) {
   Table table{
       "ranking",
       {text_column("method", list, [&](const Ranking& r) { return grid.question().methods[r.method]->name; }),
+       column("worth", "", list, &Ranking::worth), column("trusted", "", list, &Ranking::trusted),
        column("unwarned", "", list, &Ranking::unwarned), column("wrong", "", list, &Ranking::wrong),
        column("knew", "", list, &Ranking::knew), column("false_alarm", "", list, &Ranking::false_alarm),
        column("coverage", "", list, &Ranking::coverage)}};

@@ -16,12 +16,14 @@ using identify::Estimate;
 struct Motions {
   scenarios::MotionRecord curve;
   std::optional<scenarios::MotionRecord> decay;
+  double stated = 1.0;  ///< forcing frequency that the laboratory believes in, over the one it drives at
 };
 
 sim::ReferenceMotion reference_of(const sim::Truth& truth, const scenarios::ExcitationRange& range,
                                   const sim::SteadyStateOptions& options) {
   sim::Model model = sim::undisturbed(truth);
   model.excitation.amplitude = range.amplitudes[range.amplitudes.size() / 2];
+  model.excitation.frequency = range.frequencies[range.frequencies.size() / 2];
   const sim::SteadyState middle = sim::steady_state(model, options);
   return {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude};
 }
@@ -37,6 +39,9 @@ Motions motions_of(const Grid& grid, const Grid::Motion& motion, const sim::Trut
   Motions result;
   scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
   curve.amplitudes = motion.range->amplitudes;
+  curve.frequencies = motion.range->frequencies;
+  result.stated = truth.model.excitation.frequency / model.excitation.frequency;
+  for (double& frequency : curve.frequencies) frequency /= result.stated;
   result.curve = scenarios::motion_of(model, curve, sensors, options);
   if (!grid.question().decay) return result;
   sim::Model released = model;
@@ -75,10 +80,8 @@ void run_motion(const Grid& grid, const sim::Truth& truth, const sim::SteadyStat
                 std::size_t number, const std::function<bool(std::size_t)>& wanted, const TakeLine& take) {
   const scenarios::StressTest& question = grid.question();
   const Grid::Motion motion = grid.motion(number);
-  // What the laboratory knows and the truth's numbers: the frequency it set, not one a departure moved.
   const sim::Oscillator& oscillator = truth.model.oscillator;
-  const double frequency = truth.model.excitation.frequency;
-  const identify::KnownConstants constants{oscillator.mass, oscillator.stiffness, frequency};
+  const identify::KnownConstants constants{oscillator.mass, oscillator.stiffness, truth.model.excitation.frequency};
   std::size_t place = number * grid.cases_per_motion();
   std::optional<Motions> unsampled;  // serves all sensors that sample nothing
   for (const scenarios::SensorSet& sensors : question.sensors) {
@@ -91,7 +94,7 @@ void run_motion(const Grid& grid, const sim::Truth& truth, const sim::SteadyStat
       const auto random = static_cast<std::uint64_t>(seed);
       identify::Record record = scenarios::reading(motions->curve, sensors.sensors, random, warnings);
       if (record.pairs)
-        for (identify::Pair& pair : record.pairs->pairs) pair.omega = frequency;
+        for (identify::Pair& pair : record.pairs->pairs) pair.omega *= motions->stated;
       if (motions->decay)
         record.decay = scenarios::reading(*motions->decay, sensors.sensors, random, warnings).decay;
       Json line = {{"case", place},

@@ -113,13 +113,14 @@ double first_beyond(const std::vector<const Score*>& scores, const Grid& grid, P
 
 /// Sums of shares weighted by what they are shares of.
 struct Doubt {
-  double cases = 0.0, wrong = 0.0, wrong_and_doubted = 0.0;
+  double cases = 0.0, wrong = 0.0, wrong_and_doubted = 0.0, right_and_doubted = 0.0;
 
   void add(const Score& score) {
     cases += score.cases;
     const double off = score.wrong * score.cases;
     wrong += off;
     if (off > 0.0) wrong_and_doubted += score.knew * off;
+    if (off < score.cases) right_and_doubted += score.false_alarm * (score.cases - off);
   }
 };
 
@@ -175,12 +176,14 @@ std::vector<Ranking> ranking_of(const std::vector<Score>& scores, const Grid& gr
     }
     ranking.wrong = doubt.wrong / doubt.cases;
     ranking.knew = doubt.wrong > 0.0 ? doubt.wrong_and_doubted / doubt.wrong : none;
+    ranking.trusted = (doubt.cases - doubt.wrong - doubt.right_and_doubted) / doubt.cases;
     ranking.unwarned = (doubt.wrong - doubt.wrong_and_doubted) / doubt.cases;
+    ranking.worth = ranking.trusted - ranking.unwarned;
     if (truths > 0) ranking.false_alarm = alarms / truths;
     if (intervals > 0) ranking.coverage = covered / intervals;
     result.push_back(ranking);
   }
-  std::ranges::stable_sort(result, {}, &Ranking::unwarned);
+  std::ranges::stable_sort(result, std::ranges::greater{}, &Ranking::worth);
   return result;
 }
 

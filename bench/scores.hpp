@@ -8,6 +8,9 @@
 ///   knew = share of the wrong ones that the method doubted: not usable, its lack-of-fit test fired, or none given,
 ///   false_alarm = share of the right ones that it doubted.
 ///
+/// Ranking: a number that is right and stood by helps, one that is wrong and stood by harms; a method that doubts
+/// everything does neither and is worth nothing.
+///
 /// Breakdown: the severity at which the median |error| first exceeds 5 or 20 %, between two severities of the grid
 /// by a straight line in the logarithms.
 
@@ -56,7 +59,9 @@ struct Ranking {
   double knew = 0.0;
   double false_alarm = 0.0;  ///< where friction is Coulomb + viscous
   double coverage = 0.0;     ///< of F0, likewise
-  double unwarned = 0.0;     ///< share of all cases that are wrong and not doubted: what the ranking goes by
+  double trusted = 0.0;      ///< share of all cases that are right and not doubted
+  double unwarned = 0.0;     ///< share of all cases that are wrong and not doubted
+  double worth = 0.0;        ///< trusted less unwarned: what the ranking goes by
 };
 
 struct Scores {

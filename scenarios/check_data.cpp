@@ -89,10 +89,15 @@ std::optional<identify::MeasuredRecord> read_data(CheckedFile& file, const Check
   }
 }
 
-void resolve_methods_for(CheckedFile& file, const identify::Record& record) {
+void resolve_methods_for(CheckedFile& file, const std::vector<identify::Record>& records) {
+  const auto lack_of = [&](const identify::MethodEntry& method) {
+    for (const identify::Record& record : records)
+      if (std::string lack = method.lacks(record); !lack.empty()) return lack;
+    return std::string();
+  };
   std::vector<std::string> fitting;
   for (const identify::MethodEntry& method : identify::methods())
-    if (method.lacks(record).empty()) fitting.emplace_back(method.name);
+    if (lack_of(method).empty()) fitting.emplace_back(method.name);
 
   Json& analysis = file.values()["analysis"];
   if (!file.stands_in_file("analysis", "methods")) {
@@ -101,7 +106,7 @@ void resolve_methods_for(CheckedFile& file, const identify::Record& record) {
   } else if (analysis.contains("methods")) {
     for (std::size_t i = 0; i < analysis["methods"].size(); ++i) {
       const auto name = analysis["methods"][i].get<std::string>();
-      if (const std::string lack = identify::find_method(name)->lacks(record); !lack.empty())
+      if (const std::string lack = lack_of(*identify::find_method(name)); !lack.empty())
         file.complain("analysis.methods[" + std::to_string(i) + "]",
                       "method '" + name + "' cannot be used: " + lack, joined(fitting));
     }
@@ -112,7 +117,7 @@ void resolve_methods(CheckedFile& file, const std::optional<identify::MeasuredRe
   const bool synthetic = file.needs() != nullptr && file.needs()->measurement != "data";
   if (file.needs() == nullptr || (!synthetic && !data)) return;
   const identify::Record record = synthetic ? outline(file) : data->record;
-  resolve_methods_for(file, record);
+  resolve_methods_for(file, {record});
   const bool is_free = file.node("excitation") == nullptr || file.text_at("excitation", "type") == "none";
   const bool pairs = record.pairs.has_value();
   if (pairs && is_free &&

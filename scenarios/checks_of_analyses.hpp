@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "identify/record_reader.hpp"
 #include "scenarios/checked_file.hpp"
@@ -30,8 +31,8 @@ void check_measurement(CheckedFile& file);
 /// Methods of `identify`, for the data or for the measurement's outline.
 void resolve_methods(CheckedFile& file, const std::optional<identify::MeasuredRecord>& data);
 
-/// All methods that such a record allows, or those of the file, each of which it must allow.
-void resolve_methods_for(CheckedFile& file, const identify::Record& record);
+/// All methods that each of such records allows, or those of the file, which each must allow.
+void resolve_methods_for(CheckedFile& file, const std::vector<identify::Record>& records);
 
 void check_stress_test(CheckedFile& file);
 

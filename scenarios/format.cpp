@@ -214,7 +214,8 @@ Variant stress_test_variant() {
   std::vector<Field> set = {text("name", "what the results call it").required()};
   for (Field& field : sensor_fields())
     if (field.name != "seed") set.push_back(std::move(field));
-  const Section range = {{text("name", "what the results call it").required(), amplitudes()}};
+  const Section range = {
+      {text("name", "what the results call it").required(), amplitudes(), optional(frequencies())}};
   const Section decay = {
       {quantity("displacement", {"m"}, "from which the mass is released at rest").required().above(0), peaks()}};
   return {
@@ -222,7 +223,9 @@ Variant stress_test_variant() {
       "how wrong each method is under friction that is not Coulomb + viscous, and whether it knew",
       {{word_list("laws", departure_names(), "departures from Coulomb + viscous friction; default: all"),
         grid("severities", {"1"}, "their sizes, in the sense of each").required().above(0).items(1, max_sets),
-        section_list("ranges", range, "input amplitudes of the x-Y curves").required().items(1, max_sets),
+        section_list("ranges", range, "input amplitudes, and frequencies, of the steady states that are measured")
+            .required()
+            .items(1, max_sets),
         section_list("sensors", Section{std::move(set)},
                      "what the curves are measured with; default: perfect sensors")
             .items(1, max_sets),

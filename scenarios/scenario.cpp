@@ -239,14 +239,16 @@ Identify identify_question(const Json& section, const sim::Model& model,
 }
 
 /// `system`: its friction is the truth, one Coulomb law (checks.cpp).
-StressTest stress_test(const Json& section, const Json& system) {
+StressTest stress_test(const Json& section, const Json& system, double frequency) {
   StressTest result;
   result.F0 = number(system.at("friction").at("kinetic"));
   for (const Json& name : section.at("laws")) result.laws.push_back(sim::find_departure(name.get<std::string>()));
   result.severities = grid_values(section.at("severities"));
   std::ranges::sort(result.severities);
   for (const Json& range : section.at("ranges"))
-    result.ranges.push_back({range.at("name").get<std::string>(), grid_values(range.at("amplitudes"))});
+    result.ranges.push_back(
+        {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
+         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{frequency}});
   if (section.contains("sensors"))
     for (const Json& set : section.at("sensors"))
       result.sensors.push_back({set.at("name").get<std::string>(), sensors(set)});
@@ -282,7 +284,7 @@ Analysis analysis(const Json& section, const Json& system, const sim::Model& mod
   if (type == "xy_branch") return branch(sim::BranchParameter::amplitude, section.at("amplitudes"));
   if (type == "frequency_branch") return branch(sim::BranchParameter::frequency, section.at("frequencies"));
   if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
-  if (type == "stress_test") return stress_test(section, system);
+  if (type == "stress_test") return stress_test(section, system, model.excitation.frequency);
   if (type == "identify") return identify_question(section, model, std::move(data));
   const Json& formula = section.at("formula");
   return Formula{formula.at("name").get<std::string>(), formula.dump()};

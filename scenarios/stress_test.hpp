@@ -12,10 +12,11 @@
 
 namespace dualdamp::scenarios {
 
-/// Input amplitudes of one x-Y curve.
+/// Steady states at all these input amplitudes and frequencies: an x-Y curve, a frequency response, or both.
 struct ExcitationRange {
   std::string name;
-  std::vector<double> amplitudes;  ///< m
+  std::vector<double> amplitudes;   ///< m
+  std::vector<double> frequencies;  ///< rad/s; the excitation's own where the scenario names none
 };
 
 struct SensorSet {
@@ -23,7 +24,7 @@ struct SensorSet {
   identify::Sensors sensors;
 };
 
-/// A free decay beside each curve, for the methods that need one: from rest at a displacement.
+/// A free decay beside each range, for the methods that need one: from rest at a displacement.
 struct DecayTest {
   double displacement = 0.0;  ///< m
   int peaks = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -90,6 +91,22 @@ Model friction_lag(const Truth& truth, const ReferenceMotion& reference, double 
                {"lag", s / reference.frequency}});
 }
 
+/// Four elements that slip at equal shares of the level, one after the other, none of them before half of the mean
+/// deflection.
+Model generalized_maxwell_slip(const Truth& truth, const ReferenceMotion& reference, double s) {
+  const double stiffness = contact_stiffness(truth, reference, s);
+  std::vector<ParameterValues> elements;
+  for (const double deflection : {0.5, 0.75, 1.25, 1.5})  // over their mean
+    elements.push_back({{"stiffness", 0.25 * stiffness / deflection}, {"share", 0.25}});
+  return with(truth, "generalized_maxwell_slip",
+              {{"elements", elements},
+               {"kinetic", truth.F0},
+               {"static", (1.0 + s) * truth.F0},
+               {"stribeck_velocity", 0.1 * reference.speed()},
+               // Slipping elements follow the level within a hundredth of a period.
+               {"attraction", 100.0 * truth.F0 * reference.frequency}});
+}
+
 Model iwan(const Truth& truth, const ReferenceMotion& reference, double s) {
   // The last slider slides at a stretch of twice F0 over the stiffness.
   return with(truth, "iwan",
@@ -106,8 +123,36 @@ Model lugre(const Truth& truth, const ReferenceMotion& reference, double s) {
                {"sigma1", bristle_damping(truth, stiffness)}});
 }
 
+/// The rider's own vibration is ten times as fast as the forcing and damped to a tenth.
+Model normal_vibration(const Truth& truth, const ReferenceMotion& reference, double s) {
+  constexpr double mu = 0.3;
+  constexpr double approach = 1e-6;
+  const double weight = truth.F0 / mu;
+  const double fast = 10.0 * reference.frequency;
+  return with(truth, "normal_vibration",
+              {{"mu", mu},
+               {"weight", weight},
+               {"normal_mass", 2.0 * weight / (approach * fast * fast)},
+               {"static_approach", approach},
+               {"normal_damping_ratio", 0.1},
+               {"lift", s * weight / reference.speed()},
+               {"lift_velocity", reference.speed()}});
+}
+
 Model position_slope(const Truth& truth, const ReferenceMotion& reference, double s) {
   return with_coulomb(truth, {{"position_slope", -s * truth.F0 / reference.amplitude}});
+}
+
+Model reset_integrator(const Truth& truth, const ReferenceMotion& reference, double s) {
+  return with(truth, "reset_integrator",
+              {{"kinetic", truth.F0}, {"stiffness", contact_stiffness(truth, reference, s)}, {"static_gain", s}});
+}
+
+/// Friction that varies along the way, the same at each passage.
+Model rough_way(const Truth& truth, const ReferenceMotion& reference, double s) {
+  const ParameterValues roughness{
+      {"ratio", s / 3.0}, {"correlation_length", 0.1 * reference.amplitude}, {"seed", 1.0}};
+  return with_coulomb(truth, {{"fluctuation", std::vector<ParameterValues>{roughness}}});
 }
 
 Model static_friction(const Truth& truth, const ReferenceMotion&, double s) {
@@ -140,6 +185,14 @@ Model viscous_saturating(const Truth& truth, const ReferenceMotion& reference, d
                         {{"coefficient", truth.c()}, {"saturation_velocity", reference.speed() / s}});
 }
 
+/// Friction falls as it warms the contact, which takes five periods to warm.
+Model warming(const Truth& truth, const ReferenceMotion& reference, double s) {
+  const double period = 2.0 * std::numbers::pi / reference.frequency;
+  const double mean_power = 4.0 * truth.F0 * reference.amplitude / period;
+  const ParameterValues heat{{"power", mean_power / s}, {"time_constant", 5.0 * period}};
+  return with_coulomb(truth, {{"warming", std::vector<ParameterValues>{heat}}});
+}
+
 }  // namespace
 
 const std::vector<Departure>& departures() {
@@ -155,14 +208,25 @@ const std::vector<Departure>& departures() {
       {"friction_lag",
        "lag times forcing frequency, and excess of friction at rest over F0, falling over 0.1 of the peak speed",
        10.0, friction_lag},
+      {"generalized_maxwell_slip",
+       "mean deflection of the elements over the amplitude X, and excess of static friction over F0", 1.0,
+       generalized_maxwell_slip},
       {"iwan", "mean deflection of the sliders over the amplitude X", 1.0, iwan},
       {"lugre", "deflection of the bristles F0/sigma0 over the amplitude X, and excess of static friction over F0",
        1.0, lugre},
+      {"normal_vibration", "lift at high speed over the weight; half of it at the peak speed", 1.0,
+       normal_vibration},
       {"position_slope", "fall of the friction force at the amplitude X, over F0", 1.0, position_slope},
+      {"reset_integrator",
+       "stretch F0/stiffness at which the bond breaks over the amplitude X, and its static gain", 1.0,
+       reset_integrator},
+      {"rough_way", "three standard deviations of the friction force along the way over F0, correlated over 0.1 X",
+       1.0, rough_way},
       {"static_friction", "excess of static over kinetic friction, over F0", 10.0, static_friction},
       {"stribeck", "excess of friction at rest over F0, falling over 0.1 of the peak speed", 10.0, stribeck},
       {"viscous_power", "exponent of the speed, less 1", 10.0, viscous_power},
       {"viscous_saturating", "peak speed over the saturation velocity", 100.0, viscous_saturating},
+      {"warming", "mean power of Coulomb friction over the power at which it falls to 1/e", 10.0, warming},
   };
   return list;
 }

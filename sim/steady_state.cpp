@@ -48,8 +48,9 @@ class Growth {
     next_ *= 2;
     constexpr double gained_more = 1.7;
     constexpr double beating = 0.9;
+    constexpr double at_least = 0.1;  // of the amplitude; 1/2 in proportion to time
     const double gain = amplitude < beating * largest_ ? 0.0 : amplitude - last_;
-    const bool on = gain_ > 0.0 && gain > gained_more * gain_;
+    const bool on = gain_ > 0.0 && gain > gained_more * gain_ && gain > at_least * amplitude;
     gain_ = last_ > 0.0 ? gain : 0.0;
     last_ = amplitude;
     return on;

@@ -1,6 +1,8 @@
 // The stress test: who is wrong under which law, and who knew.
 
 const meanings = {
+  worth: "trusted less unwarned",
+  trusted: "right within 5 % and not doubted",
   unwarned: "wrong by more than 5 % without a doubt",
   wrong: "wrong by more than 5 %",
   knew: "of the wrong ones, doubted by the method",

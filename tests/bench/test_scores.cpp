@@ -19,7 +19,7 @@ scenarios::StressTest question() {
   result.F0 = 10.0;
   result.laws = {sim::find_departure("dahl")};
   result.severities = {0.01, 0.1};
-  result.ranges = {{"low", {0.1, 0.2}}};
+  result.ranges = {{"low", {0.1, 0.2}, {10.0}}};
   result.sensors = {{"perfect", {}}};
   result.seeds = 2;
   result.methods = {identify::find_method("resonance_least_squares"), identify::find_method("resonance_two_point")};
@@ -81,9 +81,14 @@ TEST_CASE("scores: bias, coverage, who was wrong and who knew, and where a metho
   CHECK(scores.breakdowns[1].F0_5 == Approx(0.01));
   CHECK(scores.breakdowns[1].F0_20 == Approx(0.1));
 
-  // Wrong without a doubt: one case in four for each; the order is that of the scenario.
+  // Each wrong without a doubt in one case of four; of the first method, two are right and stood by.
   REQUIRE(scores.ranking.size() == 2);
+  CHECK(scores.ranking[0].method == 0);
+  CHECK(scores.ranking[0].trusted == 0.5);
   CHECK(scores.ranking[0].unwarned == 0.25);
+  CHECK(scores.ranking[0].worth == 0.25);
+  CHECK(scores.ranking[1].trusted == 0.0);
   CHECK(scores.ranking[1].unwarned == 0.25);
+  CHECK(scores.ranking[1].worth == -0.25);
   CHECK(scores.ranking[1].false_alarm == 0.5);
 }

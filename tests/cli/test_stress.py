@@ -4,6 +4,7 @@
 usage: test_stress.py PROGRAM ROOT [TEST...]; DUALDAMP_KILLS: how often it is killed (default 4)
 """
 
+import json
 import os
 import random
 import shutil
@@ -72,6 +73,44 @@ class Stress(unittest.TestCase):
             result = self.run_program("run", SCENARIO, "--out", out, "--jobs", 1, launcher=["mpirun", "-n", str(count)], env=MPI)
             self.assertEqual(result.stdout.count("stress_test: Three laws"), 1)
             self.check_same(out, reference)
+
+    def estimates(self, name, *assignments):
+        """Estimates of each case of a shipped campaign on one law and seed, by law, severity and method."""
+        out = self.folder / name
+        self.run_program("run", ROOT / f"scenarios/stress/{name}.yaml", "--out", out, "--quiet", "--set", "analysis.seeds=1",
+                         *[part for text in assignments for part in ("--set", text)])
+        lines = [json.loads(line) for line in rows(out / "cases.jsonl")[1:]]
+        return {(line["law"], line["severity"]): {e["method"]: e for e in line["estimates"]} for line in lines}
+
+    def test_histories(self):
+        cases = self.estimates("histories", "analysis.laws=[dahl]", "analysis.severities=[0.3]")
+        truth = cases["coulomb_viscous", 0]
+        self.assertEqual(len(truth), 7)
+        # Twelve cycles of 162 samples, two levels: output_error's F0 has a standard error of some 0.05 %.
+        self.assertAlmostEqual(truth["output_error"]["F0"] / 4.39, 1, delta=0.005)
+        self.assertAlmostEqual(truth["friction_force"]["F0"] / 4.39, 1, delta=0.02)
+        # Bristles that give by a third of the amplitude: the sharp model misses them, and knows.
+        self.assertFalse(cases["dahl", 0.3]["output_error"]["usable"])
+
+    def test_frequency_responses(self):
+        cases = self.estimates("response", "analysis.laws=[detuning]", "analysis.severities=[0.05]")
+        for method in ("den_hartog_fit", "receptance"):
+            truth = cases["coulomb_viscous", 0][method]
+            self.assertLess(truth["zeta95"][0], 0.0987)
+            self.assertGreater(truth["zeta95"][1], 0.0987)
+        # All frequencies are 5 % above those stated: the resonance curve lies elsewhere.
+        self.assertFalse(cases["detuning", 0.05]["den_hartog_fit"]["usable"])
+
+    def test_refused_before_anything_runs(self):
+        response, histories = (ROOT / f"scenarios/stress/{name}.yaml" for name in ("response", "histories"))
+        for file, assignment, message in [
+                (response, "analysis.methods=[resonance_least_squares]", "the pairs were measured at several frequencies"),
+                (response, "analysis.methods=[output_error]", "method 'output_error' cannot be used"),
+                (response, "analysis.severities=[2]", "'bouc_wen' has no such severity"),
+                (histories, "analysis.sensors[0].average_cycles=9000", "the history has too many rows")]:
+            result = self.run_program("run", file, "--out", self.folder / "none", "--set", assignment, status=3)
+            self.assertIn(message, result.stderr)
+            self.assertFalse((self.folder / "none").exists())
 
     def test_killed_at_any_time_and_resumed(self):
         reference = self.reference()
