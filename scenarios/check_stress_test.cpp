@@ -76,13 +76,15 @@ std::vector<identify::Record> outlines(const Json& analysis) {
       identify::Record& record = records.emplace_back();
       std::vector<identify::Pair>& pairs = record.pairs.emplace().pairs;
       const std::size_t amplitudes = grid_size(range.at("amplitudes"));
-      for (std::size_t i = 0; i < states_of(range); ++i)
+      for (std::size_t i = 0; i < states_of(range); ++i) {
+        const std::size_t frequency = 1 + i / amplitudes;
         pairs.push_back({.Y = 1.0,
                          .x = 1.0,
-                         .omega = static_cast<double>(1 + i / amplitudes),
+                         .omega = static_cast<double>(frequency),
                          .phase = 0.0,
                          .fundamental = 1.0,
                          .mean_square_speed = 1.0});
+      }
       if (analysis.contains("decay")) record.decay = identify::DecayRecord{{1.0}, {0.0}};
       if (sensors.contains("sample_rate"))
         record.histories.resize(pairs.size(), {.sample_rate = 1.0, .y = {0.0}, .x = {0.0}, .v = {0.0}, .a = {0.0}});
