@@ -37,11 +37,17 @@ struct FundamentalLaw {
   static constexpr std::size_t most_coefficients = 3;
   using Terms = std::array<double, most_coefficients>;
 
+  /// phi_j and their derivatives.
+  struct Fundamentals {
+    Terms value{};
+    Terms slope{};     ///< X dphi_j/dX along V = w X
+    Terms by_shape{};  ///< dphi_j/dshape
+  };
+
   std::string_view name;
   std::vector<LawCoefficient> coefficients;
   std::optional<LawShape> shape;
-  /// Fundamentals phi_j.
-  Terms (*fundamentals)(double V, double X, double shape) = nullptr;
+  Fundamentals (*fundamentals)(double V, double X, double shape) = nullptr;
   /// Forces at speed v > 0; nullptr for laws that are not of velocity.
   Terms (*forces)(double v, double shape) = nullptr;
   /// At one frequency it is the same curve as a law before it in the list, or as fewer parameters.
@@ -58,7 +64,13 @@ struct FundamentalLaw {
 /// Dawson's integral exp(-x^2) int_0^x exp(t^2) dt, to rounding (rybicki1989).
 [[nodiscard]] double dawson(double x);
 
-/// Fundamental of v/(1 + |v|/v0) at V = a v0 over v0, a > 0.
-[[nodiscard]] double saturating_fundamental(double a);
+struct ValueAndSlope {
+  double value = 0.0;
+  double slope = 0.0;
+};
+
+/// Fundamental of v/(1 + |v|/v0) at V = a v0 over v0, a > 0, and its derivative by a (to 1e-9 or better near a =
+/// 1).
+[[nodiscard]] ValueAndSlope saturating_fundamental(double a);
 
 }  // namespace dualdamp::identify

@@ -57,28 +57,28 @@ double shape_of(const FundamentalLaw& law, const Eigen::VectorXd& p) {
   return law.shape ? p[static_cast<Eigen::Index>(law.coefficients.size())] : 0.0;
 }
 
-double fundamental(const FundamentalLaw& law, const Eigen::VectorXd& p, const Point& point, double X) {
-  return sum_of_terms(law, p, law.fundamentals(point.speed * X, X, shape_of(law, p)));
-}
+/// The output that a law gives, and what it took to find it.
+struct Output {
+  double X = 0.0;
+  double across = 0.0;  ///< Phi
+  double slope = 0.0;   ///< of half of the square of the balance
+  FundamentalLaw::Fundamentals fundamentals;
+};
 
-/// dPhi/dX by a central difference: good to nine digits, which is all that a Newton step or a weight wants.
-double fundamental_slope(const FundamentalLaw& law, const Eigen::VectorXd& p, const Point& point, double X) {
-  const double h = 1e-5 * X;
-  return (fundamental(law, p, point, X + h) - fundamental(law, p, point, X - h)) / (2.0 * h);
-}
-
-/// The output that the law gives, by Newton's method from the measured one; nothing where it has none.
-std::optional<double> output(const FundamentalLaw& law, const Eigen::VectorXd& p, const Point& point) {
-  double X = point.x;
+/// By Newton's method from the measured output; nothing where the law has none.
+std::optional<Output> output(const FundamentalLaw& law, const Eigen::VectorXd& p, const Point& point) {
+  const double shape = shape_of(law, p);
+  Output found{.X = point.x};
   constexpr int most_steps = 40;
   for (int i = 0; i < most_steps; ++i) {
-    const double along = point.elastic * X;
-    const double across = fundamental(law, p, point, X);
-    const double slope = point.elastic * along + across * fundamental_slope(law, p, point, X);
-    if (!(slope > 0.0)) return std::nullopt;
-    const double step = 0.5 * (along * along + across * across - point.Y * point.Y) / slope;
-    X = std::max(X - step, 0.2 * X);
-    if (std::abs(step) < 1e-8 * X) return X;  // and the error after it is of its square
+    found.fundamentals = law.fundamentals(point.speed * found.X, found.X, shape);
+    const double along = point.elastic * found.X;
+    found.across = sum_of_terms(law, p, found.fundamentals.value);
+    found.slope = point.elastic * along + found.across * sum_of_terms(law, p, found.fundamentals.slope) / found.X;
+    if (!(found.slope > 0.0)) return std::nullopt;
+    const double step = 0.5 * (along * along + found.across * found.across - point.Y * point.Y) / found.slope;
+    found.X = std::max(found.X - step, 0.2 * found.X);
+    if (std::abs(step) < 1e-8 * found.X) return found;  // and the error after it is of its square
   }
   return std::nullopt;
 }
@@ -87,23 +87,17 @@ std::optional<double> output(const FundamentalLaw& law, const Eigen::VectorXd& p
 bool evaluate(const FundamentalLaw& law, const std::vector<Point>& points, const Eigen::VectorXd& p,
               Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
   residual.resize(static_cast<Eigen::Index>(points.size()));
+  const auto size = static_cast<Eigen::Index>(law.coefficients.size());
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
     const Point& point = points[static_cast<std::size_t>(i)];
-    const std::optional<double> X = output(law, p, point);
-    if (!X) return false;
-    residual[i] = *X - point.x;
+    const std::optional<Output> found = output(law, p, point);
+    if (!found) return false;
+    residual[i] = found->X - point.x;
     if (jacobian == nullptr) continue;
-    const double shape = shape_of(law, p);
-    const FundamentalLaw::Terms terms = law.fundamentals(point.speed * *X, *X, shape);
-    const double Phi = sum_of_terms(law, p, terms);
-    const double weight = -Phi / (point.elastic * point.elastic * *X + Phi * fundamental_slope(law, p, point, *X));
-    for (std::size_t j = 0; j < law.coefficients.size(); ++j)
-      (*jacobian)(i, static_cast<Eigen::Index>(j)) = weight * terms[j];
-    if (!law.shape) continue;
-    const double h = 1e-6 * shape;
-    const double more = sum_of_terms(law, p, law.fundamentals(point.speed * *X, *X, shape + h));
-    const double less = sum_of_terms(law, p, law.fundamentals(point.speed * *X, *X, shape - h));
-    (*jacobian)(i, static_cast<Eigen::Index>(law.coefficients.size())) = weight * (more - less) / (2.0 * h);
+    const double weight = -found->across / found->slope;
+    for (Eigen::Index j = 0; j < size; ++j)
+      (*jacobian)(i, j) = weight * found->fundamentals.value[static_cast<std::size_t>(j)];
+    if (law.shape) (*jacobian)(i, size) = weight * sum_of_terms(law, p, found->fundamentals.by_shape);
   }
   return true;
 }
@@ -125,7 +119,7 @@ Eigen::VectorXd starting_point(const FundamentalLaw& law, const std::vector<Poin
       const double along = point.elastic * point.x;
       const double across = std::sqrt(std::max((point.Y - along) * (point.Y + along), 0.0));
       const double weight = across / (point.elastic * point.elastic * point.x + across);
-      const FundamentalLaw::Terms terms = law.fundamentals(point.speed * point.x, point.x, shape);
+      const FundamentalLaw::Terms terms = law.fundamentals(point.speed * point.x, point.x, shape).value;
       for (Eigen::Index j = 0; j < size; ++j) columns(i, j) = weight * terms[static_cast<std::size_t>(j)];
       values[i] = weight * across;
     }
@@ -152,22 +146,35 @@ struct Fit {
   [[nodiscard]] double freedom() const { return static_cast<double>(residuals.size() - p.size()); }
 };
 
+/// A speed of a shape is fitted by its inverse, in which the law is nearly linear: the data of Coulomb and viscous
+/// friction lead the speed itself to infinity, in a hundred steps. Its own inverse.
+void invert_shape(const FundamentalLaw& law, Eigen::VectorXd& p) {
+  if (law.shape && law.shape->is_speed) p[p.size() - 1] = 1.0 / p[p.size() - 1];
+}
+
 std::optional<Fit> fit_law(const FundamentalLaw& law, const std::vector<Point>& points) {
+  const auto size = static_cast<Eigen::Index>(law.parameters());
+  constexpr double unbounded = 1e6;
   LeastSquaresProblem problem;
   problem.residuals = static_cast<Eigen::Index>(points.size());
   problem.start = starting_point(law, points);
-  constexpr double unbounded = 1e6;
-  problem.low = Eigen::VectorXd::Zero(problem.start.size());
-  problem.high = Eigen::VectorXd::Constant(problem.start.size(), unbounded);
+  problem.low = Eigen::VectorXd::Zero(size);
+  problem.high = Eigen::VectorXd::Constant(size, unbounded);
   for (std::size_t j = 0; j < law.coefficients.size(); ++j)
     if (law.coefficients[j].signed_value) problem.low[static_cast<Eigen::Index>(j)] = -unbounded;
   if (law.shape) {
-    problem.low[problem.low.size() - 1] = law.shape->low;
-    problem.high[problem.high.size() - 1] = law.shape->high;
+    const bool inverse = law.shape->is_speed;
+    problem.low[size - 1] = inverse ? 1.0 / law.shape->high : law.shape->low;
+    problem.high[size - 1] = inverse ? 1.0 / law.shape->low : law.shape->high;
   }
   problem.tolerance = 1e-6;  // far below what tells laws apart
-  problem.evaluate = [&](const Eigen::VectorXd& p, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
-    return evaluate(law, points, p, residual, jacobian);
+  problem.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+    Eigen::VectorXd p = q;
+    invert_shape(law, p);
+    if (!evaluate(law, points, p, residual, jacobian)) return false;
+    if (jacobian != nullptr && law.shape && law.shape->is_speed)
+      jacobian->col(size - 1) *= -p[size - 1] * p[size - 1];
+    return true;
   };
   // A term of negative sign may leave no motion at all: begin nearer to none of it.
   Eigen::VectorXd residual;
@@ -175,9 +182,13 @@ std::optional<Fit> fit_law(const FundamentalLaw& law, const std::vector<Point>& 
   for (int i = 0; i < halvings && !evaluate(law, points, problem.start, residual, nullptr); ++i)
     for (std::size_t j = 0; j < law.coefficients.size(); ++j)
       if (law.coefficients[j].signed_value) problem.start[static_cast<Eigen::Index>(j)] *= 0.5;
+  invert_shape(law, problem.start);
   LeastSquaresFit found = fit(problem);
   if (!found.outcome.ok()) return std::nullopt;
-  return Fit{&law, std::move(found.parameters), std::move(found.residuals), std::move(found.jacobian)};
+  Fit result{&law, std::move(found.parameters), std::move(found.residuals), std::move(found.jacobian)};
+  invert_shape(law, result.p);
+  if (law.shape && law.shape->is_speed) result.jacobian.col(size - 1) /= -result.p[size - 1] * result.p[size - 1];
+  return result;
 }
 
 /// Levels of input, those within 3 % of the range being one, at each frequency.
@@ -250,9 +261,9 @@ std::optional<Test> make_test(const ResonanceData& data, const std::vector<int>&
                 omega_n * datum.r * test.length / test.speed};
     const auto exact = analytic::amplitude(analytic::den_hartog(value.zeta, datum.r), datum.Y * data.unit,
                                            std::max(value.x_f, 0.0));
-    const std::optional<double> balanced = output(plain, p, point);
+    const std::optional<Output> balanced = output(plain, p, point);
     if (!exact || !balanced) return std::nullopt;
-    point.x += *balanced - *exact / test.length;
+    point.x += balanced->X - *exact / test.length;
     test.points.push_back(point);
   }
   return test;
@@ -266,11 +277,12 @@ LawCandidate candidate_of(const Fit& fit, const Test& test, double count) {
   const std::optional<Eigen::MatrixXd> unit = unit_covariance(fit.jacobian);
   const bool known = unit && freedom >= 1.0;
   const double variance = freedom >= 1.0 ? fit.squares() / freedom : 0.0;
+  const double half_width = known ? quantile95(freedom) : 0.0;
   const auto add = [&](std::string_view name, std::string_view unit_name, Eigen::Index j, double scale) {
     const double value = fit.p[j] * scale;
     candidate.parameters.push_back(
         known ? further(std::string(name), std::string(unit_name), value, variance * (*unit)(j, j) * scale * scale,
-                        quantile95(freedom))
+                        half_width)
               : FurtherParameter{std::string(name), std::string(unit_name), value, std::nullopt, std::nullopt});
   };
   const double shape = shape_of(law, fit.p);

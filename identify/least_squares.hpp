@@ -3,7 +3,8 @@
 ///
 ///   min_p sum_i r_i(p)^2,   low <= p <= high
 ///
-/// Parameters should be of order one: scale them. Errors: `outcome`. Cost: tens of evaluations.
+/// Parameters should be of order one: scale them. Errors: `outcome`. Cost: tens of evaluations, with bounds that
+/// are met too.
 
 #include <Eigen/Core>
 #include <functional>
@@ -16,8 +17,8 @@ namespace dualdamp::identify {
 struct LeastSquaresProblem {
   Eigen::Index residuals = 0;
   Eigen::VectorXd start;
-  Eigen::VectorXd low;   ///< empty: no bounds
-  Eigen::VectorXd high;  ///< empty: no bounds
+  Eigen::VectorXd low;  ///< both empty: no bounds
+  Eigen::VectorXd high;
   /// Relative decrease of the sum of squares at which the fit may end. 0: at rounding.
   double tolerance = 0.0;
   /// Fills the residuals, and their derivatives (residuals x parameters) where `jacobian` is there. False: the

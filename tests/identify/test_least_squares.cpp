@@ -60,6 +60,35 @@ TEST_CASE("Noiseless data give the truth to rounding, within bounds") {
   CHECK(bounded.parameters[1] == Approx(0.5).epsilon(1e-12));
 }
 
+TEST_CASE("A bound that is met holds its parameter, and costs no more steps than none") {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(20, 0.1, 3.0);
+  const Eigen::ArrayXd y = 2.0 * (1.0 - (-0.7 * t.array()).exp());
+  for (const double bound : {0.5, 1.5}) {
+    // With p1 on its bound the problem is linear in p0.
+    const Eigen::ArrayXd g = 1.0 - (-bound * t.array()).exp();
+    LeastSquaresProblem problem = saturation(t, y.matrix(), 1.0, bound < 0.7 ? 0.2 : 4.0);
+    problem.low = Eigen::Vector2d(0.0, bound < 0.7 ? 0.0 : bound);
+    problem.high = Eigen::Vector2d(10.0, bound < 0.7 ? bound : 5.0);
+    problem.tolerance = 1e-10;
+    int evaluations = 0;
+    problem.evaluate = [&evaluations, model = problem.evaluate](const auto& p, auto& r, auto* J) {
+      ++evaluations;
+      return model(p, r, J);
+    };
+    const LeastSquaresFit found = fit(problem);
+    CAPTURE(bound, evaluations);
+    REQUIRE(found.outcome.ok());
+    CHECK(found.parameters[1] == bound);
+    CHECK(found.parameters[0] == Approx((g * y).sum() / (g * g).sum()).epsilon(1e-6));
+    CHECK(evaluations < 40);
+  }
+  // A bound that is met on the way and not in the end lets go.
+  LeastSquaresProblem inside = saturation(t, y.matrix(), 9.0, 0.06);
+  inside.low = Eigen::Vector2d(0.0, 0.05);
+  inside.high = Eigen::Vector2d(10.0, 0.75);
+  CHECK(fit(inside).parameters[1] == Approx(0.7).epsilon(1e-9));
+}
+
 TEST_CASE("A direction that the data leave open has no covariance") {
   Eigen::MatrixXd jacobian(3, 2);
   jacobian << 1.0, 2.0, 2.0, 4.0, 3.0, 6.0;
