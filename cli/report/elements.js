@@ -9,6 +9,9 @@ function make(name, attributes = {}, ...children) {
   return element;
 }
 
+/** A name that may break behind its underscores. */
+const breakable = (name) => String(name).split(/(?<=_)/).flatMap((part, i) => (i ? [make("wbr"), part] : [part]));
+
 const heading = (text) => make("h2", {}, text);
 
 /** Name, value and unit in boxes; each item {name, value, unit, path}. */
@@ -28,7 +31,7 @@ function grid(head, rows, { tall = false, caption } = {}) {
       class: [isText ? "text" : "", item.class ?? ""].join(" ").trim() || null, style: item.style, title: item.title,
       "data-path": item.path, "data-value": item.path ? JSON.stringify(item.value ?? item.text) : null,
       scope: tag === "th" ? "col" : null,
-    }, text);
+    }, tag === "th" ? breakable(text) : text);
   };
   const texts = head.map((_, i) => rows.every((row) => {
     const content = row[i]?.text ?? row[i];

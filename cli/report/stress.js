@@ -27,13 +27,32 @@ function rowsOf(name) {
 
 const mean = (list) => (list.length ? list.reduce((sum, v) => sum + v, 0) / list.length : null);
 
+/** Share of cases that are wrong and not doubted, over all severities, ranges and sensors. */
+const unwarnedUnder = (rows, law, method) =>
+  mean(rows.filter((row) => row.law === law && row.method === method).map((row) => row.wrong * (1 - (row.wrong > 0 ? row.knew : 0))));
+
+/** In words: the best method, where it fails without a word, and the method that does the most harm. */
+function stressVerdict(rows) {
+  const ranking = rowsOf("ranking");
+  const best = ranking[0];
+  const harmful = ranking.reduce((worst, row) => (row.unwarned > worst.unwarned ? row : worst));
+  const silent = [...new Set(rows.map((row) => row.law))]
+    .map((law) => ({ law, share: unwarnedUnder(rows, law, best.method) }))
+    .filter(({ share }) => share >= 0.05).sort((a, b) => b.share - a.share).slice(0, 4)
+    .map(({ law, share }) => `${law} (${percentText(share)})`);
+  return make("p", { class: "verdict" },
+    `Of ${ranking.length} methods ${best.method} is worth most: right within 5 % and sure of it in ${percentText(best.trusted)} of the cases, wrong without a doubt in ${percentText(best.unwarned)}. `,
+    silent.length ? `It fails unnoticed most often under ${silent.join(", ")}. ` : "It never fails unnoticed in one case of twenty under any law. ",
+    harmful.method === best.method ? null : `${harmful.method} is wrong without a doubt in ${percentText(harmful.unwarned)}.`);
+}
+
 /** Law by method: the share of cases that are wrong and not doubted, over all severities, ranges and sensors. */
 function heatMap(rows) {
   const laws = [...new Set(rows.map((row) => row.law))];
   const methods = [...new Set(rows.map((row) => row.method))];
   const body = laws.map((law) => [{ text: law, class: "text", title: run.result.severities[law] }, ...methods.map((method) => {
     const here = rows.filter((row) => row.law === law && row.method === method);
-    const unwarned = mean(here.map((row) => row.wrong * (1 - (row.wrong > 0 ? row.knew : 0))));
+    const unwarned = unwarnedUnder(rows, law, method);
     const wrong = mean(here.map((row) => row.wrong));
     return { text: `${percentText(unwarned)} / ${percentText(wrong)}`, class: "heat", style: heat(unwarned), title: `${law}, ${method}` };
   })]);
@@ -92,5 +111,5 @@ function severityCharts() {
 function stressTables() {
   if (run.analysis !== "stress_test" || !tables.ranking) return [];
   const rows = rowsOf("scores").filter((row) => row.severity > 0);
-  return [...rankingTable(), ...heatMap(rows), ...breakdownMap(rowsOf("breakdown")), ...severityTable()];
+  return [stressVerdict(rows), ...rankingTable(), ...heatMap(rows), ...breakdownMap(rowsOf("breakdown")), ...severityTable()];
 }
