@@ -51,13 +51,14 @@ LIBRARIES = {
     "CLI11": (r"CLI/", ["cli"], PUBLIC),
     "MPI": (r"mpi\.h", ["bench"], SOURCES),
     "the dynamic loader": (r"dlfcn\.h", ["friction_models"], SOURCES),
-    "the operating system": (r"(sys/\w+|unistd|fcntl|pthread|poll|signal|termios)\.h", ["scenarios", "bench", "cli"], SOURCES),
+    "the operating system": (r"(sys/\w+|unistd|fcntl|pthread|poll|signal|termios)\.h", ["identify", "scenarios", "bench", "cli"], SOURCES),
 }
 STANDARD = re.compile(r"[a-z_0-9]+$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 HEADER_LIST = re.compile(r"\bHEADERS\b(.*?)(?:\bSOURCES\b|\))", re.DOTALL)
 LINKED = re.compile(r"\b(?:dualdamp_|dualdamp::)(%s)\b" % "|".join(FOLDERS))
-ONE_ODEINT = "sim"  # the folder that keeps Boost.Odeint in a single file
+# Folders that keep a library in a single file.
+ONE_FILE = {"Boost.Odeint": "sim", "the operating system": "identify"}
 
 
 def source_files(root, folder):
@@ -142,11 +143,13 @@ def link_faults(root, folder):
                 yield f"{path.relative_to(root)}:{line_of(text, match.start())}: {folder}/ may not link {match[0]}"
 
 
-def odeint_faults(root):
-    users = [p for p in source_files(root, ONE_ODEINT) if "boost/numeric/odeint" in p.read_text()]
-    if len(users) > 1:
-        names = ", ".join(str(p.relative_to(root)) for p in users)
-        yield f"{ONE_ODEINT}/: Boost.Odeint belongs in one .cpp, it is in {names}"
+def one_file_faults(root):
+    for library, folder in ONE_FILE.items():
+        used = re.compile(rf"^\s*#\s*include\s*<{LIBRARIES[library][0]}", re.MULTILINE)
+        users = [p for p in source_files(root, folder) if used.search(p.read_text())]
+        if len(users) > 1:
+            names = ", ".join(str(p.relative_to(root)) for p in users)
+            yield f"{folder}/: {library} belongs in one .cpp, it is in {names}"
 
 
 def faults(root):
@@ -156,7 +159,7 @@ def faults(root):
             yield from include_faults(root, str(path.relative_to(root)), public)
         if folder in FOLDERS:
             yield from link_faults(root, folder)
-    yield from odeint_faults(root)
+    yield from one_file_faults(root)
 
 
 def main():
