@@ -55,6 +55,8 @@ class Stress(unittest.TestCase):
         self.assertEqual((out / "cases.jsonl").read_bytes(), (reference / "cases.jsonl").read_bytes())
         for name in ("scores.csv", "breakdown.csv", "ranking.csv"):
             self.assertEqual(rows(out / name), rows(reference / name))
+        results = [json.loads((folder / "result.json").read_text())["result"] for folder in (out, reference)]
+        self.assertEqual(*results)
         self.assertEqual([path.name for path in out.glob("cases.*.jsonl")], [])
 
     def test_threads(self):
@@ -113,20 +115,31 @@ class Stress(unittest.TestCase):
             self.assertFalse((self.folder / "none").exists())
 
     def test_killed_at_any_time_and_resumed(self):
-        reference = self.reference()
+        command = ["run", ROOT / "scenarios/stress/default.yaml", "--quiet", "--set", "analysis.seeds=4",
+                   "--set", "analysis.laws=[bouc_wen, dahl, iwan, lugre]", "--set", "analysis.severities=[0.01, 0.03, 0.1, 0.3]"]
+        reference = self.folder / "undisturbed"
+        self.run_program(*command, "--out", reference)
+        size = (reference / "cases.jsonl").stat().st_size
         draws = random.Random(1)
+        interrupted = 0
         for attempt in range(KILLS):
             out = self.folder / f"killed{attempt}"
-            command = [PROGRAM, "run", str(SCENARIO), "--out", str(out), "--quiet", "--resume"]
-            process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-            time.sleep(draws.uniform(0.0, 0.12))
+            cases = out / "cases.jsonl"
+            process = subprocess.Popen([PROGRAM, *map(str, command), "--out", str(out), "--resume"], stdout=subprocess.DEVNULL)
+            # At a random place of the work, before its begin and after its end included.
+            place = draws.uniform(-0.05, 1.05) * size
+            while process.poll() is None and (cases.stat().st_size if cases.exists() else -1) < place:
+                time.sleep(0.0005)
+            time.sleep(draws.uniform(0.0, 0.005))
             process.send_signal(signal.SIGKILL)
             process.wait()
-            if draws.random() < 0.5 and (out / "cases.jsonl").exists():
-                with (out / "cases.jsonl").open("a") as file:  # as if the machine had stopped in the middle of a line
+            interrupted += cases.exists() and cases.stat().st_size < size
+            if draws.random() < 0.5 and cases.exists():
+                with cases.open("a") as file:  # as if the machine had stopped in the middle of a line
                     file.write('{"case":39,"law":"vis')
-            self.run_program("run", SCENARIO, "--out", out, "--quiet", "--resume")
+            self.run_program(*command, "--out", out, "--resume")
             self.check_same(out, reference)
+        self.assertGreater(interrupted, KILLS // 2)
 
     def test_another_campaign_is_not_mixed_in(self):
         out = self.folder / "one"
