@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 
 namespace dualdamp::bench {
@@ -24,7 +25,27 @@ struct Processes::Shared {
   std::mutex mutex;                   ///< MPI is called by one thread at a time
   MPI_Win window = MPI_WIN_NULL;
   long* counter = nullptr;
+  std::jthread attendant;  ///< of process 0
 };
+
+namespace {
+
+constexpr std::chrono::milliseconds pause{1};
+
+/// Over a network the counter answers only while its own process is inside MPI: without this the others would wait
+/// for as long as process 0 computes.
+void attend(std::mutex& mutex, const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    {
+      const std::lock_guard lock(mutex);
+      int unused = 0;
+      MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &unused, MPI_STATUS_IGNORE);
+    }
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+}  // namespace
 
 bool Processes::several() { return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr; }
 
@@ -40,10 +61,13 @@ Processes::Processes() : shared_(std::make_unique<Shared>()) {
         "shared counter");
   if (rank_ == 0) *shared_->counter = 0;
   wait();
+  if (rank_ == 0 && count_ > 1)
+    shared_->attendant = std::jthread([this](const std::stop_token& stop) { attend(shared_->mutex, stop); });
 }
 
 Processes::~Processes() {
   if (shared_->window == MPI_WIN_NULL) return;
+  shared_->attendant = {};
   MPI_Win_free(&shared_->window);
   MPI_Finalize();
 }
@@ -63,11 +87,14 @@ void Processes::wait() {
   if (shared_->window == MPI_WIN_NULL) return;
   // A barrier of MPI's own would keep a core busy for as long as the slowest process works.
   MPI_Request request = MPI_REQUEST_NULL;
-  check(MPI_Ibarrier(MPI_COMM_WORLD, &request), "wait");
-  for (int arrived = 0; arrived == 0;) {
-    check(MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), "wait");
-    if (arrived == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  const auto arrived = [&] {
+    const std::lock_guard lock(shared_->mutex);
+    if (request == MPI_REQUEST_NULL) check(MPI_Ibarrier(MPI_COMM_WORLD, &request), "wait");
+    int all = 0;
+    check(MPI_Test(&request, &all, MPI_STATUS_IGNORE), "wait");
+    return all != 0;
+  };
+  while (!arrived()) std::this_thread::sleep_for(pause);
 }
 
 }  // namespace dualdamp::bench
