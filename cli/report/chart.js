@@ -1,12 +1,14 @@
 // One kind of chart: curves and points over any x, drawn by uPlot in its mode for unordered data.
 //
 // A series is {label, x, y, kind, colour}: kind "line", "dashed", "points", "open" (excluded data), "bars" (with
-// `low` and `high`), "cells" (of a grid whose lines are `lines.x` and `lines.y`). Drag zooms, a double click or the button shows all; with the keyboard +, -, 0 and the arrows.
+// `low` and `high`), "cells" (of a grid whose lines are `lines.x` and `lines.y`). Series of one label share a key of the legend.
+// Drag zooms, a double click or the button shows all; with the keyboard +, -, 0 and the arrows.
 
 const charts = [];
 
-const colour = (index) => getComputedStyle(document.documentElement).getPropertyValue(`--c${index % 7}`).trim();
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+/** Of a series: by number, or a colour of the page by its name. */
+const colour = (which) => ink(typeof which === "string" ? which : `--c${which % 7}`);
 
 /** Smallest and largest of the finite numbers, with a little room; a factor of room on a logarithmic axis. */
 function extent(lists, isLog) {
@@ -52,6 +54,7 @@ function drawSeries(spec) {
       ctx.clip();
       ctx.strokeStyle = ctx.fillStyle = colour(spec.colour);
       ctx.lineWidth = (spec.width ?? 1.6) * px;
+      ctx.lineCap = spec.kind === "dashed" ? "butt" : "round";
       ctx.beginPath();
       if (spec.kind === "line" || spec.kind === "dashed") {
         if (spec.kind === "dashed") ctx.setLineDash([6 * px, 4 * px]);
@@ -59,7 +62,8 @@ function drawSeries(spec) {
         for (let i = 0; i < xs.length; i += 1) {
           if (xs[i] === null || ys[i] === null) { pen = false; continue; }
           const [x, y] = at(i);
-          if (pen) ctx.lineTo(x, y); else ctx.moveTo(x, y);
+          if (!pen) ctx.moveTo(x, y);
+          ctx.lineTo(x, y);
           pen = true;
         }
         ctx.stroke();
@@ -99,6 +103,7 @@ function scaled(spec) {
   const label = (axis, { unit }) => axis.label + (unit && unit !== "1" ? ` [${unit}]` : "");
   return {
     xLabel: label(spec.x, x), yLabel: label(spec.y, y), xLog: spec.x.log ?? false, yLog: spec.y.log ?? false,
+    xWhole: spec.x.whole ?? false, yWhole: spec.y.whole ?? false,
     series: spec.series.map((s) => ({
       ...s, x: times(s.x, x.factor), y: times(s.y, y.factor), low: times(s.low, y.factor), high: times(s.high, y.factor),
       lines: s.lines && { x: times(s.lines.x, x.factor), y: times(s.lines.y, y.factor) },
@@ -115,19 +120,30 @@ function decades([low, high]) {
   return list.filter((v) => v >= low && v <= high);
 }
 
+const wholeSteps = [1, 2, 5].map((n) => [n, 10 * n, 100 * n, 1000 * n, 1e4 * n, 1e5 * n]).flat().sort((a, b) => a - b);
+
+/** The labels of an axis, with as many digits as its steps need to differ. */
+function tickTexts(splits) {
+  const [first, last] = [splits[0], splits[splits.length - 1]];
+  const step = Math.abs(last - first) / Math.max(splits.length - 1, 1);
+  const digits = Math.min(15, Math.max(6, Math.ceil(Math.log10(Math.max(Math.abs(first), Math.abs(last)) / step)) + 2)) || 6;
+  return splits.map((v) => (v === null ? "" : Math.abs(v) < 1e-12 * Math.abs(last - first) ? "0" : short(v, digits)));
+}
+
 function options(shape, ranges, width, height) {
-  const axis = (label, side, isLog, range) => ({
+  const axis = (label, side, isLog, isWhole, range) => ({
     // uPlot's own go astray between the powers of ten.
     ...(isLog ? { splits: () => decades(range()), filter: (u, splits) => splits } : {}),
+    ...(isWhole ? { incrs: wholeSteps } : {}),
     label, labelSize: 22, space: side ? 34 : 80,
-    size: (u, texts) => (side ? Math.max(40, 14 + 7 * Math.max(0, ...(texts ?? []).map((text) => text?.length ?? 0))) : 34), stroke: () => ink("--soft"), font: "12px system-ui", labelFont: "13px system-ui",
+    size: (u, texts) => (side ? Math.max(40, 22 + 7 * Math.max(0, ...(texts ?? []).map((text) => text?.length ?? 0))) : 34), stroke: () => ink("--soft"), font: "12px system-ui", labelFont: "13px system-ui",
     grid: { stroke: () => ink("--line"), width: 1 }, ticks: { stroke: () => ink("--line"), width: 1 },
-    values: (u, splits) => splits.map((v) => (v === null ? "" : Math.abs(v) < 1e-12 * Math.abs(splits[splits.length - 1] - splits[0]) ? "0" : short(v))),
+    values: (u, splits) => tickTexts(splits),
   });
   return {
     mode: 2, width, height, legend: { show: false }, padding: [8, 12, 0, 0],
     scales: { x: { time: false, distr: shape.xLog ? 3 : 1, range: () => ranges.x }, y: { distr: shape.yLog ? 3 : 1, range: () => ranges.y } },
-    axes: [axis(shape.xLabel, false, shape.xLog, () => ranges.x), axis(shape.yLabel, true, shape.yLog, () => ranges.y)],
+    axes: [axis(shape.xLabel, false, shape.xLog, shape.xWhole, () => ranges.x), axis(shape.yLabel, true, shape.yLog, shape.yWhole, () => ranges.y)],
     cursor: { drag: { x: false, y: false, setScale: false }, points: { show: false }, x: false, y: false },
     series: [{}, ...shape.series.map((s) => ({
       label: s.label, show: true, stroke: () => colour(s.colour), paths: drawSeries(s), points: { show: false },
@@ -191,7 +207,7 @@ function navigation(u, ranges, full, plot, redraw) {
   return { all, zoom };
 }
 
-/** A figure with a chart; spec {title, note, x: {label, unit}, y: {label, unit}, series, wide}. */
+/** A figure with a chart; spec {title, note, x: {label, unit, log, whole}, y likewise, series, wide}. */
 function chart(spec) {
   const used = spec.series.filter((s) => s.y.some((v) => v !== null)).map((s, i) => ({ kind: "line", colour: i, ...s }));
   if (used.length === 0) return null;
@@ -226,12 +242,14 @@ function chart(spec) {
       const found = nearest(u, shape, event.offsetX, event.offsetY);
       readout.textContent = found ? `${found.s.label}: ${short(found.x)}, ${short(found.y)}` : "";
     });
-    legend.replaceChildren(...(shape.series.length < 2 ? [] : shape.series.map((s, i) => {
-      const key = make("button", { type: "button", "aria-pressed": "true" }, make("i", { style: `background:${colour(s.colour)}` }), s.label);
+    const labels = [...new Set(shape.series.map((s) => s.label))];
+    legend.replaceChildren(...(labels.length < 2 ? [] : labels.map((label) => {
+      const colourOf = colour(shape.series.find((s) => s.label === label).colour);
+      const key = make("button", { type: "button", "aria-pressed": "true" }, make("i", { style: `background:${colourOf}` }), label);
       key.addEventListener("click", () => {
         const show = key.getAttribute("aria-pressed") !== "true";
         key.setAttribute("aria-pressed", String(show));
-        u.setSeries(i + 1, { show });
+        shape.series.forEach((s, i) => { if (s.label === label) u.setSeries(i + 1, { show }); });
       });
       return key;
     })));

@@ -50,7 +50,10 @@ const tables = Object.fromEntries(Object.entries(parse("tables")).map(([name, te
 /** A number as people read it; the exact one stands in the attribute beside it. */
 function short(value, digits = 6) {
   if (typeof value !== "number") return value === null || value === undefined ? "–" : String(value);
-  return value.toPrecision(digits).replace(/\.?0+($|e)/, "$1").replace("-", "−").replace("e−", "e-");
+  const isTiny = value !== 0 && Math.abs(value) < 1e-4;
+  const text = isTiny ? value.toExponential(digits - 1) : value.toPrecision(digits);
+  // Zeros go only behind a decimal point: those of 100000 count.
+  return text.replace(/(\.\d*?)0+($|e)/, "$1$2").replace(/\.($|e)/, "$1").replace("-", "−").replace("e−", "e-");
 }
 
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];

@@ -42,8 +42,8 @@ function provenance() {
   const rows = [["program", `${program.name} ${program.version}`], ["commit", program.commit], ["compiler", program.compiler],
     ["libraries", Object.entries(program.libraries).map((l) => l.join(" ")).join(", ")], ...Object.entries(run.provenance ?? {}).map(([k, v]) => [k, typeof v === "string" ? v : JSON.stringify(v)])];
   return [heading("Where this comes from"),
-    make("details", {}, make("summary", {}, "Provenance"), grid(["", ""], rows.map(([k, v]) => [{ text: k, class: "text" }, { text: v, class: "long" }]))),
-    make("details", {}, make("summary", {}, "Scenario as it was run (SI)"), make("pre", { tabindex: 0 }, JSON.stringify(run.scenario, null, 2)))];
+    make("details", { id: "provenance" }, make("summary", {}, "Provenance"), grid(["", ""], rows.map(([k, v]) => [{ text: k, class: "text" }, { text: v, class: "long" }]))),
+    make("details", { class: "screen" }, make("summary", {}, "Scenario as it was run (SI)"), make("pre", { tabindex: 0 }, JSON.stringify(run.scenario, null, 2)))];
 }
 
 function body() {
@@ -59,7 +59,7 @@ function body() {
   const drawn = (views[run.analysis]?.(result) ?? []).filter(Boolean);
   if (drawn.length) parts.push(make("div", { class: "charts", style: "margin-top:1rem" }, drawn));
   parts.push(...furtherTables(result), ...checks());
-  if (Object.keys(tables).length) parts.push(heading("Tables"), ...Object.entries(tables).map(([name, t]) => folded(name, t)));
+  if (Object.keys(tables).length) parts.push(make("div", { class: "screen" }, heading("Tables"), Object.entries(tables).map(([name, t]) => folded(name, t))));
   return [...parts, ...provenance()];
 }
 
@@ -68,5 +68,13 @@ document.getElementById("main").append(...body());
 drawAll();
 let resizing = 0;
 addEventListener("resize", () => { clearTimeout(resizing); resizing = setTimeout(drawAll, 150); });
-addEventListener("beforeprint", drawAll);
+
+/** On paper: light, as wide as a sheet, with the provenance. */
+function forPaper(isPaper) {
+  document.documentElement.toggleAttribute("data-paper", isPaper);
+  document.getElementById("provenance").open = isPaper;
+  drawAll();
+}
+addEventListener("beforeprint", () => forPaper(true));
+addEventListener("afterprint", () => forPaper(false));
 document.documentElement.dataset.ready = "true";

@@ -15,6 +15,18 @@ function part(name, x, y, keep, more) {
   return { x: rows.map((i) => xs[i]), y: rows.map((i) => ys[i]), ...more };
 }
 
+/** A line broken where it jumps from one row to the next: what lies between two samples is not known. */
+function broken({ x, y, ...more }) {
+  const [low, high] = y.reduce(([a, b], v) => (v === null ? [a, b] : [Math.min(a, v), Math.max(b, v)]), [Infinity, -Infinity]);
+  const line = { x: [], y: [], ...more };
+  y.forEach((v, i) => {
+    if (i > 0 && v !== null && y[i - 1] !== null && Math.abs(v - y[i - 1]) > 0.25 * (high - low)) { line.x.push(null); line.y.push(null); }
+    line.x.push(x[i]);
+    line.y.push(v);
+  });
+  return line;
+}
+
 const unitOf = (name, column) => tables[name]?.get(column)?.unit ?? "";
 const axis = (name, column, label = column) => ({ label, unit: unitOf(name, column) });
 
@@ -29,8 +41,8 @@ function simulateView() {
         { ...part("events", "t", "x", () => true, {}), label: "events", kind: "points", colour: 2 }] }),
     over("v", "Velocity", "velocity v"),
     chart({ title: "Phase plane", x: axis("history", "x", "displacement x"), y: axis("history", "v", "velocity v"), series: [series("history", "x", "v")] }),
-    chart({ title: "Friction over velocity", note: "the force against the motion", x: axis("history", "v", "velocity v"), y: axis("history", "friction", "friction force"),
-      series: [series("history", "v", "friction")] }),
+    chart({ title: "Friction over velocity", note: "the force against the motion; jumps between two samples are left open", x: axis("history", "v", "velocity v"), y: axis("history", "friction", "friction force"),
+      series: [broken(series("history", "v", "friction"))] }),
     chart({ title: "Friction over displacement", x: axis("history", "x", "displacement x"), y: axis("history", "friction", "friction force"),
       series: [series("history", "x", "friction")] }),
   ];
@@ -46,13 +58,13 @@ function curveView(name, over, label) {
   const size = (values(name, over)?.length ?? 0) > 200 ? 1.5 : 3;
   const amplitude = chart({
     title: "Output amplitude", wide: true, x: axis(name, over, label), y: axis(name, "x", "output amplitude x"),
-    series: [{ label: "steady state", ...series(name, over, "x"), width: 1, colour: 6 },
+    series: [series(name, over, "x", { label: "steady state", width: 1, colour: 6 }),
       ...kinds.map(({ keep, ...more }) => part(name, over, "x", keep, { size, ...more }))],
   });
   const phase = values(name, "phase") && chart({
     title: "Phase", note: "lag of the fundamental behind the excitation", x: axis(name, over, label), y: axis(name, "phase", "phase"), series: [series(name, over, "phase")] });
   const stops = values(name, "stops") && chart({
-    title: "Stops in a period", x: axis(name, over, label), y: { label: "stops", unit: "" }, series: [series(name, over, "stops", { kind: "points", size })] });
+    title: "Stops in a period", x: axis(name, over, label), y: { label: "stops", unit: "", whole: true }, series: [series(name, over, "stops", { kind: "points", size })] });
   return [amplitude, phase, stops];
 }
 
@@ -78,12 +90,12 @@ function mapView() {
   const lines = { x: distinct(omega), y: distinct(Y) };
   const found = distinct(stops.filter((n) => n !== null));
   const log = { x: isGeometric(omega), y: isGeometric(Y) };
-  const inside = (get) => get("Y") >= lines.y[0] && get("Y") <= lines.y[lines.y.length - 1];
+  const inside = (Y) => Y !== null && Y >= lines.y[0] && Y <= lines.y[lines.y.length - 1];
   return [chart({
     title: "Stops in a period", wide: true, note: "over forcing frequency and input amplitude",
     x: { ...axis("map", "omega", "frequency"), log: log.x }, y: { ...axis("map", "Y", "input amplitude Y"), log: log.y },
     series: [...found.map((n, i) => part("map", "omega", "Y", (get) => get("stops") === n, { label: n === 0 ? "no stop" : `${n} stops`, kind: "cells", lines, colour: i })),
-      ...(boundary ? [part("boundary", "omega", "Y", inside, { label: "never sticks above", kind: "points", size: 2, colour: 6 })] : [])],
+      ...(boundary ? [{ label: "never sticks above", x: values("boundary", "omega"), y: values("boundary", "Y").map((Y) => (inside(Y) ? Y : null)), width: 2.5, colour: "--ink" }] : [])],
   })];
 }
 
@@ -119,7 +131,7 @@ function estimateCurves(estimates) {
     if (!name.startsWith(`${method}_`) || columns.length < 2) continue;
     const [x, ...rest] = columns;
     out.push(chart({ title: `${name.slice(method.length + 1).replaceAll("_", " ")}, ${method}`,
-      x: { label: x.name, unit: x.unit }, y: { label: rest.length === 1 ? rest[0].name : "", unit: rest[0].unit },
+      x: { label: x.name, unit: x.unit }, y: { label: rest.map((column) => column.name).join(", "), unit: rest[0].unit },
       series: rest.map((column) => ({ label: column.name, x: x.values, y: column.values, width: 1.1 })) }));
   }
   return out;
@@ -135,7 +147,7 @@ function fitCharts({ fit, estimates }) {
   const sorted = [...points].sort((a, b) => x(a) - x(b));
   const used = points.filter((p) => !excluded.has(p.number));
   const left = points.filter((p) => excluded.has(p.number));
-  const label = isPairs ? { label: "input amplitude Y", unit: "m" } : { label: "number of the extreme", unit: "" };
+  const label = isPairs ? { label: "input amplitude Y", unit: "m" } : { label: "number of the extreme", unit: "", whole: true };
   const pick = (list, get) => ({ x: list.map(x), y: list.map(get) });
   return [
     chart({ title: isPairs ? "x-Y data and fit" : "Extremes and fit", note: fit.method, wide: true, x: label, y: { label: isPairs ? "output amplitude x" : "extreme x", unit: "m" },
@@ -152,8 +164,8 @@ function subsetCharts(estimates) {
     const at = subsets.map((_, i) => i + 1);
     const damping = subsets.some((s) => s.zeta !== null) ? ["zeta", "ζ", ""] : ["c", "c", "N.s/m"];
     return [damping, ["F0", "F0", "N"]].map(([key, label, unit], colour) => chart({
-      title: `${label} from parts of the data, ${e.method}`, note: subsets.map((s, i) => `${i + 1}: ${s.label}`).join(", "),
-      x: { label: "part", unit: "" }, y: { label, unit }, series: [{ label, x: at, y: subsets.map((s) => s[key]), kind: "points", colour }] }));
+      title: `${label} from parts of the data`, note: `${e.method}; ${subsets.map((s, i) => `${i + 1}: ${s.label}`).join(", ")}`,
+      x: { label: "part", unit: "", whole: true }, y: { label, unit }, series: [{ label, x: at, y: subsets.map((s) => s[key]), kind: "points", colour }] }));
   }).flat();
 }
 
@@ -164,7 +176,7 @@ function identifyView(result) {
   const series = known.flatMap((e, i) => {
     const around = ellipse(e);
     return [{ label: e.method, kind: e.usable ? "points" : "open", x: [e.zeta], y: [e.F0], colour: i },
-      ...(around ? [{ label: `${e.method}, 95 %`, ...around, width: 1, colour: i }] : [])];
+      ...(around ? [{ label: e.method, ...around, width: 1, colour: i }] : [])];
   });
   return [...fitCharts(result),
     known.length ? chart({ title: "Damping ratio and friction force", note: "the 95 % ellipse: the two are correlated; open where the method does not stand by its number",
@@ -195,7 +207,7 @@ const views = {
   xy_branch: () => branchView("Y", "input amplitude Y"),
   frequency_branch: () => branchView("omega", "frequency"),
   free_decay: () => [chart({ title: "Extremes", wide: true, x: axis("peaks", "t", "time"), y: axis("peaks", "x", "extreme x"),
-    series: [series("peaks", "t", "x", { label: "extremes", kind: "points" }), series("peaks", "t", "x", { label: "", width: 1, colour: 6 })] })],
+    series: [series("peaks", "t", "x", { label: "extremes", kind: "points" }), series("peaks", "t", "x", { label: "extremes", width: 1, colour: 6 })] })],
   identify: identifyView,
   stress_test: severityCharts,
 };

@@ -65,12 +65,12 @@ class Page(unittest.TestCase):
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result
 
-    def load(self, page):
-        """The page after its scripts have run, and what the console said."""
+    def load(self, page, probe=PROBE, size="1000,800"):
+        """The page after its scripts and the probe have run, and what the console said."""
         copy = page.with_name("probed.html")
-        copy.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
+        copy.write_text(page.read_text().replace("</body>", probe + "</body>"))
         result = subprocess.run(
-            [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--window-size=1000,800",
+            [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--window-size={size}",
              f"--user-data-dir={self.folder / 'browser'}", "--virtual-time-budget=2000", "--dump-dom", copy.as_uri()],
             capture_output=True, text=True, timeout=120,
         )
@@ -106,6 +106,57 @@ class Page(unittest.TestCase):
         dom, _ = self.check("small", 3, "stress")
         for heading in ("Ranking", "Law by method", "Breakdown"):
             self.assertIn(f"<h2>{heading}</h2>", dom)
+
+    def ask(self, name, expression, **options):
+        """The value of a JavaScript expression in the page of an example."""
+        out = self.folder / name
+        self.run_program("run", ROOT / "scenarios/examples" / f"{name}.yaml", "--out", out, "--quiet")
+        probe = f"<script>document.body.dataset.answer = JSON.stringify({expression});</script>"
+        dom, console = self.load(out / "report.html", probe, **options)
+        self.assertEqual(console, [])
+        return json.loads(html.unescape(re.search(r'data-answer="([^"]*)"', dom).group(1)))
+
+    def test_numbers_lose_no_digit_before_the_point(self):
+        numbers = [100000, 123450, 12350, 120, 0, -0.5, 2.5e-7, 1200000]
+        shown = self.ask("formula", f"{numbers}.map((v) => short(v, 5))")
+        self.assertEqual(shown, ["1e+5", "1.2345e+5", "12350", "120", "0", "−0.5", "2.5e-7", "1.2e+6"])
+        self.assertEqual(self.ask("formula", "[short(100000), short(320160)]"), ["100000", "320160"])
+
+    def test_the_labels_of_an_axis_differ(self):
+        labels = self.ask("formula", "tickTexts([13.999990, 13.999992, 13.999994, 13.999996])")
+        self.assertEqual(labels, ["13.99999", "13.999992", "13.999994", "13.999996"])
+        self.assertEqual(self.ask("formula", "tickTexts([-0.2, -5e-17, 0.2])"), ["−0.2", "0", "0.2"])
+
+    def test_each_key_of_a_legend_has_its_own_name(self):
+        legends = '[...document.querySelectorAll(".legend")].map((l) => [...l.children].map((key) => key.textContent))'
+        for name in ("xy_curve", "free_decay", "identify_xy_curve", "regime_map"):
+            with self.subTest(name):
+                found = self.ask(name, legends)
+                for keys in found:
+                    self.assertNotIn("", keys)
+                    self.assertEqual(len(set(keys)), len(keys), keys)
+                if name == "xy_curve":
+                    self.assertEqual(found[0], ["steady state", "slides through", "rests in each period"])
+
+    def test_a_jump_between_two_samples_is_left_open(self):
+        line = self.ask("formula", "broken({ x: [1, 2, 3, 4], y: [0, 0.1, 2, 1.9], colour: 3 })")
+        self.assertEqual(line, {"x": [1, 2, None, 3, 4], "y": [0, 0.1, None, 2, 1.9], "colour": 3})
+
+    def test_tables_and_charts_fit_the_window(self):
+        """The table of estimates on a desk, and the whole page on the narrowest window that the browser opens."""
+        wide = '[...document.querySelectorAll(".scroll")].filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth).length'
+        self.assertEqual(self.ask("identify_xy_curve", wide, size="1280,900"), 0)
+        self.assertLessEqual(self.ask("identify_xy_curve", "document.documentElement.scrollWidth - innerWidth", size="390,800"), 0)
+
+    def test_paper_is_light_and_says_where_the_numbers_come_from(self):
+        light, open_, ground = self.ask("simulate", """(() => {
+            document.documentElement.dataset.theme = "dark";
+            dispatchEvent(new Event("beforeprint"));
+            const seen = [ink("--ground"), document.getElementById("provenance").open];
+            dispatchEvent(new Event("afterprint"));
+            return [...seen, ink("--ground")];
+        })()""")
+        self.assertEqual((light, open_, ground), ("#ffffff", True, "#14171a"))
 
     def test_a_title_cannot_become_markup(self):
         scenario = self.folder / "markup.yaml"
