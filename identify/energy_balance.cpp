@@ -52,17 +52,21 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
     return false;
   }
   set_estimate(estimate, *line, constants);
+  ForceLine scattered = *line;  // without what the method's own approximation leaves, which is no error of the data
+  if (own && estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
+    const std::optional<ForceLine> of_own = line_through(own(estimate.value));
+    if (of_own && of_own->residuals.size() == scattered.residuals.size()) {
+      scattered.residuals -= of_own->residuals;
+      set_estimate(estimate, scattered, constants);
+    }
+  }
   estimate.used = numbers_of(line->points);
   constexpr double rounding = 1e-9;
   const double scale = output_range(line->points);
   judge_force_signs(estimate, rounding * scale / line->moments.mean_Y, rounding * scale, faults);
-  Eigen::VectorXd residuals = line->residuals;
-  if (own && estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
-    const std::optional<ForceLine> of_own = line_through(own(estimate.value));
-    if (of_own && of_own->residuals.size() == residuals.size()) residuals -= of_own->residuals;
-  }
   const CurvatureColumns columns = curvature_columns(line->points);
-  estimate.lack_of_fit = added_term_test(columns.line, residuals, columns.square, scale, "quadratic term F-test");
+  estimate.lack_of_fit =
+      added_term_test(columns.line, scattered.residuals, columns.square, scale, "quadratic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
     faults.emplace_back(
         "the dissipation per path does not grow with the speed as Coulomb and viscous friction make it, so no "

@@ -264,7 +264,12 @@ std::optional<ForceLine> fit_sliding(std::vector<Pair>& states, const KnownConst
       return std::nullopt;
     }
     set_estimate(estimate, *line, constants);
-    if (!drop_sticking(states, estimate.value, constants, estimate)) return line;
+    if (!drop_sticking(states, estimate.value, constants, estimate)) {
+      ForceLine scattered = *line;
+      scattered.residuals -= own_residuals(states, line->points, estimate.value, constants, 2);
+      set_estimate(estimate, scattered, constants);
+      return line;
+    }
     estimate.std.reset();
     estimate.interval95.reset();
   }

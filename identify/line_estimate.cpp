@@ -339,11 +339,12 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
   const auto line_through = [&](const std::vector<Datum>& pairs) {
     return line_of(moments_of(pairs), fit->lambda);
   };
-  judge_method(*data, exact, fit->friction, line_through, estimate, faults);
   estimate.subsets = subset_fits(rule, *data, used);
   if (options.profile && scatter)
     add_profiles(estimate, deviance_of(*fit, *data, scatter->variance), scatter->half_width, constants);
   if (options.bootstrap > 0) bootstrap(rule, *fit, *data, used, options.bootstrap, estimate);
+  // Behind the profiles and replicates, which speak of the method's own reading.
+  judge_method(*data, exact, fit->friction, line_through, estimate, faults);
   conclude(estimate, faults,
            "rests on " + std::to_string(used.size()) + " of " + std::to_string(record.pairs->pairs.size()) +
                " pairs at " + frequency_text(*data));

@@ -90,6 +90,18 @@ std::optional<ParameterSet> read(const std::vector<Pair>& states, const KnownCon
   return parameters(ForceParameters{constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1]});
 }
 
+/// Residuals of the weighted fit less those that harmonic balance leaves of the exact motion at the estimate, which
+/// speak for the law and not against it.
+Eigen::VectorXd weighted_residuals(const std::vector<Pair>& states, const ParameterSet& value,
+                                   const KnownConstants& constants) {
+  Eigen::VectorXd residuals = weighted_part(states, states, value.c, constants.stiffness).residuals;
+  if (!(value.zeta > 0.0) || !(value.x_f >= 0.0)) return residuals;
+  const std::vector<Pair> exact = exact_states(states, value, constants);
+  if (exact.size() == states.size())
+    residuals -= weighted_part(exact, states, value.c, constants.stiffness).residuals;
+  return residuals;
+}
+
 /// The covariance is that of an unweighted fit to data of unequal errors; their size is told by the weighted one.
 void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownConstants& constants,
                   Estimate& estimate) {
@@ -102,8 +114,8 @@ void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownCo
   for (Eigen::Index i = 0; i < gain.size(); ++i)
     gain[i] = error_gain(states[static_cast<std::size_t>(i)], c, constants.stiffness);
   const Eigen::MatrixXd scaled = gain.asDiagonal() * fit.columns * *unit;
-  const Eigen::Matrix2d of_fit =
-      weighted_part(states, states, c, constants.stiffness).variance() * (scaled.transpose() * scaled);
+  const double variance = weighted_residuals(states, estimate.value, constants).squaredNorm() / fit.freedom();
+  const Eigen::Matrix2d of_fit = variance * (scaled.transpose() * scaled);
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   covariance(1, 1) = of_fit(0, 0);
   covariance(3, 3) = of_fit(1, 1);
@@ -179,17 +191,12 @@ void list_limacon(const std::vector<Pair>& states, const KnownConstants& constan
                                 " N.s/m: damping, sticking or the phases are not what the method assumes");
 }
 
-/// A friction that grows with the amplitude adds w^2 X to the imaginary part. What harmonic balance itself leaves
-/// of the exact motion at the estimate speaks for the law and not against it.
+/// A friction that grows with the amplitude adds w^2 X to the imaginary part.
 void test_amplitude(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate,
                     std::vector<std::string>& faults) {
   const double c = estimate.value.c;
   const Fit fit = weighted_part(states, states, c, constants.stiffness);
-  Eigen::VectorXd residuals = fit.residuals;
-  if (estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
-    const std::vector<Pair> exact = exact_states(states, estimate.value, constants);
-    if (exact.size() == states.size()) residuals -= weighted_part(exact, states, c, constants.stiffness).residuals;
-  }
+  const Eigen::VectorXd residuals = weighted_residuals(states, estimate.value, constants);
   Eigen::VectorXd term(residuals.size());
   for (Eigen::Index i = 0; i < term.size(); ++i) {
     const Pair& state = states[static_cast<std::size_t>(i)];

@@ -177,6 +177,19 @@ void judge_method(const ResonanceData& data, const std::vector<Datum>& exact, co
     faults.push_back("the exact law has no such motion at the estimate and " + frequency_text(data));
     return;
   }
+  const auto estimate_of = [&](const LineFriction& read) {
+    return parameters(read.zeta, read.x_f * data.unit, data.constants);
+  };
+  allow_for_misreading(estimate, estimate_of(*misread),
+                       [&](const ParameterSet& corrected) -> std::optional<ParameterSet> {
+                         LineFriction there = friction;
+                         there.zeta = corrected.zeta;
+                         there.x_f = corrected.x_f / data.unit;
+                         const std::vector<Datum> pairs = exact_pairs(data, exact, there);
+                         const std::optional<Line> line_there = pairs.empty() ? std::nullopt : line_through(pairs);
+                         const auto read = line_there ? friction_of(*line_there, data.G) : std::nullopt;
+                         return read ? std::optional(estimate_of(*read)) : std::nullopt;
+                       });
   const double x_f = std::max(friction.x_f, 0.0);
   double largest_input = 0.0;
   for (const Datum& datum : exact) largest_input = std::max(largest_input, datum.Y);

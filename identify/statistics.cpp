@@ -79,6 +79,34 @@ void refuse(Estimate& estimate, std::string reason) {
   estimate.reason = std::move(reason);
 }
 
+namespace {
+
+ParameterSet difference(const ParameterSet& a, const ParameterSet& b) {
+  return {a.zeta - b.zeta, a.c - b.c, a.x_f - b.x_f, a.F0 - b.F0};
+}
+
+}  // namespace
+
+void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
+                          const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read) {
+  const ParameterSet& value = estimate.value;
+  if (!estimate.interval95 || !(value.zeta > 0.0) || !(value.x_f >= 0.0)) return;
+  ParameterSet misread = difference(own, value);
+  const ParameterSet corrected = difference(value, misread);
+  if (corrected.zeta > 0.0 && corrected.x_f >= 0.0) {
+    const std::optional<ParameterSet> there = read(corrected);
+    if (there) misread = difference(*there, corrected);
+  }
+  const auto shift = [](std::array<double, 2>& interval, double by) {
+    if (!std::isfinite(by)) return;
+    for (double& end : interval) end -= by;
+  };
+  shift(estimate.interval95->zeta, misread.zeta);
+  shift(estimate.interval95->c, misread.c);
+  shift(estimate.interval95->x_f, misread.x_f);
+  shift(estimate.interval95->F0, misread.F0);
+}
+
 std::string percent(double fraction) {
   return (fraction < 0.0 ? "" : "+") + core::format_number(100.0 * fraction, 3) + " %";
 }

@@ -2,6 +2,7 @@
 /// Small-sample statistics shared by the methods.
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -36,6 +37,12 @@ void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, doub
 
 /// An estimate that is none: `outcome` not_identifiable with the reason.
 void refuse(Estimate& estimate, std::string reason);
+
+/// Moves the 95 % intervals, where there are any, by what the method misreads. `read(theta)`: what it makes of data
+/// that the exact law gives at theta; nothing where the law has none. The truth is where it reads the estimate,
+/// which is sought in two steps, and the estimate stays what the method gives. `own`: read(estimate).
+void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
+                          const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read);
 
 /// A signed percentage for messages: "+9.6 %".
 [[nodiscard]] std::string percent(double fraction);

@@ -127,6 +127,12 @@ void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& co
                                 " cannot be told: the exact law has no motion without a stop there");
     return;
   }
+  if (exact.size() == states.size()) {
+    allow_for_misreading(estimate, *own, [&](const ParameterSet& corrected) -> std::optional<ParameterSet> {
+      const std::vector<Pair> there = exact_states(states, corrected, constants);
+      return there.size() == states.size() ? read(there) : std::nullopt;
+    });
+  }
   double largest_input = 0.0;
   for (const Pair& pair : exact) largest_input = std::max(largest_input, pair.Y);
   const double c_error = own->c / value.c - 1.0;
