@@ -1,12 +1,10 @@
 #include "sim/departures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
-#include "friction_models/registry.hpp"
+#include "sim/with_law.hpp"
 
 namespace dualdamp::sim {
 
@@ -16,12 +14,7 @@ using friction::ParameterValues;
 
 /// The truth with another friction law in place of the Coulomb friction.
 Model with(const Truth& truth, std::string_view law, ParameterValues values) {
-  const friction::LawEntry* entry = friction::find_law(law);
-  if (entry == nullptr || !friction::complete(*entry, values).empty())
-    throw std::logic_error("the law " + std::string(law) + " refuses the values of a departure");
-  Model model = truth.model;
-  for (friction::Law& part : entry->make(values)) model.friction.push_back(std::move(part));
-  return model;
+  return with_law(truth.model, law, std::move(values));
 }
 
 Model with_coulomb(const Truth& truth, ParameterValues values = {}) {
@@ -32,12 +25,6 @@ Model with_coulomb(const Truth& truth, ParameterValues values = {}) {
 /// Stiffness whose deflection under F0 is s X.
 double contact_stiffness(const Truth& truth, const ReferenceMotion& reference, double s) {
   return truth.F0 / (s * reference.amplitude);
-}
-
-/// Damping of bristles: a tenth of the critical one for the mass on them. It is what makes these laws tend to
-/// Coulomb's with the root of the severity.
-double bristle_damping(const Truth& truth, double stiffness) {
-  return 0.2 * std::sqrt(stiffness * truth.model.oscillator.mass);
 }
 
 Model base_distortion(const Truth& truth, const ReferenceMotion& reference, double s) {
@@ -79,7 +66,7 @@ Model elasto_plastic(const Truth& truth, const ReferenceMotion& reference, doubl
               {{"kinetic", truth.F0},
                {"stribeck_velocity", 0.1 * reference.speed()},
                {"sigma0", stiffness},
-               {"sigma1", bristle_damping(truth, stiffness)},
+               {"sigma1", bristle_damping(truth.model.oscillator, stiffness)},
                {"elastic_limit", 0.5 * truth.F0 / stiffness}});
 }
 
@@ -120,7 +107,7 @@ Model lugre(const Truth& truth, const ReferenceMotion& reference, double s) {
                {"static", (1.0 + s) * truth.F0},
                {"stribeck_velocity", 0.02 * reference.speed()},
                {"sigma0", stiffness},
-               {"sigma1", bristle_damping(truth, stiffness)}});
+               {"sigma1", bristle_damping(truth.model.oscillator, stiffness)}});
 }
 
 /// The rider's own vibration is ten times as fast as the forcing and damped to a tenth.
