@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "bench/campaign.hpp"
+#include "bench/mechanism_study.hpp"
 #include "cli/conformance.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
@@ -118,6 +119,7 @@ struct CampaignChoice {
 };
 
 scenarios::RunResult compute(const Scenario& scenario, const std::string& directory, const CampaignChoice& choice) {
+  if (bench::is_mechanism_study(scenario)) return bench::run_mechanism_study(scenario);
   if (!bench::is_campaign(scenario)) return scenarios::run(scenario);
   bench::CampaignOptions options{.threads = choice.threads, .resume = choice.resume};
   if (!choice.quiet && processes().rank() == 0 && ::isatty(STDERR_FILENO) != 0) options.progress = show;

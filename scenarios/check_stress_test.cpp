@@ -10,28 +10,6 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// The truth is Coulomb + viscous friction.
-void check_truth(CheckedFile& file) {
-  const std::string allowed = "{law: coulomb, kinetic: ...}";
-  if (!file.has("system", "friction")) {
-    if (file.node("system") != nullptr && !file.stands_in_file("system", "friction"))
-      file.complain(file.node("system")->head(), "'system.friction' is missing: a stress test departs from it",
-                    allowed);
-    return;
-  }
-  const Json& friction = file.values().at("system").at("friction");
-  const bool plain = friction.is_object() && friction.value("law", "") == "coulomb" &&
-                     friction.contains("kinetic") && friction.contains("static") &&
-                     friction.at("static") == friction.at("kinetic") && friction.size() == 3;
-  if (!plain)
-    file.complain("system.friction", "a stress test departs from Coulomb friction, and from nothing else", allowed);
-  else if (number(friction.at("kinetic")) == 0.0)
-    file.complain("system.friction.kinetic", "'system.friction.kinetic' is out of range: errors are relative to it",
-                  "> 0 N", "0 N");
-  if (file.number_at("system", "damping").value_or(1.0) <= 0.0)
-    file.complain("system", "'system' has no damping: errors are relative to it", "damping > 0 N.s/m");
-}
-
 /// Beyond its largest severity a departure has no meaning.
 void check_severities(CheckedFile& file, const Json& analysis) {
   const Json& grid = analysis.at("severities");
@@ -106,6 +84,28 @@ void check_samples(CheckedFile& file, const Json& analysis) {
 }
 
 }  // namespace
+
+void check_truth(CheckedFile& file) {
+  const std::string allowed = "{law: coulomb, kinetic: ...}";
+  if (!file.has("system", "friction")) {
+    if (file.node("system") != nullptr && !file.stands_in_file("system", "friction"))
+      file.complain(file.node("system")->head(),
+                    "'system.friction' is missing: " + file.subject() + " departs from it", allowed);
+    return;
+  }
+  const Json& friction = file.values().at("system").at("friction");
+  const bool plain = friction.is_object() && friction.value("law", "") == "coulomb" &&
+                     friction.contains("kinetic") && friction.contains("static") &&
+                     friction.at("static") == friction.at("kinetic") && friction.size() == 3;
+  if (!plain)
+    file.complain("system.friction", file.subject() + " departs from Coulomb friction, and from nothing else",
+                  allowed);
+  else if (number(friction.at("kinetic")) == 0.0)
+    file.complain("system.friction.kinetic",
+                  "'system.friction.kinetic' is out of range: numbers are relative to it", "> 0 N", "0 N");
+  if (file.number_at("system", "damping").value_or(1.0) <= 0.0)
+    file.complain("system", "'system' has no damping: numbers are relative to it", "damping > 0 N.s/m");
+}
 
 void check_stress_test(CheckedFile& file) {
   const Json& analysis = file.values().at("analysis");

@@ -142,6 +142,7 @@ std::optional<identify::MeasuredRecord> check(const Document& document, Reading&
   std::optional<identify::MeasuredRecord> data = read_data(file, options);
   if (analysis == "identify") resolve_methods(file, data);
   if (analysis == "stress_test") check_stress_test(file);
+  if (analysis == "mechanisms") check_mechanisms(file);
   check_expectations(file);
   return data;
 }

@@ -34,7 +34,12 @@ void resolve_methods(CheckedFile& file, const std::optional<identify::MeasuredRe
 /// All methods that each of such records allows, or those of the file, which each must allow.
 void resolve_methods_for(CheckedFile& file, const std::vector<identify::Record>& records);
 
+/// The system has one Coulomb law and damping, and nothing else: the analysis departs from it.
+void check_truth(CheckedFile& file);
+
 void check_stress_test(CheckedFile& file);
+
+void check_mechanisms(CheckedFile& file);
 
 /// Paths of `expect` against what the analysis returns.
 void check_expectations(CheckedFile& file);

@@ -7,6 +7,7 @@
 #include "scenarios/formulas.hpp"
 #include "sim/departures.hpp"
 #include "sim/excitation.hpp"
+#include "sim/mechanisms.hpp"
 #include "sim/steady_state.hpp"
 
 namespace dualdamp::scenarios {
@@ -14,6 +15,7 @@ namespace dualdamp::scenarios {
 namespace {
 
 constexpr auto max_items = static_cast<std::size_t>(max_points);
+constexpr std::size_t max_sets = 100;
 
 /// The harmonic excitations differ in the unit of their amplitudes.
 std::vector<Field> harmonic_fields(const std::string& unit) {
@@ -210,7 +212,6 @@ std::vector<std::string> departure_names() {
 
 Variant stress_test_variant() {
   constexpr int max_seeds = 1'000'000;
-  constexpr std::size_t max_sets = 100;
   std::vector<Field> set = {text("name", "what the results call it").required()};
   for (Field& field : sensor_fields())
     if (field.name != "seed") set.push_back(std::move(field));
@@ -232,6 +233,69 @@ Variant stress_test_variant() {
         integer("seeds", "of the sensors' noise: 0 to seeds - 1").with_fallback(1).at_least(1).at_most(max_seeds),
         section("decay", decay, "a free vibration beside each curve, for the methods that need one"),
         word_list("methods", method_names(), "identification methods; default: all that the measurements allow")}}};
+}
+
+std::vector<std::string> mechanism_names() {
+  std::vector<std::string> names;
+  for (const sim::Mechanism& mechanism : sim::mechanisms()) names.emplace_back(mechanism.name);
+  return names;
+}
+
+/// Values of each mechanism's own parameters.
+Field plausible_values() {
+  Choice choice{"mechanism", {}};
+  for (const sim::Mechanism& mechanism : sim::mechanisms()) {
+    std::vector<Field> fields = {text("case", "what the results call these values").with_fallback(""),
+                                 text("because", "where they come from").with_fallback("")};
+    for (const sim::MechanismParameter& parameter : mechanism.parameters) {
+      Field field =
+          quantity(std::string(parameter.name), {std::string(parameter.unit)}, std::string(parameter.meaning))
+              .required();
+      field.range = parameter.range;
+      fields.push_back(std::move(field));
+    }
+    choice.variants.push_back({std::string(mechanism.name), std::string(mechanism.meaning), {std::move(fields)}});
+  }
+  Field field =
+      scenarios::choice("plausible", std::move(choice),
+                        "values that the rig may well have, in place of the known ones of that mechanism");
+  field.listed = field.only_listed = true;
+  return std::move(field).items(1, max_sets);
+}
+
+Variant mechanisms_variant() {
+  const auto error = [](const char* name, const char* unit, const char* what) {
+    return quantity(name, {unit}, std::string("standard error of this ") + what + ", rounding included")
+        .required()
+        .above(0);
+  };
+  const Section estimate = {
+      {quantity("share", {"1"}, "which part of the data, the lower one").required().above(0).at_most(1),
+       quantity("zeta", {"1"}, "damping ratio that it gave").required().above(0),
+       quantity("F0", {"N"}, "friction force that it gave").required().above(0),
+       error("zeta_std", "1", "damping ratio"), error("F0_std", "N", "friction force")}};
+  const auto segment = [](const char* name, const char* which) {
+    return section(name,
+                   {{quantity("zeta", {"1"}, "damping ratio").required().above(0),
+                     quantity("x_f", {"m"}, "friction displacement").required().above(0)}},
+                   std::string("what the ") + which + " four of five extremes gave")
+        .required();
+  };
+  const Section decay = {
+      {quantity("stiffness", {"N/m"}, "of the spring in this test").required().above(0),
+       quantity("displacement", {"m"}, "from which the mass is released at rest").required().above(0),
+       segment("high", "first"), segment("low", "last")}};
+  return {
+      "mechanisms",
+      "which mechanism explains that estimates change as the upper x-Y data are left out",
+      {{section_list("estimates", estimate, "what straight lines through the data and their lower parts gave")
+            .required()
+            .items(2, max_sets),
+        integer("levels", "number of input levels, equally spaced at unknown places").at_least(3).at_most(max_sets),
+        optional(grid("amplitudes", {"m"}, "input levels, where they are known").above(0).items(3, max_sets)),
+        word_list("mechanisms", mechanism_names(), "mechanisms that are tried; default: all"), plausible_values(),
+        section("decay", decay, "a free decay of the same mass and friction, to compare")},
+       {{{"levels", "amplitudes"}, true}}}};
 }
 
 Variant identify_variant() {
@@ -304,6 +368,7 @@ Choice make_analyses() {
            {"free_decay", "extremes of the free vibration from the initial state", {{peaks()}}},
            identify_variant(),
            stress_test_variant(),
+           mechanisms_variant(),
            formula_variant()}};
 }
 
@@ -392,6 +457,7 @@ const std::vector<Needs>& needs() {
        false,
        "the methods need the amplitude of the base"},
       {"stress_test", "", {"base_harmonic"}, {"frequency"}, true, "the methods need the amplitude of the base"},
+      {"mechanisms", "", {"base_harmonic"}, {"frequency"}, true, "the lines are of the amplitude of the base"},
       {"formula", "", {}, {}, false, ""},
   };
   return table;

@@ -222,6 +222,57 @@ Fields stress_test() {
           {"scores[].false_alarm", "1", "share of the right ones that the method doubted"}};
 }
 
+/// Estimates, levels and decay under `prefix`.
+Fields reading(const std::string& prefix, const std::string& of) {
+  return {{prefix + "bend", "1", "zeta of the smallest part over that of the largest, less 1" + of},
+          {prefix + "estimates[].share", "1", "part of the data"},
+          {prefix + "estimates[].zeta", "1", "damping ratio by the line through it" + of},
+          {prefix + "estimates[].F0", "N", "friction force by it" + of}};
+}
+
+Fields levels_and_decay(const std::string& prefix) {
+  return {{prefix + "levels[].Y", "m", "input level"},
+          {prefix + "levels[].x", "m", "output amplitude"},
+          {prefix + "decay.high.zeta", "1", "damping ratio from the first four extremes of the free decay"},
+          {prefix + "decay.high.x_f", "m", "friction displacement from them"},
+          {prefix + "decay.low.zeta", "1", "damping ratio from the last four"},
+          {prefix + "decay.low.x_f", "m", "friction displacement from them"},
+          {prefix + "decay.bend", "1", "decay.high.zeta over decay.low.zeta, less 1"}};
+}
+
+Fields mechanisms() {
+  const std::string fit = "mechanisms[].";
+  Fields fields =
+      joined({{"verdict", "", "what the study says, and what it does not"}}, reading("explained.", ", measured"));
+  fields =
+      joined(joined(fields, levels_and_decay("explained.")),
+             {{fit + "mechanism", "", "name, closest first"},
+              {fit + "meaning", "", "what happens in the rig"},
+              {fit + "unknowns", "1", "unknowns of the fit"},
+              {fit + "reason", "", "only without a fit: why"},
+              {fit + "chi2", "1", "sum of squares of the misfits over their standard errors"},
+              {fit + "misfit", "1", "largest relative misfit of all numbers"},
+              {fit + "stretch", "1", "largest ratio between a parameter and its plausible value, either way"},
+              {fit + "F0", "N", "Coulomb friction of the fit"},
+              {fit + "c", "N.s/m", "its damping"},
+              {fit + "parameters[].name", "", "a parameter of the mechanism"},
+              {fit + "parameters[].unit", "", "its unit"},
+              {fit + "parameters[].value", "", "its value"},
+              {fit + "parameters[].at_bound", "", "the search would have gone on"},
+              {fit + "aliases[]", "", "mechanisms that differ from this one by less than the standard errors"}});
+  fields = joined(joined(fields, reading(fit, " of the fit")), levels_and_decay(fit));
+  const std::string effect = "effects[].";
+  return joined(joined(fields, {{effect + "mechanism", "", "a mechanism at plausible values"},
+                                {effect + "case", "", "which of several"},
+                                {effect + "because", "", "where the values come from"},
+                                {effect + "parameters[].name", "", "a parameter"},
+                                {effect + "parameters[].unit", "", "its unit"},
+                                {effect + "parameters[].value", "", "its value"},
+                                {effect + "sticks", "", "the mass rests at one of the levels"},
+                                {effect + "reason", "", "only without estimates: why"}}),
+                reading(effect, ""));
+}
+
 }  // namespace
 
 std::vector<ResultField> result_fields(const std::string& analysis, const std::string& formula) {
@@ -236,7 +287,8 @@ std::vector<ResultField> result_fields(const std::string& analysis, const std::s
       {"frequency_branch", branch({"omega", "rad/s", "forcing frequency"})},
       {"free_decay", free_decay()},
       {"identify", identify()},
-      {"stress_test", stress_test()}};
+      {"stress_test", stress_test()},
+      {"mechanisms", mechanisms()}};
   if (const auto found = table.find(analysis); found != table.end()) return found->second;
   const FormulaEntry* entry = find_formula(formula);
   return entry == nullptr ? Fields{} : entry->results;

@@ -88,6 +88,11 @@ class Runner {
     throw std::logic_error("a stress test is no single question");
   }
 
+  /// bench/mechanism_study.hpp.
+  Answer operator()(const MechanismStudy& /*question*/) const {
+    throw std::logic_error("a study of mechanisms is no single question");
+  }
+
   Answer operator()(const Formula& question) const {
     Answer result;
     result.result = find_formula(question.name)->evaluate(Json::parse(question.arguments));

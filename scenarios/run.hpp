@@ -50,8 +50,8 @@ struct RunResult {
 [[nodiscard]] RunResult assemble(const Scenario& scenario, const std::string& json, std::vector<Table> tables,
                                  core::Provenance provenance);
 
-/// Of every analysis but `stress_test`, which is bench/campaign.hpp's. Errors: `core::InputError` when an expected
-/// value turns out not to be in the result.
+/// Of every analysis but those that bench/ answers (`stress_test`: campaign.hpp; `mechanisms`:
+/// mechanism_study.hpp). Errors: `core::InputError` when an expected value turns out not to be in the result.
 [[nodiscard]] RunResult run(const Scenario& scenario);
 
 }  // namespace dualdamp::scenarios

@@ -262,6 +262,35 @@ StressTest stress_test(const Json& section, const Json& system, double frequency
   return result;
 }
 
+/// `system`: its friction is what the rig is believed to have, one Coulomb law (checks.cpp).
+MechanismStudy mechanism_study(const Json& section, const Json& system) {
+  MechanismStudy result;
+  result.friction = {number(system.at("friction").at("kinetic")), number(system.at("damping"))};
+  for (const Json& item : section.at("estimates"))
+    result.estimates.push_back({number(item.at("share")), number(item.at("zeta")), number(item.at("F0")),
+                                number(item.at("zeta_std")), number(item.at("F0_std"))});
+  std::ranges::sort(result.estimates, std::ranges::greater{}, &PartEstimate::share);
+  if (section.contains("amplitudes")) result.amplitudes = grid_values(section.at("amplitudes"));
+  std::ranges::sort(result.amplitudes);
+  result.levels = section.contains("levels") ? section.at("levels").get<std::size_t>() : result.amplitudes.size();
+  for (const Json& name : section.at("mechanisms"))
+    result.mechanisms.push_back(sim::find_mechanism(name.get<std::string>()));
+  for (const Json& item : section.at("plausible")) {
+    const sim::Mechanism* mechanism = sim::find_mechanism(item.at("mechanism").get<std::string>());
+    PlausibleRig rig{mechanism, item.at("case").get<std::string>(), {}, item.at("because").get<std::string>()};
+    for (const sim::MechanismParameter& parameter : mechanism->parameters)
+      rig.values.push_back(number(item.at(std::string(parameter.name))));
+    result.plausible.push_back(std::move(rig));
+  }
+  if (!section.contains("decay")) return result;
+  const Json& decay = section.at("decay");
+  const auto segment = [&](const char* name) {
+    return MeasuredDecay::Segment{number(decay.at(name).at("zeta")), number(decay.at(name).at("x_f"))};
+  };
+  result.decay = {number(decay.at("stiffness")), number(decay.at("displacement")), segment("high"), segment("low")};
+  return result;
+}
+
 BranchQuestion branch(sim::BranchParameter parameter, const Json& range) {
   return {parameter, number(range.at("from")), number(range.at("to"))};
 }
@@ -285,6 +314,7 @@ Analysis analysis(const Json& section, const Json& system, const sim::Model& mod
   if (type == "frequency_branch") return branch(sim::BranchParameter::frequency, section.at("frequencies"));
   if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
   if (type == "stress_test") return stress_test(section, system, model.excitation.frequency);
+  if (type == "mechanisms") return mechanism_study(section, system);
   if (type == "identify") return identify_question(section, model, std::move(data));
   const Json& formula = section.at("formula");
   return Formula{formula.at("name").get<std::string>(), formula.dump()};

@@ -13,6 +13,7 @@
 #include "friction_models/parameters.hpp"
 #include "identify/methods.hpp"
 #include "scenarios/measure.hpp"
+#include "scenarios/mechanism_study.hpp"
 #include "scenarios/stress_test.hpp"
 #include "sim/continuation.hpp"
 #include "sim/model.hpp"
@@ -70,7 +71,7 @@ struct Formula {
 };
 
 using Analysis = std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, RegimeMap, BranchQuestion,
-                              FreeDecayQuestion, Identify, StressTest, Formula>;
+                              FreeDecayQuestion, Identify, StressTest, MechanismStudy, Formula>;
 
 /// One expected value of a result.
 struct Expectation {

@@ -86,24 +86,16 @@ TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose 
   // 1/zeta = 7. Deflections act by the root of s: a contact takes the time 2 sqrt(s)/w to reverse its force, a
   // delay that detunes a little, and bristles have a tenth of their critical damping beside. The film that warms is
   // followed with its power as a state that settles within T/60 s.
-  const std::map<std::string, std::vector<double>> vanishing = {{"base_clipping", {10.0}},
-                                                                {"contact_compliance", {1.568e9}},
-                                                                {"coulomb_viscous", {}},
-                                                                {"dahl", {1.568e8}},
-                                                                {"detuning", {1e-6}},
-                                                                {"friction_lag", {1e-6, 0.1, 0.01}},
-                                                                {"hardening_spring", {16.0}},
-                                                                {"hardening_spring_detuned", {16.0, 1e-6}},
-                                                                {"lugre", {1.568e8, 1e-6, 0.1}},
-                                                                {"position_dependence", {1e4}},
-                                                                {"quadratic_drag", {1e-5}},
-                                                                {"rigid_and_compliant", {1568.0, 1e-6}},
-                                                                {"softening_spring", {16.0}},
-                                                                {"stribeck", {1e-6, 0.1}},
-                                                                {"viscous_power", {1.000001}},
-                                                                {"viscous_saturating", {4e5}},
-                                                                {"warming_contact", {1e6}},
-                                                                {"warming_film", {1e6}}};
+  const std::map<std::string, std::vector<double>> vanishing = {
+      {"base_clipping", {10.0}},     {"contact_compliance", {1.568e9}},
+      {"coulomb_viscous", {}},       {"dahl", {1.568e8}},
+      {"detuning", {1e-6}},          {"friction_lag", {1e-6, 0.1, 0.01}},
+      {"hardening_spring", {16.0}},  {"hardening_spring_detuned", {16.0, 1e-6}},
+      {"lugre", {1.568e8, 1e-6}},    {"position_dependence", {1e4}},
+      {"quadratic_drag", {1e-5}},    {"rigid_and_compliant", {1568.0, 1e-6}},
+      {"softening_spring", {16.0}},  {"stribeck", {1e-6, 0.1}},
+      {"viscous_power", {1.000001}}, {"viscous_saturating", {4e5}},
+      {"warming_contact", {1e6}},    {"warming_film", {1e6}}};
   const double expected = closed_form(usual.c);
   for (const sim::Mechanism& mechanism : sim::mechanisms()) {
     const std::string name(mechanism.name);

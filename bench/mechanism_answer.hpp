@@ -1,0 +1,54 @@
+#pragma once
+/// What a study of mechanisms found, and how it is told: as JSON, as tables, and in words.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/mechanism_fit.hpp"
+#include "scenarios/mechanism_study.hpp"
+#include "scenarios/table.hpp"
+
+namespace dualdamp::bench {
+
+/// What a free decay of the rig gives by the method, from its first and its last four extremes.
+struct DecayReading {
+  scenarios::MeasuredDecay::Segment high, low;
+
+  [[nodiscard]] double bend() const { return high.zeta / low.zeta - 1.0; }
+};
+
+/// One mechanism, answered.
+struct Explanation {
+  const sim::Mechanism* mechanism = nullptr;
+  std::size_t unknowns = 0;
+  MechanismFit fit;
+  double misfit = scenarios::none;   ///< largest of all numbers, relative
+  double stretch = scenarios::none;  ///< largest ratio between a parameter and its plausible value, either way
+  std::vector<std::string> aliases;
+  std::optional<DecayReading> decay;
+  Levels curve;
+};
+
+/// One mechanism at plausible values.
+struct Effect {
+  const scenarios::PlausibleRig* rig = nullptr;
+  std::optional<Response> response;
+  std::optional<std::vector<PartReading>> readings;
+};
+
+/// All of them, the closest first.
+struct StudyAnswer {
+  Levels measured;  ///< that the estimates lead to
+  std::vector<Explanation> explanations;
+  std::vector<Effect> effects;
+};
+
+/// The result as JSON.
+[[nodiscard]] std::string result_of(const StudyAnswer& answer, const scenarios::MechanismStudy& study);
+
+/// mechanisms, effects, levels, curves.
+[[nodiscard]] std::vector<scenarios::Table> tables_of(const StudyAnswer& answer,
+                                                      const scenarios::MechanismStudy& study);
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,305 @@
+#include "bench/mechanism_fit.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "identify/least_squares.hpp"
+#include "identify/line_estimate.hpp"
+#include "sim/steady_state.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using scenarios::MechanismStudy;
+using sim::Mechanism;
+using sim::MechanismParameter;
+using sim::Rig;
+
+/// Error of steps and closure of orbits: what differences over `step` can bear.
+constexpr double accuracy = 1e-8;
+constexpr double step = 3e-4;
+
+/// A test at the edge of thermal runaway or of a fold creeps; a fit has better things to do than to wait for it.
+constexpr int patience = 300;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+VectorXd misfit(const std::vector<PartReading>& readings, const MechanismStudy& study) {
+  VectorXd result(static_cast<Index>(2 * readings.size()));
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const scenarios::PartEstimate& estimate = study.estimates[i];
+    result[static_cast<Index>(2 * i)] = (readings[i].zeta - estimate.zeta) / estimate.zeta_std;
+    result[static_cast<Index>(2 * i + 1)] = (readings[i].F0 - estimate.F0) / estimate.F0_std;
+  }
+  return result;
+}
+
+/// Derivatives by differences, backward where the model ends ahead.
+template <typename Residuals>
+bool differentiate(const Residuals& residuals, const VectorXd& p, const VectorXd& here, const VectorXd& high,
+                   Eigen::MatrixXd& jacobian) {
+  for (Index j = 0; j < p.size(); ++j) {
+    VectorXd moved = p;
+    double h = p[j] + step > high[j] ? -step : step;
+    moved[j] = p[j] + h;
+    std::optional<VectorXd> there = residuals(moved);
+    if (!there) {
+      h = -h;
+      moved[j] = p[j] + h;
+      there = residuals(moved);
+    }
+    if (!there) return false;
+    jacobian.col(j) = (*there - here) / h;
+  }
+  return true;
+}
+
+/// Least squares over residuals that may not exist.
+template <typename Residuals>
+identify::LeastSquaresFit least_squares(const Residuals& residuals, Index count, VectorXd start, VectorXd low,
+                                        VectorXd high, double tolerance) {
+  identify::LeastSquaresProblem problem;
+  problem.residuals = count;
+  problem.start = std::move(start);
+  problem.low = std::move(low);
+  problem.high = high;
+  problem.tolerance = tolerance;
+  problem.evaluate = [&residuals, high](const VectorXd& p, VectorXd& values, Eigen::MatrixXd* jacobian) {
+    const std::optional<VectorXd> here = residuals(p);
+    if (!here) return false;
+    values = *here;
+    return jacobian == nullptr || differentiate(residuals, p, *here, high, *jacobian);
+  };
+  return identify::fit(problem);
+}
+
+/// Equally spaced from the first one on.
+std::vector<double> spaced(double first, double spacing, std::size_t count) {
+  std::vector<double> levels(count);
+  for (std::size_t i = 0; i < count; ++i) levels[i] = first + spacing * static_cast<double>(i);
+  return levels;
+}
+
+/// Where the lines of the estimates meet the axis x = 0, in the mean: kY = (4/pi) F0, near enough.
+double usual_intercept(const MechanismStudy& study, double stiffness) {
+  double sum = 0.0;
+  for (const scenarios::PartEstimate& estimate : study.estimates) sum += estimate.F0;
+  constexpr double four_over_pi = 1.2732395447351628;
+  return four_over_pi * sum / static_cast<double>(study.estimates.size()) / stiffness;
+}
+
+bool goes_by_ratios(const MechanismParameter& parameter) { return parameter.low > 0.0; }
+
+/// Of a parameter in units of its scale.
+double to_unknown(const MechanismParameter& parameter, double value) {
+  return goes_by_ratios(parameter) ? std::log(value) : value;
+}
+
+/// Ratios to where the search of a parameter begins.
+constexpr std::array<double, 3> ratios = {1.0, 0.3, 3.0};
+
+}  // namespace
+
+std::optional<std::vector<PartReading>> read_parts(const Levels& levels, const MechanismStudy& study,
+                                                   const identify::KnownConstants& constants) {
+  std::vector<PartReading> readings;
+  for (const scenarios::PartEstimate& estimate : study.estimates) {
+    const std::size_t count = scenarios::part_of(levels.Y.size(), estimate.share);
+    std::vector<identify::Datum> pairs;
+    for (std::size_t i = 0; i < count; ++i) pairs.push_back({.Y = levels.Y[i], .x = levels.x[i]});
+    const auto line = identify::line_of(identify::moments_of(pairs), std::numeric_limits<double>::infinity());
+    const auto friction = line ? identify::friction_of(*line, {}) : std::nullopt;
+    if (!friction) return std::nullopt;
+    readings.push_back({friction->zeta, friction->x_f * constants.stiffness});
+  }
+  return readings;
+}
+
+double bend_of(const std::vector<PartReading>& readings) {
+  return readings.back().zeta / readings.front().zeta - 1.0;
+}
+
+std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::KnownConstants& constants) {
+  const std::size_t count = study.levels;
+  const auto outputs = static_cast<Index>(count);
+  const bool free_levels = study.amplitudes.empty();
+  const double unit = usual_intercept(study, constants.stiffness);
+  const auto levels_at = [&](const VectorXd& p) {
+    Levels levels{free_levels ? spaced(p[outputs] * unit, p[outputs + 1] * unit, count) : study.amplitudes, {}};
+    for (Index i = 0; i < outputs; ++i) levels.x.push_back(p[i] * unit);
+    return levels;
+  };
+  const auto residuals = [&](const VectorXd& p) -> std::optional<VectorXd> {
+    const auto readings = read_parts(levels_at(p), study, constants);
+    if (!readings) return std::nullopt;
+    return misfit(*readings, study);
+  };
+  const Index size = outputs + (free_levels ? 2 : 0);
+  VectorXd low = VectorXd::Constant(size, 1e-3);
+  VectorXd high = VectorXd::Constant(size, 1e3);
+  std::optional<Levels> best;
+  double least = static_cast<double>(2 * study.estimates.size());
+  for (const double first : {1.1, 1.25, 1.5, 2.0}) {
+    for (const double spacing : {0.08, 0.15, 0.3}) {
+      // Outputs on the line of all data.
+      const std::vector<double> Y = free_levels ? spaced(first, spacing, count) : study.amplitudes;
+      VectorXd start(size);
+      for (Index i = 0; i < outputs; ++i) {
+        const double input = free_levels ? Y[at(i)] : Y[at(i)] / unit;
+        start[i] = std::max(input - 1.0, 0.01) / (2.0 * study.estimates.front().zeta);
+      }
+      if (free_levels) {
+        start[outputs] = first;
+        start[outputs + 1] = spacing;
+      }
+      const identify::LeastSquaresFit fit =
+          least_squares(residuals, static_cast<Index>(2 * study.estimates.size()), start, low, high, 1e-10);
+      if (!fit.outcome.ok() || !(fit.sum_of_squares < least)) continue;
+      least = fit.sum_of_squares;
+      best = levels_at(fit.parameters);
+    }
+  }
+  return best;
+}
+
+std::optional<Response> response(const Mechanism& mechanism, const Rig& rig, const sim::RigFriction& friction,
+                                 std::span<const double> values, const std::vector<double>& Y) {
+  sim::SteadyStateOptions options;
+  options.tolerance = accuracy;
+  options.max_periods = patience;
+  options.full_account = false;
+  Response result;
+  for (const double amplitude : Y) {
+    sim::Model model = mechanism.build(rig, friction, values, amplitude);
+    model.solver.tolerance = accuracy;
+    const sim::SteadyState state = sim::steady_state(model, options);
+    if (!state.outcome.ok()) return std::nullopt;
+    result.x.push_back(state.amplitude);
+    result.sticks = result.sticks || !state.sticks.empty();
+  }
+  return result;
+}
+
+MechanismSearch::MechanismSearch(const Mechanism& mechanism, const MechanismStudy& study, const Rig& rig,
+                                 Levels near)
+    : mechanism_(mechanism), study_(study), rig_(rig), near_(std::move(near)) {}
+
+std::size_t MechanismSearch::starts() const {
+  if (mechanism_.parameters.empty()) return 1;
+  return goes_by_ratios(mechanism_.parameters.front()) ? ratios.size() : 2;
+}
+
+MechanismSearch::Point MechanismSearch::point(const VectorXd& p) const {
+  Point point;
+  point.friction = {p[0] * study_.friction.F0, p[1] * study_.friction.c};
+  point.Y =
+      levels_are_free() ? spaced(p[2] * near_.Y[0], p[3] * (near_.Y[1] - near_.Y[0]), near_.Y.size()) : near_.Y;
+  for (std::size_t i = 0; i < parameters(); ++i) {
+    const MechanismParameter& parameter = mechanism_.parameters[i];
+    const double u = p[first_parameter() + static_cast<Index>(i)];
+    point.values.push_back(natural_scale(rig_, parameter.unit) * (goes_by_ratios(parameter) ? std::exp(u) : u));
+  }
+  return point;
+}
+
+VectorXd MechanismSearch::bounds(bool high) const {
+  // Friction may all but vanish. Levels are sought around those that the estimates themselves lead to: others would
+  // be another experiment, and not far below them the mass sticks.
+  VectorXd p = VectorXd::Constant(static_cast<Index>(unknowns()), high ? 6.0 : 1e-3);
+  if (levels_are_free()) {
+    p[2] = high ? 1.6 : 0.9;
+    p[3] = high ? 3.0 : 0.1;
+  }
+  for (std::size_t i = 0; i < parameters(); ++i) {
+    const MechanismParameter& parameter = mechanism_.parameters[i];
+    p[first_parameter() + static_cast<Index>(i)] = to_unknown(parameter, high ? parameter.high : parameter.low);
+  }
+  return p;
+}
+
+VectorXd MechanismSearch::start(std::size_t number) const {
+  // Bent data lead below what their lowest part reads; where the mechanism has no part in it friction is what all
+  // data read.
+  const scenarios::PartEstimate& estimate = number == 0 ? study_.estimates.back() : study_.estimates.front();
+  const double below = number == 0 ? 0.85 : 0.95;
+  const double c = 2.0 * estimate.zeta * std::sqrt(rig_.oscillator.mass * rig_.oscillator.stiffness);
+  VectorXd p = VectorXd::Ones(static_cast<Index>(unknowns()));
+  p[0] = below * estimate.F0 / study_.friction.F0;
+  p[1] = below * c / study_.friction.c;
+  for (std::size_t i = 0; i < parameters(); ++i) {
+    const MechanismParameter& parameter = mechanism_.parameters[i];
+    double value = parameter.start;
+    // The first parameter is what a mechanism is about: it begins at several places.
+    if (i == 0) value *= goes_by_ratios(parameter) ? ratios.at(number) : number == 0 ? 1.0 : -1.0;
+    p[first_parameter() + static_cast<Index>(i)] =
+        to_unknown(parameter, std::clamp(value, parameter.low, parameter.high));
+  }
+  return p;
+}
+
+VectorXd MechanismSearch::pull(const VectorXd& p) const {
+  // Levels that double count as much as a misfit of one standard error, parameters that grow by e^10 likewise.
+  VectorXd weights = VectorXd::Constant(p.size(), 0.1);
+  weights.head(first_parameter()).setConstant(1.0);
+  weights.head(2).setZero();
+  return weights.cwiseProduct(p - start(0));
+}
+
+MechanismFit MechanismSearch::begin(std::size_t number) const {
+  constexpr double rough = 0.1;
+  return fit(start(number), rough);
+}
+
+MechanismFit MechanismSearch::refine(const MechanismFit& rough) const {
+  constexpr double fine = 1e-5;
+  return rough.outcome.ok() ? fit(rough.unknowns, fine) : rough;
+}
+
+MechanismFit MechanismSearch::fit(const VectorXd& from, double tolerance) const {
+  const identify::KnownConstants constants{rig_.oscillator.mass, rig_.oscillator.stiffness,
+                                           rig_.reference.frequency};
+  MechanismFit result;
+  const auto test = [&](const VectorXd& p) -> std::optional<VectorXd> {
+    const Point here = point(p);
+    const auto outputs = response(mechanism_, rig_, here.friction, here.values, here.Y);
+    if (!outputs || outputs->sticks) return std::nullopt;
+    result.levels = {here.Y, outputs->x};
+    const auto readings = read_parts(result.levels, study_, constants);
+    if (!readings) return std::nullopt;
+    result.readings = *readings;
+    VectorXd all(static_cast<Index>(numbers()) + p.size());
+    all << misfit(*readings, study_), pull(p);
+    return all;
+  };
+  const VectorXd low = bounds(false);
+  const VectorXd high = bounds(true);
+  const identify::LeastSquaresFit fit =
+      least_squares(test, static_cast<Index>(numbers()) + from.size(), from, low, high, tolerance);
+  result.outcome = fit.outcome;
+  // Once more: the last test of a fit may be one of its differences.
+  const std::optional<VectorXd> residuals = fit.outcome.ok() ? test(fit.parameters) : std::nullopt;
+  if (!residuals) {
+    if (result.outcome.ok()) result.outcome = {core::OutcomeKind::not_identifiable, "the fit did not converge"};
+    return result;
+  }
+  const Point there = point(fit.parameters);
+  result.friction = there.friction;
+  result.values = there.values;
+  constexpr double close = 1e-3;
+  for (Index j = first_parameter(); j < fit.parameters.size(); ++j) {
+    const double room = std::min(fit.parameters[j] - low[j], high[j] - fit.parameters[j]);
+    result.at_bound.push_back(room < close * (high[j] - low[j]));
+  }
+  result.chi2 = residuals->head(static_cast<Index>(numbers())).squaredNorm();
+  result.unknowns = fit.parameters;
+  return result;
+}
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,117 @@
+#pragma once
+/// One mechanism fitted to what straight lines through parts of x-Y data gave.
+///
+/// A test is repeated as it was made: steady states at the input levels by the engines, then the least-squares line
+/// of `resonance_least_squares` through the lower parts of them. Unknowns are F0, c, the mechanism's parameters
+/// and, where the levels are not known, the first of them and their spacing:
+///
+///   chi2 = sum over parts of ((zeta - zeta_i)/std)^2 + ((F0 - F0_i)/std)^2
+///
+/// A weak pull to where a search begins, no part of chi2, keeps it from wandering where the numbers do not change.
+/// Levenberg-Marquardt (`identify/least_squares.hpp`) with derivatives by differences, within bounds, among motions
+/// that never stick: a test that does is seen in its record. Cost: some hundred tests of as many steady states as
+/// there are levels.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "identify/record.hpp"
+#include "scenarios/mechanism_study.hpp"
+#include "sim/mechanisms.hpp"
+
+namespace dualdamp::bench {
+
+/// Input and output amplitudes [m].
+struct Levels {
+  std::vector<double> Y;
+  std::vector<double> x;
+};
+
+/// What one part of the data gives.
+struct PartReading {
+  double zeta = 0.0;
+  double F0 = 0.0;  ///< N
+};
+
+/// The lines through the lower parts of the levels, as `resonance_least_squares` draws them through pairs that do
+/// not stick. Nothing where one of them does not rise.
+[[nodiscard]] std::optional<std::vector<PartReading>> read_parts(const Levels& levels,
+                                                                 const scenarios::MechanismStudy& study,
+                                                                 const identify::KnownConstants& constants);
+
+/// zeta of the smallest part over that of the largest, less 1.
+[[nodiscard]] double bend_of(const std::vector<PartReading>& readings);
+
+/// Levels that give the estimates of the study: all outputs are free. Nothing where no such levels are found to a
+/// standard error of each number.
+[[nodiscard]] std::optional<Levels> reconstruct(const scenarios::MechanismStudy& study,
+                                                const identify::KnownConstants& constants);
+
+/// Output amplitudes of the mechanism at input amplitudes; nothing where one has no steady state.
+struct Response {
+  std::vector<double> x;  ///< m
+  bool sticks = false;    ///< at one of them at least
+};
+[[nodiscard]] std::optional<Response> response(const sim::Mechanism& mechanism, const sim::Rig& rig,
+                                               const sim::RigFriction& friction, std::span<const double> values,
+                                               const std::vector<double>& Y);
+
+struct MechanismFit {
+  core::Outcome outcome;
+  sim::RigFriction friction;
+  std::vector<double> values;  ///< of the mechanism's parameters, SI
+  std::vector<bool> at_bound;  ///< of each of them: the search would have gone on
+  Levels levels;
+  std::vector<PartReading> readings;
+  double chi2 = 0.0;
+  Eigen::VectorXd unknowns;  ///< for `refine`
+};
+
+/// Fits one mechanism; the study, the rig and the mechanism outlive it.
+class MechanismSearch {
+ public:
+  /// `near`: levels with which searches begin, or the known ones.
+  MechanismSearch(const sim::Mechanism& mechanism, const scenarios::MechanismStudy& study, const sim::Rig& rig,
+                  Levels near);
+
+  /// Places from which the mechanism's parameters are sought.
+  [[nodiscard]] std::size_t starts() const;
+  /// A rough fit from one of them.
+  [[nodiscard]] MechanismFit begin(std::size_t start) const;
+  /// What a rough fit leads to.
+  [[nodiscard]] MechanismFit refine(const MechanismFit& rough) const;
+
+  /// Unknowns of the fit, and numbers that it has to explain.
+  [[nodiscard]] std::size_t unknowns() const { return static_cast<std::size_t>(first_parameter()) + parameters(); }
+  [[nodiscard]] std::size_t numbers() const { return 2 * study_.estimates.size(); }
+
+ private:
+  struct Point {
+    sim::RigFriction friction;
+    std::vector<double> values;
+    std::vector<double> Y;
+  };
+
+  // The unknowns are numbers of order one: F0 and c over those of the study, first level and spacing over those
+  // near, and the parameters over their scales, by their logarithms where they cannot vanish.
+  [[nodiscard]] bool levels_are_free() const { return study_.amplitudes.empty(); }
+  [[nodiscard]] Eigen::Index first_parameter() const { return levels_are_free() ? 4 : 2; }
+  [[nodiscard]] std::size_t parameters() const { return mechanism_.parameters.size(); }
+  [[nodiscard]] Point point(const Eigen::VectorXd& p) const;
+  [[nodiscard]] Eigen::VectorXd bounds(bool high) const;
+  [[nodiscard]] Eigen::VectorXd start(std::size_t number) const;
+  /// Residuals that draw p to the first start.
+  [[nodiscard]] Eigen::VectorXd pull(const Eigen::VectorXd& p) const;
+  [[nodiscard]] MechanismFit fit(const Eigen::VectorXd& start, double tolerance) const;
+
+  const sim::Mechanism& mechanism_;
+  const scenarios::MechanismStudy& study_;
+  const sim::Rig& rig_;
+  Levels near_;
+};
+
+}  // namespace dualdamp::bench

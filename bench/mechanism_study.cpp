@@ -1,0 +1,235 @@
+#include "bench/mechanism_study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bench/mechanism_answer.hpp"
+#include "identify/free_decay.hpp"
+#include "sim/parallel.hpp"
+#include "sim/simulate.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+using scenarios::MeasuredDecay;
+using scenarios::MechanismStudy;
+using scenarios::PlausibleRig;
+using scenarios::Scenario;
+using sim::Mechanism;
+
+const MechanismStudy& study_of(const Scenario& scenario) { return std::get<MechanismStudy>(scenario.analysis); }
+
+/// The whole study; its parts are computed apart and in parallel.
+class Study {
+ public:
+  Study(const Scenario& scenario, Levels levels)
+      : study_(study_of(scenario)),
+        levels_(std::move(levels)),
+        rig_(rig_of(scenario, levels_)),
+        constants_{rig_.oscillator.mass, rig_.oscillator.stiffness, rig_.reference.frequency} {
+    for (const Mechanism* mechanism : study_.mechanisms) searches_.emplace_back(*mechanism, study_, rig_, levels_);
+  }
+
+  [[nodiscard]] std::vector<Explanation> explain() const;
+  [[nodiscard]] std::vector<Effect> effects() const;
+
+ private:
+  static sim::Rig rig_of(const Scenario& scenario, const Levels& levels);
+  [[nodiscard]] std::vector<MechanismFit> rough_fits() const;
+  void finish(Explanation& explanation) const;
+  [[nodiscard]] std::optional<DecayReading> decay(const Explanation& explanation) const;
+  [[nodiscard]] double misfit(const std::vector<PartReading>& readings) const;
+  [[nodiscard]] double stretch(const Explanation& explanation) const;
+
+  const MechanismStudy& study_;
+  Levels levels_;
+  sim::Rig rig_;
+  identify::KnownConstants constants_;
+  std::vector<MechanismSearch> searches_;
+};
+
+sim::Rig Study::rig_of(const Scenario& scenario, const Levels& levels) {
+  // Steady states know a slow warming by its mean power: five periods are slow enough for four digits.
+  constexpr double warming_periods = 5.0;
+  const std::size_t middle = levels.Y.size() / 2;
+  const double frequency = scenario.model.excitation.frequency;
+  return {.oscillator = scenario.model.oscillator,
+          .reference = {.amplitude = levels.x[middle], .frequency = frequency, .Y = levels.Y[middle]},
+          .warming_time = warming_periods * 2.0 * std::numbers::pi / frequency};
+}
+
+/// The best of all starts of each mechanism.
+std::vector<MechanismFit> Study::rough_fits() const {
+  std::vector<std::pair<std::size_t, std::size_t>> tasks;
+  for (std::size_t i = 0; i < searches_.size(); ++i)
+    for (std::size_t start = 0; start < searches_[i].starts(); ++start) tasks.emplace_back(i, start);
+  std::vector<MechanismFit> fits(tasks.size());
+  sim::in_parts(tasks.size(), 1, 0, [&](std::size_t first, std::size_t) {
+    fits[first] = searches_[tasks[first].first].begin(tasks[first].second);
+  });
+  std::vector<MechanismFit> best(searches_.size());
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    MechanismFit& held = best[tasks[t].first];
+    const bool is_first = tasks[t].second == 0;
+    if (is_first || (fits[t].outcome.ok() && (!held.outcome.ok() || fits[t].chi2 < held.chi2)))
+      held = std::move(fits[t]);
+  }
+  return best;
+}
+
+double Study::misfit(const std::vector<PartReading>& readings) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    largest = std::max(largest, std::abs(readings[i].zeta / study_.estimates[i].zeta - 1.0));
+    largest = std::max(largest, std::abs(readings[i].F0 / study_.estimates[i].F0 - 1.0));
+  }
+  return largest;
+}
+
+/// Over the plausible values that are nearest.
+double Study::stretch(const Explanation& explanation) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double least = infinity;
+  for (const PlausibleRig& plausible : study_.plausible) {
+    if (plausible.mechanism != explanation.mechanism) continue;
+    double largest = 1.0;
+    for (std::size_t i = 0; i < plausible.values.size(); ++i) {
+      const double ratio = explanation.fit.values[i] / plausible.values[i];
+      largest = std::max(largest, ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : infinity);
+    }
+    least = std::min(least, largest);
+  }
+  return least;
+}
+
+/// Of the fitted rig on the spring of the decay, cold, released from rest.
+std::optional<DecayReading> Study::decay(const Explanation& explanation) const {
+  const MeasuredDecay& measured = *study_.decay;
+  sim::Rig cold = rig_;
+  cold.warming_time = sim::Rig{}.warming_time;
+  const sim::Model model = released(*explanation.mechanism, cold, explanation.fit.friction, explanation.fit.values,
+                                    measured.stiffness, measured.displacement);
+  constexpr int extremes = 5;
+  const sim::FreeDecay motion = sim::free_decay(model, extremes);
+  if (!motion.outcome.ok() || motion.peaks.size() < extremes) return std::nullopt;
+  identify::KnownConstants constants = constants_;
+  constants.stiffness = measured.stiffness;
+  const auto segment = [&](std::size_t first) -> std::optional<MeasuredDecay::Segment> {
+    identify::Record record;
+    record.decay.emplace();
+    for (std::size_t i = first; i < first + extremes - 1; ++i) {
+      record.decay->extremes.push_back(motion.peaks[i].x);
+      record.decay->times.push_back(motion.peaks[i].t);
+    }
+    const identify::Estimate estimate = identify::free_decay(record, constants, {});
+    if (!estimate.outcome.ok()) return std::nullopt;
+    return MeasuredDecay::Segment{estimate.value.zeta, estimate.value.x_f};
+  };
+  const auto high = segment(0);
+  const auto low = segment(1);
+  if (!high || !low) return std::nullopt;
+  return DecayReading{*high, *low};
+}
+
+void Study::finish(Explanation& explanation) const {
+  if (!explanation.fit.outcome.ok()) return;
+  explanation.misfit = misfit(explanation.fit.readings);
+  explanation.stretch = stretch(explanation);
+  if (study_.decay) explanation.decay = decay(explanation);
+  // A curve to look at: the levels and a little beyond.
+  constexpr std::size_t points = 31;
+  const std::vector<double>& Y = explanation.fit.levels.Y;
+  const double margin = 0.1 * (Y.back() - Y.front());
+  for (std::size_t i = 0; i < points; ++i) {
+    const double input =
+        Y.front() - margin + (Y.back() - Y.front() + 2.0 * margin) * static_cast<double>(i) / (points - 1);
+    const auto output =
+        response(*explanation.mechanism, rig_, explanation.fit.friction, explanation.fit.values, {input});
+    if (!output) continue;
+    explanation.curve.Y.push_back(input);
+    explanation.curve.x.push_back(output->x.front());
+  }
+}
+
+/// Fits that differ from one another by less than the standard errors of the estimates.
+void find_aliases(std::vector<Explanation>& explanations, const MechanismStudy& study) {
+  const auto distance = [&](const Explanation& a, const Explanation& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < study.estimates.size(); ++i) {
+      const scenarios::PartEstimate& estimate = study.estimates[i];
+      sum += std::pow((a.fit.readings[i].zeta - b.fit.readings[i].zeta) / estimate.zeta_std, 2);
+      sum += std::pow((a.fit.readings[i].F0 - b.fit.readings[i].F0) / estimate.F0_std, 2);
+    }
+    return sum;
+  };
+  for (Explanation& a : explanations)
+    for (const Explanation& b : explanations)
+      if (&a != &b && a.fit.outcome.ok() && b.fit.outcome.ok() &&
+          distance(a, b) <= static_cast<double>(2 * study.estimates.size()))
+        a.aliases.emplace_back(b.mechanism->name);
+}
+
+std::vector<Explanation> Study::explain() const {
+  const std::vector<MechanismFit> rough = rough_fits();
+  std::vector<Explanation> explanations(searches_.size());
+  sim::in_parts(searches_.size(), 1, 0, [&](std::size_t first, std::size_t) {
+    Explanation& explanation = explanations[first];
+    explanation.mechanism = study_.mechanisms[first];
+    explanation.unknowns = searches_[first].unknowns();
+    explanation.fit = searches_[first].refine(rough[first]);
+    finish(explanation);
+  });
+  find_aliases(explanations, study_);
+  std::ranges::stable_sort(explanations, {}, [](const Explanation& explanation) {
+    return std::pair(!explanation.fit.outcome.ok(), explanation.fit.chi2);
+  });
+  return explanations;
+}
+
+std::vector<Effect> Study::effects() const {
+  std::vector<Effect> effects(study_.plausible.size());
+  sim::in_parts(effects.size(), 1, 0, [&](std::size_t first, std::size_t) {
+    const PlausibleRig& plausible = study_.plausible[first];
+    Effect& effect = effects[first];
+    effect.rig = &plausible;
+    effect.response = response(*plausible.mechanism, rig_, study_.friction, plausible.values, levels_.Y);
+    if (effect.response) effect.readings = read_parts({levels_.Y, effect.response->x}, study_, constants_);
+  });
+  return effects;
+}
+
+}  // namespace
+
+bool is_mechanism_study(const Scenario& scenario) {
+  return std::holds_alternative<MechanismStudy>(scenario.analysis);
+}
+
+scenarios::RunResult run_mechanism_study(const Scenario& scenario) {
+  core::Provenance provenance = scenarios::provenance_of(scenario);
+  const auto start = std::chrono::steady_clock::now();
+  const MechanismStudy& study = study_of(scenario);
+  const sim::Oscillator& oscillator = scenario.model.oscillator;
+  const std::optional<Levels> levels =
+      reconstruct(study, {oscillator.mass, oscillator.stiffness, scenario.model.excitation.frequency});
+  if (!levels) {
+    scenarios::RunResult result;
+    result.provenance = std::move(provenance);
+    result.warnings = scenario.warnings;
+    result.status = core::ExitStatus::numerical_failure;
+    result.failure = "no levels give these estimates to their standard errors: straight lines cannot have had them";
+    return result;
+  }
+  const Study whole(scenario, *levels);
+  const StudyAnswer answer{*levels, whole.explain(), whole.effects()};
+  provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return scenarios::assemble(scenario, result_of(answer, study), tables_of(answer, study), std::move(provenance));
+}
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,18 @@
+#pragma once
+/// Which mechanism explains that the estimates of zeta and F0 change as the upper data are left out.
+///
+/// Each mechanism (`sim/mechanisms.hpp`) is fitted to the estimates (`mechanism_fit.hpp`); is put at values that a
+/// rig may well have, to see how much it does; and, fitted, is let go in a free decay, whose first and last four
+/// extremes are read apart as Table 3 of the paper does. Results do not depend on the number of threads.
+
+#include "scenarios/run.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace dualdamp::bench {
+
+[[nodiscard]] bool is_mechanism_study(const scenarios::Scenario& scenario);
+
+/// Status 4 where no levels give the estimates.
+[[nodiscard]] scenarios::RunResult run_mechanism_study(const scenarios::Scenario& scenario);
+
+}  // namespace dualdamp::bench
