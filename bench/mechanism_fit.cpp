@@ -41,27 +41,26 @@ VectorXd misfit(const std::vector<PartReading>& readings, const MechanismStudy& 
   return result;
 }
 
-/// Derivatives by differences, backward where the model ends ahead.
+/// Derivatives by differences, backward where the model ends ahead; none where it ends on either side.
 template <typename Residuals>
-bool differentiate(const Residuals& residuals, const VectorXd& p, const VectorXd& here, const VectorXd& high,
-                   Eigen::MatrixXd& jacobian) {
+Eigen::MatrixXd derivatives(const Residuals& residuals, const VectorXd& p, const VectorXd& here,
+                            const VectorXd& high) {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(here.size(), p.size());
   for (Index j = 0; j < p.size(); ++j) {
-    VectorXd moved = p;
-    double h = p[j] + step > high[j] ? -step : step;
-    moved[j] = p[j] + h;
-    std::optional<VectorXd> there = residuals(moved);
-    if (!there) {
-      h = -h;
-      moved[j] = p[j] + h;
-      there = residuals(moved);
+    const double ahead = p[j] + step > high[j] ? -step : step;
+    for (const double h : {ahead, -ahead}) {
+      VectorXd moved = p;
+      moved[j] += h;
+      const std::optional<VectorXd> there = residuals(moved);
+      if (!there) continue;
+      jacobian.col(j) = (*there - here) / h;
+      break;
     }
-    if (!there) return false;
-    jacobian.col(j) = (*there - here) / h;
   }
-  return true;
+  return jacobian;
 }
 
-/// Least squares over residuals that may not exist.
+/// Least squares over residuals that may not exist: steps are shortened to where they do.
 template <typename Residuals>
 identify::LeastSquaresFit least_squares(const Residuals& residuals, Index count, VectorXd start, VectorXd low,
                                         VectorXd high, double tolerance) {
@@ -69,13 +68,15 @@ identify::LeastSquaresFit least_squares(const Residuals& residuals, Index count,
   problem.residuals = count;
   problem.start = std::move(start);
   problem.low = std::move(low);
-  problem.high = high;
+  problem.high = std::move(high);
   problem.tolerance = tolerance;
-  problem.evaluate = [&residuals, high](const VectorXd& p, VectorXd& values, Eigen::MatrixXd* jacobian) {
+  problem.evaluate = [&residuals, &most = problem.high](const VectorXd& p, VectorXd& values,
+                                                        Eigen::MatrixXd* jacobian) {
     const std::optional<VectorXd> here = residuals(p);
     if (!here) return false;
     values = *here;
-    return jacobian == nullptr || differentiate(residuals, p, *here, high, *jacobian);
+    if (jacobian != nullptr) *jacobian = derivatives(residuals, p, values, most);
+    return true;
   };
   return identify::fit(problem);
 }
@@ -133,7 +134,9 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
   const double unit = usual_intercept(study, constants.stiffness);
   const auto levels_at = [&](const VectorXd& p) {
     Levels levels{free_levels ? spaced(p[outputs] * unit, p[outputs + 1] * unit, count) : study.amplitudes, {}};
-    for (Index i = 0; i < outputs; ++i) levels.x.push_back(p[i] * unit);
+    // Outputs by their growth, which keeps every line rising.
+    double x = 0.0;
+    for (Index i = 0; i < outputs; ++i) levels.x.push_back(x += p[i] * unit);
     return levels;
   };
   const auto residuals = [&](const VectorXd& p) -> std::optional<VectorXd> {
@@ -151,9 +154,12 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
       // Outputs on the line of all data.
       const std::vector<double> Y = free_levels ? spaced(first, spacing, count) : study.amplitudes;
       VectorXd start(size);
+      double before = 0.0;
       for (Index i = 0; i < outputs; ++i) {
         const double input = free_levels ? Y[at(i)] : Y[at(i)] / unit;
-        start[i] = std::max(input - 1.0, 0.01) / (2.0 * study.estimates.front().zeta);
+        const double output = (input - 1.0) / (2.0 * study.estimates.front().zeta);
+        start[i] = std::max(output - before, 0.01);
+        before = output;
       }
       if (free_levels) {
         start[outputs] = first;

@@ -1,6 +1,7 @@
 #include "identify/least_squares.hpp"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -121,13 +122,24 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd
   return solve(problem, {}, most_iterations, parameters);
 }
 
+/// Ceres tells standard error of a fit that came to where the model ends, whatever its options say. The outcome
+/// says so too.
+void keep_silent() {
+  static const bool once = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
 }  // namespace
 
 LeastSquaresFit fit(const LeastSquaresProblem& problem) {
+  keep_silent();
   LeastSquaresFit result;
   result.parameters = problem.start;
   result.residuals.resize(problem.residuals);
-  if (!problem.evaluate(problem.start, result.residuals, nullptr)) {  // Ceres would log it on standard error
+  if (!problem.evaluate(problem.start, result.residuals, nullptr)) {
     result.outcome = {core::OutcomeKind::not_identifiable, "the model has no value where the fit begins"};
     return result;
   }

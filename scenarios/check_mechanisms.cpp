@@ -4,6 +4,7 @@
 
 #include "core/numbers.hpp"
 #include "scenarios/checks_of_analyses.hpp"
+#include "scenarios/formulas.hpp"
 #include "scenarios/mechanism_study.hpp"
 
 namespace dualdamp::scenarios {

@@ -291,7 +291,7 @@ Variant mechanisms_variant() {
       {{section_list("estimates", estimate, "what straight lines through the data and their lower parts gave")
             .required()
             .items(2, max_sets),
-        integer("levels", "number of input levels, equally spaced at unknown places").at_least(3).at_most(max_sets),
+        integer("levels", "number of input levels, equally spaced at unknown places").at_least(4).at_most(max_sets),
         optional(grid("amplitudes", {"m"}, "input levels, where they are known").above(0).items(3, max_sets)),
         word_list("mechanisms", mechanism_names(), "mechanisms that are tried; default: all"), plausible_values(),
         section("decay", decay, "a free decay of the same mass and friction, to compare")},
