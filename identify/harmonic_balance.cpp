@@ -114,10 +114,22 @@ MonomialFit fit_monomials(const std::vector<Datum>& points, Eigen::Index terms) 
   return fit;
 }
 
-/// What harmonic balance leaves of the exact motion at the estimate, which speaks for the law and not against it.
+/// The estimate less what the method misreads there.
+ParameterSet corrected(const std::vector<Pair>& states, const ParameterSet& value,
+                       const KnownConstants& constants) {
+  const std::vector<Pair> exact = exact_states(states, value, constants);
+  const std::optional<ParameterSet> own = exact.size() == states.size() ? read(exact, constants) : std::nullopt;
+  return own ? parameters(ForceParameters{constants.mass, 2.0 * value.c - own->c, constants.stiffness,
+                                          2.0 * value.F0 - own->F0})
+             : value;
+}
+
+/// What harmonic balance leaves of the exact motion, which speaks for the law and not against it.
 Eigen::VectorXd own_residuals(const std::vector<Pair>& states, const std::vector<Datum>& points,
-                              const ParameterSet& value, const KnownConstants& constants, Eigen::Index terms) {
+                              const ParameterSet& estimated, const KnownConstants& constants, Eigen::Index terms) {
   const auto none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
+  if (!(estimated.zeta > 0.0) || !(estimated.x_f >= 0.0)) return none;
+  const ParameterSet value = corrected(states, estimated, constants);
   if (!(value.zeta > 0.0) || !(value.x_f >= 0.0)) return none;
   const std::vector<Datum> exact = friction_points(exact_states(states, value, constants), constants);
   if (exact.size() != points.size()) return none;
