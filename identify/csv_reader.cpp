@@ -51,6 +51,13 @@ class Lines {
 
   [[nodiscard]] bool at_end() const { return start_ >= text_.size(); }
 
+  /// Cuts off the rows at the end that hold separators only: so spreadsheets write rows that were emptied.
+  void drop_empty_rows(char separator) {
+    const std::string blanks{' ', '\t', '\r', '\n', separator};
+    const std::size_t last = std::min(text_.find_last_not_of(blanks), text_.size());
+    text_ = text_.substr(0, text_.find(end_mark_, last));
+  }
+
   SourceLine next() {
     const std::size_t end = std::min(text_.find(end_mark_, start_), text_.size());
     std::string_view line = text_.substr(start_, end - start_);
@@ -244,6 +251,7 @@ class Parser {
       problems_.add({{file_, 0, 0, {}}, "the file holds no header", std::string(allowed_columns), {}, {}});
       return;
     }
+    lines_.drop_empty_rows(separator_);
     Fields fields(line.text, separator_);
     std::vector<Heading> headings;
     while (fields.next()) {
@@ -393,7 +401,9 @@ class Parser {
                      {}});
       return 1.0;
     }
-    const core::QuantityText factor = core::unit_factor(unit, known.unit);
+    core::QuantityText factor = core::unit_factor(unit, known.unit);
+    if (unit.empty() && known.unit == "rad")
+      factor = {std::nullopt, "an angle needs its unit, because degrees and radians differ", "deg"};
     if (factor.value) return *factor.value;
     problems_.add({place, "the unit of column " + name + ": " + factor.fault, core::describe_dimension(known.unit),
                    excerpt(heading.text), factor.suggestion});
@@ -437,9 +447,11 @@ class Parser {
       }
     }
     if (count == targets_.size()) return true;
+    const bool split_numbers = separator_ == ',' && count == 2 * targets_.size();
     problems_.add({at(line, 1),
                    "the row does not have as many fields as the header",
-                   std::to_string(targets_.size()) + " fields",
+                   std::to_string(targets_.size()) + " fields" +
+                       (split_numbers ? ", numbers with a decimal point, not with a comma" : ""),
                    std::to_string(count) + " fields",
                    {}});
     return false;

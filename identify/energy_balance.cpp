@@ -77,16 +77,38 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
 
 namespace {
 
-/// Histories in windows of about a cycle each, filtered with the first cut-off.
+/// Cycles that x would make in all its samples, turning as often as between its first and last turn. Only what
+/// turns back by more than `band` is one.
+int cycles_of(const std::vector<double>& x, double band) {
+  std::vector<std::size_t> turns;
+  double sense = 0.0;
+  std::size_t furthest = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double beyond = x[i] - x[furthest];
+    const bool turned = std::abs(beyond) > band && sense * beyond < 0.0;
+    if (turned) turns.push_back(furthest);
+    if (turned || sense * beyond > 0.0 || (sense == 0.0 && std::abs(beyond) > band)) {
+      sense = beyond > 0.0 ? 1.0 : -1.0;
+      furthest = i;
+    }
+  }
+  if (turns.size() < 2) return 1;
+  const double half_cycle =
+      static_cast<double>(turns.back() - turns.front()) / static_cast<double>(turns.size() - 1);
+  return std::max(static_cast<int>(static_cast<double>(x.size()) / (2.0 * half_cycle)), 1);
+}
+
+/// Histories in windows of about a cycle each, filtered with the first cut-off. Where the mass rests all that moves
+/// is noise, whose way is no motion: such windows are left out.
 std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
                                                const MethodOptions& options, Estimate& estimate) {
   std::vector<EnergyTerms> accounts;
   for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
     const Motion motion = motion_of(*item.history, cutoffs_for(*item.history, options).front());
-    int reversals = 0;
-    for (std::size_t i = 1; i < motion.v.size(); ++i) reversals += motion.v[i] * motion.v[i - 1] < 0.0 ? 1 : 0;
-    for (const WindowEnergy& window : energy_of(motion, constants, std::max(reversals / 2, 1)))
-      if (window.path > 0.0)
+    constexpr double widest_noise = 10.0;  // standard deviations; of a million Gaussian ones it is 9.8
+    const double band = widest_noise * noise_deviation(item.history->x);
+    for (const WindowEnergy& window : energy_of(motion, constants, cycles_of(motion.x, band)))
+      if (window.path > 0.0 && window.range > band)
         accounts.push_back({.work = window.input - window.stored,
                             .path = window.path,
                             .speed_square = window.square_speed,

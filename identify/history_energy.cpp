@@ -1,5 +1,6 @@
 #include "identify/history_energy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dualdamp::identify {
@@ -35,6 +36,9 @@ std::vector<WindowEnergy> energy_of(const Motion& motion, const KnownConstants& 
     const std::size_t begin = w * steps / count;
     const std::size_t end = (w + 1) * steps / count;
     WindowEnergy sum{.duration = static_cast<double>(end - begin) * dt, .stored = stored(end) - stored(begin)};
+    const auto [lowest, highest] = std::minmax_element(x.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                       x.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+    sum.range = *highest - *lowest;
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t j = i + 1;
       sum.input += hermite(drive[i] * v[i], drive_rate[i] * v[i] + drive[i] * a[i], drive[j] * v[j],

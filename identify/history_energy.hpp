@@ -18,6 +18,7 @@ struct WindowEnergy {
   double input = 0.0;         ///< int (k y + f) dx [J]
   double stored = 0.0;        ///< change of m v^2/2 + k x^2/2 [J]
   double path = 0.0;          ///< int |dx| [m]
+  double range = 0.0;         ///< max x - min x [m]
   double square_speed = 0.0;  ///< int v^2 dt [m^2/s]
 };
 

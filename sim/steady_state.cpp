@@ -152,7 +152,7 @@ core::Outcome OrbitFinder::failure(const Passage& passage) const {
   const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
   if (grows_ || second_half_ > 1.5 * first_half_ || passage.size > 1.5 * first_half_) {
     return {core::OutcomeKind::no_steady_state,
-            "no steady state: the amplitude still grows; damping does not limit the motion"};
+            "no steady state: the amplitude still grows; damping limits it far out or not at all"};
   }
   if (passage.closure(omega_) < creeping) {
     return {

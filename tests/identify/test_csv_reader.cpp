@@ -111,6 +111,7 @@ TEST_CASE("Faults of the header") {
   only_problem("Y,x [mm\n1,2\n", 1, 3, "square brackets");
   only_problem("Y,x [mm] peak\n1,2\n", 1, 3, "square brackets");
   only_problem("Y,x,sweep [m]\n1,2,3\n", 1, 5, "a label");
+  CHECK(only_problem("Y,x,phase\n1,2,90\n", 1, 5, "an angle needs its unit").found == "phase");
   const core::Diagnostic dimension = only_problem("Y,x [kg]\n1,2\n", 1, 3, "the unit of column x");
   CHECK_FALSE(dimension.allowed.empty());
   CHECK(dimension.found == "x [kg]");
@@ -146,6 +147,19 @@ TEST_CASE("Faults of the data, several at once") {
 
   // A decimal comma is refused, whatever the separator: 1,234 is two numbers to two readers.
   CHECK(only_problem("Y;x\n0,1;2\n", 2, 1, "is not a number").allowed.find("point") != std::string::npos);
+  CHECK(only_problem("Y,x\n4,50,5,36\n", 2, 1, "as many fields").allowed.find("point") != std::string::npos);
+}
+
+TEST_CASE("Rows that a spreadsheet left empty at the end are no rows") {
+  for (const char* end : {"\r\n;;\r\n;;\r\n", "\n;;", "\n ; ;\n\n;;\n"}) {
+    const MeasuredRecord csv = parse_record("Y;x;\n4;5;\n5;8;" + std::string(end), "data.csv");
+    REQUIRE(csv.record.pairs->pairs.size() == 2);
+    CHECK(csv.record.pairs->pairs[1].x == 8.0);
+  }
+  only_problem("Y,x\n,\n,\n", 1, 0, "no data");
+  // Inside the data they are a hole, and a last row with anything in it is a row.
+  CHECK(problems("Y,x\n1,2\n,\n3,4\n").size() == 2);
+  CHECK(only_problem("Y,x\n1,2\n3,\n", 3, 3, "is not a number").found == "an empty field");
 }
 
 TEST_CASE("The list of problems is bounded") {

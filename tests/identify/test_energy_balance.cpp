@@ -213,6 +213,33 @@ TEST_CASE("Histories of any motion give the energy balance") {
   CHECK(mentions(energy_balance(testing::record_of(histories), {unknown, stiffness}, {}).reason, "needs the mass"));
 }
 
+TEST_CASE("Noise on a mass that has come to rest is no motion") {
+  // Eleven swings in 0.9 s, then two seconds of rest: windows of rest would hold the way of noise and no work.
+  sim::Model model;
+  model.oscillator = {mass, stiffness, 2.0 * 0.05 * std::sqrt(mass * stiffness), sim::DamperTo::ground};
+  model.friction.emplace_back(friction::Coulomb(1.0, 1.0));
+  model.initial = {40e-3, 0.0};
+  const History exact = sampled(model, 3.0, 1000.0);
+  Normal normal(1);
+  int fired = 0;
+  double zeta = 0.0;
+  double force = 0.0;
+  constexpr int draws = 50;
+  for (int i = 0; i < draws; ++i) {
+    const Estimate e = energy_balance(testing::record_of({displacement_only(exact, 10e-6, normal)}), bearing, {});
+    REQUIRE(e.outcome.ok());
+    REQUIRE(e.lack_of_fit);
+    if (e.lack_of_fit->fired) ++fired;
+    zeta += e.value.zeta / draws;
+    force += e.value.F0 / draws;
+  }
+  // A test at the level 0.05 fires more than 8 times in 50 with probability 2e-4.
+  CHECK(fired <= 8);
+  // Within the cycles that move noise lengthens the way, which lowers F0 by 1.5 % and raises zeta by 0.5 %.
+  CHECK(zeta == Approx(0.05).epsilon(0.01));
+  CHECK(force == Approx(1.0).epsilon(0.03));
+}
+
 TEST_CASE("Records that allow no energy balance are refused with the reason") {
   CHECK(energy_balance(Record{}, bearing, {}).reason == "the record holds no x-Y pairs");
   CHECK(energy_balance(pairs(table_1), table_1_constants, {}).reason ==
