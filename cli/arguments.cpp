@@ -66,7 +66,7 @@ class Parser {
       std::ostringstream errors;
       const int status = app_.exit(error, out, errors);
       if (status == 0) return {Leave{out.str(), 0, false}, {}};
-      return {Leave{error.what(), usage, json}, {}};
+      return {Leave{app_.get_subcommands().empty() ? wrong_command() : error.what(), usage, json}, {}};
     }
     return {chosen(), plugins_};
   }
@@ -174,6 +174,19 @@ class Parser {
     schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
     schema_command_->add_flag("--markdown", schema_.markdown, "The reference page instead");
     add_plugins(*schema_command_);
+  }
+
+  /// What is wrong with a command line that names none of the commands.
+  [[nodiscard]] std::string wrong_command() const {
+    const std::vector<std::string> words = app_.remaining();
+    const auto word = std::ranges::find_if(words, [](const std::string& text) { return !text.starts_with('-'); });
+    std::string message = word == words.end() ? "a command is missing" : "there is no command '" + *word + "'";
+    const char* separator = "; there are: ";
+    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; })) {
+      message += separator + command->get_name();
+      separator = ", ";
+    }
+    return message;
   }
 
   [[nodiscard]] Command chosen() const {

@@ -51,6 +51,9 @@ std::string in_plain_words(const std::string& message, std::string_view text, st
   return "this is not YAML: " + message;
 }
 
+constexpr std::string_view decimal_comma =
+    "a comma between two digits: write numbers with a decimal point, and a space behind a comma that separates";
+
 }  // namespace
 
 std::string shortened(std::string_view text) {
@@ -148,6 +151,9 @@ class TreeBuilder final : public YAML::EventHandler {
       complain(where, "this value runs on into the next line",
                "a value on one line: check the indentation and the ':' of the next line, or put text in quotes");
       node.kind = Node::Kind::null;
+    } else if (!awaits_key() && follows_comma_in_number(where) &&
+               value.find_first_not_of("0123456789.eE+-") != std::string::npos) {
+      complain(where, std::string(decimal_comma));
     }
     if (awaits_key())
       begin_entry(std::move(node), where);
@@ -211,6 +217,12 @@ class TreeBuilder final : public YAML::EventHandler {
     if (!plain && (tag != "!" || at(offset(mark)) == '!')) complain(offset(mark), "tags (!) are not allowed");
   }
 
+  /// A digit behind a comma behind a digit: [4,5 mm] is 4 and 5 mm to YAML, and 4.5 mm to many a reader.
+  [[nodiscard]] bool follows_comma_in_number(std::size_t where) const {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    return where >= 2 && is_digit(at(where)) && at(where - 1) == ',' && is_digit(at(where - 2));
+  }
+
   /// yaml-cpp lets an open quote run to the end of the file.
   void check_quote(std::size_t where, char quote) {
     for (std::size_t i = where + 1; i < text_.size() && text_[i] != '\n'; ++i) {
@@ -231,6 +243,10 @@ class TreeBuilder final : public YAML::EventHandler {
     const std::size_t after = text_.find_first_not_of("\"' ", frame.key_offset + frame.key.size());
     if (after != std::string::npos && text_[after] == ':')
       complain(frame.key_offset, "'" + shortened(frame.key) + "' has no value");
+    else if (follows_comma_in_number(frame.key_offset))
+      complain(frame.key_offset, std::string(decimal_comma));
+    else if (frame.key.find(':') != std::string::npos)
+      complain(frame.key_offset, "'" + shortened(frame.key) + "': a space is missing after the ':'");
     else
       complain(frame.key_offset, "'" + shortened(frame.key) + "' stands alone: a ':' and a value are missing");
   }

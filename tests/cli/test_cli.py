@@ -238,6 +238,11 @@ class Refusals(Case):
         self.assertEqual(self.document("run", "--json", status=2)["scenario"], None)
         self.assertFalse((self.folder / "results").exists())
 
+    def test_a_command_that_is_none_is_named(self):
+        for words, message in ((["runn", "base.yaml"], "there is no command 'runn'; there are: run, check,"), ([], "a command is missing; there are: run, check,")):
+            with self.subTest(words=words):
+                self.assertIn(message, self.run_program(*words, status=2).stderr)
+
     def test_interrupt(self):
         self.write("long.yaml", BASE.replace("steady_state", "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}"))
         process = subprocess.Popen([PROGRAM, "run", "long.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
