@@ -130,7 +130,18 @@ class Assembly {
     return true;
   }
 
+  /// Amplitudes of a response, whose excitation is missing, are no extremes.
+  void refuse_response_without_Y() const {
+    for (const std::string_view name : {"omega", "phase", "fundamental", "mean_square_speed"})
+      if (values(name) != nullptr)
+        refuse_file(
+            table_.file,
+            "there is a column " + std::string(name) + " and no column Y: pairs need the amplitude of the base",
+            std::string(allowed_columns));
+  }
+
   DecayRecord decay() {
+    refuse_response_without_Y();
     warn_unused({"x", "t"});
     DecayRecord record;
     record.extremes = *values("x");

@@ -112,6 +112,7 @@ TEST_CASE("Faults of the header") {
   only_problem("Y,x [mm] peak\n1,2\n", 1, 3, "square brackets");
   only_problem("Y,x,sweep [m]\n1,2,3\n", 1, 5, "a label");
   CHECK(only_problem("Y,x,phase\n1,2,90\n", 1, 5, "an angle needs its unit").found == "phase");
+  only_problem("frequency [Hz],x,phase [deg]\n5,1,60\n6,2,90\n", 0, 0, "no column Y");
   const core::Diagnostic dimension = only_problem("Y,x [kg]\n1,2\n", 1, 3, "the unit of column x");
   CHECK_FALSE(dimension.allowed.empty());
   CHECK(dimension.found == "x [kg]");
