@@ -53,7 +53,7 @@ function body() {
   if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
   for (const warning of run.warnings) parts.push(make("p", { class: "note" }, warning));
   if (result.estimates) parts.push(heading("Estimates"), estimateTable(result.estimates));
-  parts.push(...stressTables());
+  parts.push(...stressTables(), ...mechanismTables(result));
   const single = scalars(result).filter(({ path }) => !path.startsWith("fit.") && path !== "verdict" && path !== "" && path !== "fit" && !path.startsWith("severities."));
   if (single.length) parts.push(heading("Numbers"), numbers(single.map((item) => ({ ...item, unit: unitOfScalar(item.path) }))));
   const drawn = (views[run.analysis]?.(result) ?? []).filter(Boolean);

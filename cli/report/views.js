@@ -210,6 +210,7 @@ const views = {
     series: [series("peaks", "t", "x", { label: "extremes", kind: "points" }), series("peaks", "t", "x", { label: "extremes", width: 1, colour: 6 })] })],
   identify: identifyView,
   stress_test: severityCharts,
+  mechanisms: mechanismCharts,
 };
 
 function orbitView() {

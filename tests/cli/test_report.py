@@ -158,6 +158,14 @@ class Page(unittest.TestCase):
         })()""")
         self.assertEqual((light, open_, ground), ("#ffffff", True, "#14171a"))
 
+    def test_a_study_of_mechanisms_shows_fits_effects_and_decays(self):
+        dom, shown = self.check("mechanisms", 2)
+        for heading in ("Fitted to the estimates", "At plausible values"):
+            self.assertIn(f"<h2>{heading}</h2>", dom)
+        paths = [path for path, _ in shown]
+        for path in ("mechanisms[0].chi2", "mechanisms[2].misfit", "effects[0].bend", "explained.bend"):
+            self.assertIn(path, paths)
+
     def test_a_title_cannot_become_markup(self):
         scenario = self.folder / "markup.yaml"
         scenario.write_text(
