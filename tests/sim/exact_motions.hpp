@@ -4,6 +4,8 @@
 
 #include <complex>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "friction_models/coulomb.hpp"
@@ -11,6 +13,9 @@
 #include "tests/support/oracle.hpp"
 
 namespace dualdamp::test {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+inline constexpr double pi = std::numbers::pi;
 
 inline friction::Law coulomb(double kinetic, double static_level) {
   return friction::Law(friction::Coulomb(kinetic, static_level));

@@ -4,36 +4,16 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
 
 #include "tests/sim/exact_motions.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/random.hpp"
 
-namespace {
-
 using namespace dualdamp;
+using namespace dualdamp::sim;
+using namespace dualdamp::test;
 using friction::Direction;
-using sim::DamperTo;
-using sim::EventKind;
-using sim::ExactEngine;
-using sim::ExcitationType;
-using sim::Interval;
-using sim::Model;
-using test::base_driven;
-using test::coulomb;
-using test::Event;
-using test::events_of;
-using test::ramped;
-using test::Random;
-using test::standard;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double pi = std::numbers::pi;
-
-}  // namespace
 
 TEST_CASE("The engine follows brute-force integration event by event", "[exact]") {
   struct Case {

@@ -3,34 +3,15 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "sim/simulate.hpp"
 #include "tests/sim/exact_motions.hpp"
 #include "tests/support/random.hpp"
 
-namespace {
-
 using namespace dualdamp;
+using namespace dualdamp::sim;
+using namespace dualdamp::test;
 using friction::Direction;
-using sim::DamperTo;
-using sim::EventKind;
-using sim::ExactEngine;
-using sim::ExcitationType;
-using sim::Interval;
-using sim::Model;
-using test::base_driven;
-using test::coulomb;
-using test::events_of;
-using test::linear;
-using test::ramped;
-using test::Random;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double pi = std::numbers::pi;
-
-}  // namespace
 
 TEST_CASE("Free Coulomb decay loses 4F/k a cycle, to the last bit, and stops inside the rest set", "[exact]") {
   // k = 64, F = 1, so F/k = 2^-6 and all turning points are exact numbers.

@@ -3,27 +3,15 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "tests/sim/exact_motions.hpp"
 #include "tests/support/exponential_sum.hpp"
 #include "tests/support/random.hpp"
 
-namespace {
-
 using namespace dualdamp;
+using namespace dualdamp::sim;
+using namespace dualdamp::test;
 using friction::Direction;
-using sim::EventKind;
-using sim::ExactEngine;
-using sim::Model;
-using test::base_driven;
-using test::coulomb;
-using test::events_of;
-using test::Random;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 // Random releases from rest against the closed form in 50 digits and a search in long double.
 

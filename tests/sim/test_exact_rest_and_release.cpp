@@ -4,33 +4,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "friction_models/contact_compliance.hpp"
 #include "tests/sim/exact_motions.hpp"
 #include "tests/support/random.hpp"
 
-namespace {
-
 using namespace dualdamp;
+using namespace dualdamp::sim;
+using namespace dualdamp::test;
 using friction::Direction;
-using sim::EventKind;
-using sim::ExactEngine;
-using sim::ExcitationType;
-using sim::Interval;
-using sim::Model;
-using test::base_driven;
-using test::coulomb;
-using test::Event;
-using test::events_of;
-using test::ramped;
-using test::Random;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double pi = std::numbers::pi;
-
-}  // namespace
 
 TEST_CASE("A start exactly at the limit stays while the pull falls and slips while it grows", "[exact]") {
   // k x0 = -5 N and static = 5 N, all exact in binary: |pull| = static to the last bit.
