@@ -11,19 +11,18 @@
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/curves.hpp"
 #include "sim/simulate.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
 
 namespace {
 
 /// The paper's bearing with the soft spring, at its undamped resonance.
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
-const double natural = std::sqrt(stiffness / mass);
 
-sim::Model bearing(double zeta, double F0) {
+sim::Model bearing_under(double zeta, double F0) {
   sim::Model model;
   model.oscillator = {mass, stiffness, 2.0 * zeta * std::sqrt(mass * stiffness), sim::DamperTo::ground};
   model.friction.emplace_back(friction::Coulomb(F0, F0));
@@ -48,7 +47,7 @@ TEST_CASE("A simulated resonance test returns its friction") {
   const double zeta = 0.12, F0 = 3.7;
   const double x_f = F0 / stiffness;
   const Record record =
-      measure(bearing(zeta, F0), natural, {2.0 * x_f, 2.3 * x_f, 2.6 * x_f, 2.9 * x_f, 3.2 * x_f});
+      measure(bearing_under(zeta, F0), natural, {2.0 * x_f, 2.3 * x_f, 2.6 * x_f, 2.9 * x_f, 3.2 * x_f});
   const KnownConstants constants{mass, stiffness, natural};
   // What is left is the method's own error, the neglect of H: below 1 % at r = 1, and known in advance from Eq (3).
   for (const auto& method : {resonance_least_squares, resonance_two_point}) {
@@ -68,7 +67,7 @@ TEST_CASE("The foot of a simulated stick-slip curve is found and left out") {
   const double boundary = x_f / sim::analytic::non_sticking_boundary(d);  // of the input, 1.588 x_f
   std::vector<double> levels = {1.30 * x_f, 1.42 * x_f, 1.54 * x_f};      // below it
   for (int i = 0; i < 6; ++i) levels.push_back(boundary * (1.02 + 0.12 * i));
-  const Record record = measure(bearing(zeta, F0), natural, levels);
+  const Record record = measure(bearing_under(zeta, F0), natural, levels);
   const Estimate e = resonance_least_squares(record, {mass, stiffness, natural}, {});
   REQUIRE(e.outcome.ok());
   REQUIRE(e.excluded.size() == 3);
@@ -90,7 +89,7 @@ TEST_CASE("The foot of a simulated stick-slip curve is found and left out") {
 
 TEST_CASE("A simulated free decay returns its friction to rounding") {
   const double zeta = 0.0819, F0 = 3.52;
-  sim::Model model = bearing(zeta, F0);
+  sim::Model model = bearing_under(zeta, F0);
   model.initial.position = 40e-3;
   const sim::FreeDecay motion = sim::free_decay(model, 6);
   DecayRecord record;

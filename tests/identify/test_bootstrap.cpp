@@ -7,6 +7,7 @@
 #include "identify/resonance_deming.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -16,7 +17,6 @@ namespace analytic = dualdamp::sim::analytic;
 namespace {
 
 constexpr double zeta = 0.12;
-const KnownConstants at_resonance{1.042, 1568.0, std::sqrt(1568.0 / 1.042)};
 
 const FurtherParameter& named(const Estimate& estimate, const std::string& name) {
   for (const FurtherParameter& parameter : estimate.others)

@@ -9,6 +9,7 @@
 #include "identify/resonance_least_squares.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/curves.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
@@ -18,10 +19,6 @@ namespace analytic = dualdamp::sim::analytic;
 
 namespace {
 
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
-const double natural = std::sqrt(stiffness / mass);
-const KnownConstants bearing{mass, stiffness, unknown};
 const std::vector<double> levels = {4.45e-3, 5.025e-3, 5.6e-3, 6.175e-3, 6.75e-3};
 
 /// Pairs of the closed form at every level and frequency, with errors of x.
@@ -42,8 +39,6 @@ Record exact_pairs(double zeta, double x_f, const std::vector<double>& ratios) {
   Normal none(1);
   return pairs_at(zeta, x_f, ratios, 0.0, none);
 }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 /// Standard errors of (zeta, x_f, wn/wn), the last one free or known, for errors sigma of x: from differences of
 /// the closed form, by no code of the method.

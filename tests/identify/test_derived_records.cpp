@@ -10,19 +10,18 @@
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/simulate.hpp"
+#include "tests/identify/bearing.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
 
 namespace {
 
 /// The paper's bearing with the soft spring.
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
 constexpr double zeta = 0.12;
 constexpr double F0 = 3.7;
 constexpr double x_f = F0 / stiffness;
-const double natural = std::sqrt(stiffness / mass);
 
 sim::Model bearing() {
   sim::Model model;

@@ -6,6 +6,7 @@
 
 #include "friction_models/coulomb.hpp"
 #include "sim/steady_state.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;
@@ -15,12 +16,8 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
 constexpr double c = 11.0;
 constexpr double F0 = 3.7;
-const double natural = std::sqrt(stiffness / mass);
-const KnownConstants bearing{mass, stiffness, unknown};
 
 /// What a perfect laboratory reads of the simulated motion: the work of the base gives the fundamental, that of the
 /// damper the mean square speed.
@@ -54,8 +51,6 @@ std::vector<Pair> sliding_states() {
     for (const double Y : {5.0e-3, 6.0e-3, 7.0e-3}) states.push_back(measure(r, Y));
   return states;
 }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim/analytic/free_decay.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -26,8 +27,6 @@ std::vector<double> shifted(std::vector<double> extremes, double offset) {
   for (double& e : extremes) e += offset;
   return extremes;
 }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 }  // namespace
 

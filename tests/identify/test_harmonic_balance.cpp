@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -15,11 +16,6 @@ namespace analytic = dualdamp::sim::analytic;
 using std::numbers::pi;
 
 namespace {
-
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
-const double natural = std::sqrt(stiffness / mass);
-const KnownConstants at_resonance{mass, stiffness, natural};
 
 /// (4/pi) int_0^(pi/2) f(V sin theta) sin theta d theta, adaptively.
 double fundamental_of(const std::function<double(double)>& f, double V) {
@@ -45,8 +41,6 @@ const EstimateCurve& named(const Estimate& estimate, const std::string& name) {
   REQUIRE(found != estimate.curves.end());
   return *found;
 }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -24,8 +25,6 @@ std::vector<double> decay(double zeta, double x_f, double first, int count) {
   }
   return list;
 }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "friction_models/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/curves.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
@@ -20,22 +21,11 @@ namespace analytic = dualdamp::sim::analytic;
 
 namespace {
 
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
-const double natural = std::sqrt(stiffness / mass);
-const KnownConstants bearing{mass, stiffness, natural};
-
 Record exact_pairs(double zeta, double x_f, const std::vector<double>& levels, double sigma, Normal& normal) {
   std::vector<std::pair<double, double>> list;
   for (const double Y : levels)
     list.emplace_back(Y, analytic::amplitude(analytic::den_hartog(zeta, 1.0), Y, x_f).value() + sigma * normal());
   return pairs(list);
-}
-
-std::vector<double> levels(double from, double to, int count) {
-  std::vector<double> list;
-  for (int i = 0; i < count; ++i) list.push_back(from + (to - from) * i / (count - 1));
-  return list;
 }
 
 /// Pairs of the motion itself, at resonance or beside it.
@@ -105,7 +95,8 @@ TEST_CASE("The five reconstructed pairs: Coulomb + viscous is rejected at 1 %, s
 
 TEST_CASE("Exact Coulomb + viscous pairs are Coulomb + viscous") {
   Normal none(1);
-  const Estimate e = law_selection(exact_pairs(0.12, 2.36e-3, levels(4.4e-3, 7e-3, 8), 0.0, none), bearing, {});
+  const Estimate e =
+      law_selection(exact_pairs(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 8), 0.0, none), at_resonance, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
   CHECK(e.candidates.front().law == "coulomb_viscous");
@@ -125,7 +116,7 @@ TEST_CASE("Noise alone rejects Coulomb + viscous friction no more often than the
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < samples; ++i) {
     const Estimate e =
-        law_selection(exact_pairs(0.12, 2.36e-3, levels(4.4e-3, 7e-3, 10), 0.05e-3, normal), bearing, {});
+        law_selection(exact_pairs(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 10), 0.05e-3, normal), at_resonance, {});
     REQUIRE(e.outcome.ok());
     fired += e.lack_of_fit->fired;
     first += e.candidates.front().law == "coulomb_viscous";
@@ -137,11 +128,11 @@ TEST_CASE("Noise alone rejects Coulomb + viscous friction no more often than the
 }
 
 TEST_CASE("Laws are recovered from the motion they make") {
-  const std::vector<double> inputs = levels(4.0e-3, 7.0e-3, 10);
+  const std::vector<double> inputs = spaced(4.0e-3, 7.0e-3, 10);
   sim::Model saturating;
   saturating.friction.emplace_back(friction::Coulomb(3.16, 3.16));
   saturating.friction.emplace_back(friction::ViscousSaturating(18.7, 0.69));
-  const Estimate e = law_selection(pairs(simulate(saturating, inputs)), bearing, {});
+  const Estimate e = law_selection(pairs(simulate(saturating, inputs)), at_resonance, {});
   REQUIRE(e.outcome.ok());
   CHECK_FALSE(e.usable);
   const LawCandidate& best = e.candidates.front();
@@ -161,7 +152,7 @@ TEST_CASE("Laws are recovered from the motion they make") {
   sim::Model stribeck;
   stribeck.oscillator.damping = 11.0;
   stribeck.friction.emplace_back(friction::Stribeck(friction::StribeckCurve(3.0, 5.0, 0.2)));
-  const Estimate s = law_selection(pairs(simulate(stribeck, inputs)), bearing, {});
+  const Estimate s = law_selection(pairs(simulate(stribeck, inputs)), at_resonance, {});
   REQUIRE(s.outcome.ok());
   CHECK(s.candidates.front().law == "stribeck");
   CHECK(parameter(s.candidates.front(), "c") == Approx(11.0).epsilon(0.1));
@@ -176,10 +167,10 @@ TEST_CASE("A second frequency tells position from velocity") {
   model.friction.emplace_back(friction::ViscousPower(10.0, 1.0, 2.0));
   PairRecord record;
   for (const double r : {0.85, 1.0})
-    for (const auto& [Y, x] : simulate(model, levels(4e-3, 9e-3, 6), r))
+    for (const auto& [Y, x] : simulate(model, spaced(4e-3, 9e-3, 6), r))
       record.pairs.push_back(
           {.Y = Y, .x = x, .sweep = {}, .number = static_cast<int>(record.pairs.size()) + 1, .omega = r * natural});
-  const Estimate e = law_selection({record, std::nullopt}, bearing, {});
+  const Estimate e = law_selection({record, std::nullopt}, at_resonance, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.candidates.front().law == "quadratic_drag");
   CHECK(named(e, "position_quadratic").BIC > e.candidates.front().BIC + 2.0);
@@ -192,15 +183,15 @@ TEST_CASE("Sweeps whose residuals go together count for fewer pairs") {
   PairRecord record;
   for (int j = 0; j < 10; ++j) {
     const double x_f = 2.3e-3 + 0.1e-3 * normal();
-    for (const double Y : levels(4.5e-3, 7e-3, 5))
+    for (const double Y : spaced(4.5e-3, 7e-3, 5))
       record.pairs.push_back({.Y = Y,
                               .x = analytic::amplitude(analytic::den_hartog(0.12, 1.0), Y, x_f).value(),
                               .sweep = std::to_string(j),
                               .number = static_cast<int>(record.pairs.size()) + 1});
   }
-  const Estimate swept = law_selection({record, std::nullopt}, bearing, {});
+  const Estimate swept = law_selection({record, std::nullopt}, at_resonance, {});
   for (Pair& pair : record.pairs) pair.sweep.clear();
-  const Estimate single = law_selection({record, std::nullopt}, bearing, {});
+  const Estimate single = law_selection({record, std::nullopt}, at_resonance, {});
   REQUIRE(swept.outcome.ok());
   // The penalty of one parameter, 2 K + 2 K (K + 1)/(N - K - 1), grows as N falls to about ten.
   const auto penalty = [](const Estimate& e) {
@@ -210,8 +201,8 @@ TEST_CASE("Sweeps whose residuals go together count for fewer pairs") {
 }
 
 TEST_CASE("Records that allow no comparison of laws are refused with the reason") {
-  CHECK(law_selection(Record{}, bearing, {}).reason == "the record holds no x-Y pairs");
+  CHECK(law_selection(Record{}, at_resonance, {}).reason == "the record holds no x-Y pairs");
   Normal none(1);
-  CHECK(law_selection(exact_pairs(0.12, 2.36e-3, levels(4.4e-3, 7e-3, 3), 0.0, none), bearing, {}).reason ==
+  CHECK(law_selection(exact_pairs(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 3), 0.0, none), at_resonance, {}).reason ==
         "four levels are needed to compare laws, and the record has 3");
 }

@@ -9,6 +9,7 @@
 #include "identify/resonance_least_squares.hpp"
 #include "identify/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -16,8 +17,6 @@ using namespace dualdamp::identify::testing;
 namespace analytic = dualdamp::sim::analytic;
 
 namespace {
-
-const KnownConstants at_resonance{1.042, 1568.0, std::sqrt(1568.0 / 1.042)};
 
 std::vector<std::pair<double, double>> noisy_line(double sigma) {
   Normal normal(12);

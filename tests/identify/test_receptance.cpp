@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -15,13 +16,9 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double mass = 1.042;
-constexpr double stiffness = 1568.0;
 constexpr double c = 11.0;
 constexpr double F0 = 3.7;
-const double natural = std::sqrt(stiffness / mass);
 const double zeta = c / (2.0 * std::sqrt(mass * stiffness));
-const KnownConstants bearing{mass, stiffness, unknown};
 
 /// mu = 4 F0/(pi k Y) = 0.6.
 constexpr double Y = 4.0 * F0 / (pi * stiffness * 0.6);
@@ -40,12 +37,6 @@ Record response(const std::vector<double>& ratios, bool fundamental = true) {
                             .fundamental = fundamental ? state->fundamental : unknown});
   }
   return {record, std::nullopt};
-}
-
-std::vector<double> ratios(double from, double to, int count) {
-  std::vector<double> list;
-  for (int i = 0; i < count; ++i) list.push_back(from + (to - from) * i / (count - 1));
-  return list;
 }
 
 /// States that balance in the first harmonic exactly: (k - m w^2 + i c w) X + i 4 F0/pi = k Y exp(i phi).
@@ -72,12 +63,10 @@ Record harmonic(const std::vector<double>& list, double bend = 0.0) {
   return {record, std::nullopt};
 }
 
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("A motion that balances in the first harmonic gives the truth") {
-  const Estimate e = receptance(harmonic(ratios(0.95, 1.05, 7)), bearing, {});
+  const Estimate e = receptance(harmonic(spaced(0.95, 1.05, 7)), bearing, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.excluded.empty());
   CHECK(e.value.c == Approx(c).epsilon(1e-9));
@@ -90,7 +79,7 @@ TEST_CASE("A motion that balances in the first harmonic gives the truth") {
 TEST_CASE("The exact motion is read with the bias of harmonic balance, which the method knows") {
   // zeta = 0.136, mu = 0.6, frequencies over 20 % on both sides: c = 11.12 for 11, F0 = 3.65 for 3.7, and the real
   // part shows a stiffness 4 % and a natural frequency 2.7 % low.
-  const Estimate e = receptance(response(ratios(0.8, 1.2, 41)), bearing, {});
+  const Estimate e = receptance(response(spaced(0.8, 1.2, 41)), bearing, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.excluded.empty());
   CHECK(e.value.c == Approx(11.12).epsilon(0.002));
@@ -103,7 +92,7 @@ TEST_CASE("The exact motion is read with the bias of harmonic balance, which the
   CHECK_FALSE(e.lack_of_fit->fired);
 
   // The limacon wants a wide range of phases: over 28 % it reads 11.36 and 3.60.
-  const Estimate wide = receptance(response(ratios(0.72, 1.28, 41)), bearing, {});
+  const Estimate wide = receptance(response(spaced(0.72, 1.28, 41)), bearing, {});
   REQUIRE(wide.subsets.size() == 1);
   CHECK(wide.subsets[0].label == "limacon");
   CHECK(wide.subsets[0].value.c == Approx(11.36).epsilon(0.03));
@@ -112,7 +101,7 @@ TEST_CASE("The exact motion is read with the bias of harmonic balance, which the
 
 TEST_CASE("Friction that bends with the speed fires the test of the receptance") {
   // A term -20 N.s^2/m^2 |v| v: at 0.25 m/s a sixth of the friction.
-  const Estimate e = receptance(harmonic(ratios(0.85, 1.15, 15), -20.0), bearing, {});
+  const Estimate e = receptance(harmonic(spaced(0.85, 1.15, 15), -20.0), bearing, {});
   REQUIRE(e.outcome.ok());
   REQUIRE(e.lack_of_fit.has_value());
   CHECK(e.lack_of_fit->fired);
@@ -120,9 +109,9 @@ TEST_CASE("Friction that bends with the speed fires the test of the receptance")
 }
 
 TEST_CASE("Intervals of the receptance hold in a Monte Carlo experiment") {
-  // The exact motion, which the method misreads by c +1.1 % and F0 -1.4 %, and errors of x of 30 um along and across,
-  // 0.3 % of the largest. 3000 samples know a coverage to 0.4 %, the rate of the test to as much.
-  const Record exact = response(ratios(0.85, 1.15, 13));
+  // The exact motion, which the method misreads by c +1.1 % and F0 -1.4 %, and errors of x of 30 um along and
+  // across, 0.3 % of the largest. 3000 samples know a coverage to 0.4 %, the rate of the test to as much.
+  const Record exact = response(spaced(0.85, 1.15, 13));
   Normal normal(61);
   int covered_c = 0, covered_F0 = 0, fired = 0;
   constexpr int samples = 3000;
@@ -151,7 +140,7 @@ TEST_CASE("Records that allow no receptance are refused with the reason") {
   CHECK(receptance(pairs(table_1), table_1_constants, {}).reason == "the record holds no x-Y pairs with phases");
   CHECK(mentions(receptance(response({0.98, 1.02}), bearing, {}).reason, "fewer than three frequencies"));
   // Without the mass there is no gate and no damping ratio.
-  const Estimate e = receptance(harmonic(ratios(0.95, 1.05, 7)), {unknown, stiffness, unknown}, {});
+  const Estimate e = receptance(harmonic(spaced(0.95, 1.05, 7)), {unknown, stiffness, unknown}, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.value.c == Approx(c).epsilon(1e-9));
   CHECK(std::isnan(e.value.zeta));

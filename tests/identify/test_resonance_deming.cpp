@@ -6,6 +6,7 @@
 #include "identify/line_estimate.hpp"
 #include "identify/resonance_least_squares.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double zeta = 0.12;
 constexpr double x_f = 2.5e-3;
-const KnownConstants at_resonance{1.042, 1568.0, std::sqrt(1568.0 / 1.042)};
 
 /// Sweeps of five levels over the paper's range, on the straight line, with errors of both amplitudes.
 std::vector<std::pair<double, double>> noisy_line(Normal& normal, double sigma_x, double sigma_Y, int count = 25) {

@@ -8,6 +8,7 @@
 
 #include "identify/resonance_deming.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -26,8 +27,6 @@ Record exact_pairs(double zeta, double r, double x_f, const std::vector<double>&
 }
 
 KnownConstants constants_at(double r) { return {1.0, 100.0, 10.0 * r}; }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 }  // namespace
 

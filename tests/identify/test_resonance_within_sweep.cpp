@@ -5,6 +5,7 @@
 
 #include "identify/resonance_least_squares.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double zeta = 0.0987;
 constexpr double x_f = 2.2e-3;  // the lowest level is far from sticking whatever the drift
-const KnownConstants at_resonance{1.042, 1568.0, std::sqrt(1568.0 / 1.042)};
 
 /// The levels of one experiment: ten sweeps of five, set by hand to 0.058 mm.
 std::vector<std::vector<double>> levels_of(Normal& normal) {

@@ -1,8 +1,10 @@
 #include "identify/verdict.hpp"
 
 #include <catch2/catch.hpp>
+#include "tests/identify/bearing.hpp"
 
 using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
 
 namespace {
 
@@ -25,8 +27,6 @@ LackOfFit test(double p, bool fired) {
   result.fired = fired;
   return result;
 }
-
-bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 }  // namespace
 
