@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "identify/least_squares.hpp"
@@ -92,8 +93,7 @@ std::vector<double> spaced(double first, double spacing, std::size_t count) {
 double usual_intercept(const MechanismStudy& study, double stiffness) {
   double sum = 0.0;
   for (const scenarios::PartEstimate& estimate : study.estimates) sum += estimate.F0;
-  constexpr double four_over_pi = 1.2732395447351628;
-  return four_over_pi * sum / static_cast<double>(study.estimates.size()) / stiffness;
+  return 4.0 * std::numbers::inv_pi * sum / static_cast<double>(study.estimates.size()) / stiffness;
 }
 
 bool goes_by_ratios(const MechanismParameter& parameter) { return parameter.low > 0.0; }
