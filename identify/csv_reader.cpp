@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "identify/csv_text.hpp"
 #include "identify/text.hpp"
 
 namespace dualdamp::identify {
@@ -29,177 +30,12 @@ std::string excerpt(std::string_view text) {
 
 std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-struct SourceLine {
-  std::string_view text;  ///< without its line end
-  int number = 0;
-};
-
-/// Lines of a text one after the other, whose ends are LF, CRLF or (where there is no LF at all) CR.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : text_(text) {
-    if (text.find('\n') == std::string_view::npos) end_mark_ = '\r';
-    // Blank lines at the end are no rows.
-    text_ = text_.substr(0, text_.find_last_not_of(" \t\r\n") + 1);
-  }
-
-  [[nodiscard]] bool at_end() const { return start_ >= text_.size(); }
-
-  /// Cuts off the rows at the end that hold separators only: so spreadsheets write rows that were emptied.
-  void drop_empty_rows(char separator) {
-    const std::string blanks{' ', '\t', '\r', '\n', separator};
-    const std::size_t last = std::min(text_.find_last_not_of(blanks), text_.size());
-    text_ = text_.substr(0, text_.find(end_mark_, last));
-  }
-
-  SourceLine next() {
-    const std::size_t end = std::min(text_.find(end_mark_, start_), text_.size());
-    std::string_view line = text_.substr(start_, end - start_);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    start_ = end + 1;
-    return {line, ++number_};
-  }
-
-  /// Lines still to come.
-  [[nodiscard]] std::size_t count() const {
-    if (at_end()) return 0;
-    return static_cast<std::size_t>(
-               std::count(text_.begin() + static_cast<std::ptrdiff_t>(start_), text_.end(), end_mark_)) +
-           1;
-  }
-
- private:
-  std::string_view text_;
-  std::size_t start_ = 0;
-  int number_ = 0;
-  char end_mark_ = '\n';
-};
-
-/// The separator that stands in the header: a tab, else a semicolon, else a comma.
-char separator_of(std::string_view header) {
-  for (const char candidate : {'\t', ';'}) {
-    bool inside = false;
-    for (const char c : header) {
-      if (c == '"') inside = !inside;
-      if (c == candidate && !inside) return candidate;
-    }
-  }
-  return ',';
-}
-
-/// The fields of a line from left to right; one in double quotes may hold the separator, and a quote as two quotes.
-class Fields {
- public:
-  Fields(std::string_view line, char separator) : line_(line), separator_(separator) {}
-
-  /// False when there is no further field.
-  bool next() {
-    if (done_) return false;
-    const bool tabs = separator_ == '\t';
-    while (at_ < line_.size() && (line_[at_] == ' ' || (line_[at_] == '\t' && !tabs))) ++at_;
-    column = static_cast<int>(at_) + 1;
-    if (at_ < line_.size() && line_[at_] == '"') {
-      read_quoted();
-    } else {
-      const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
-      text = trimmed(line_.substr(at_, end - at_));
-      at_ = end;
-    }
-    done_ = at_ >= line_.size();
-    ++at_;
-    return true;
-  }
-
-  std::string_view text;     ///< valid until the next call
-  int column = 1;            ///< where the content begins, from 1
-  bool is_unclosed = false;  ///< a quoted field did not end with its quote
-
- private:
-  void read_quoted() {
-    unquoted_.clear();
-    bool closed = false;
-    for (++at_; at_ < line_.size() && !closed; ++at_) {
-      const bool doubled = line_[at_] == '"' && at_ + 1 < line_.size() && line_[at_ + 1] == '"';
-      closed = line_[at_] == '"' && !doubled;
-      if (!closed) unquoted_ += line_[at_];
-      if (doubled) ++at_;
-    }
-    const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
-    is_unclosed = is_unclosed || !closed || !trimmed(line_.substr(at_, end - at_)).empty();
-    text = unquoted_;
-    at_ = end;
-  }
-
-  std::string_view line_;
-  char separator_;
-  std::size_t at_ = 0;
-  bool done_ = false;
-  std::string unquoted_;
-};
-
-/// "x [mm]" or "x (mm)" taken apart.
-struct Heading {
-  std::string text;  ///< the whole of it
-  std::string name;
-  std::string unit;
-  int column = 1;
-  bool well_formed = true;
-};
-
-Heading parse_heading(std::string_view text, int column) {
-  Heading heading{std::string(text), std::string(trimmed(text)), {}, column, true};
-  const std::size_t open = text.find_first_of("[(");
-  if (open == std::string_view::npos) {
-    heading.well_formed = text.find_first_of("])") == std::string_view::npos;
-    return heading;
-  }
-  const std::string_view rest = text.substr(open + 1);
-  const std::size_t close = rest.find(text[open] == '[' ? ']' : ')');
-  heading.name = trimmed(text.substr(0, open));
-  if (close != std::string_view::npos) heading.unit = trimmed(rest.substr(0, close));
-  heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
-  return heading;
-}
-
 /// What a field of every row is for.
 struct Target {
   const KnownColumn* known = nullptr;  ///< nullptr: ignored
   double factor = 1.0;
   std::vector<double>* values = nullptr;  ///< nullptr: a label
 };
-
-/// Significant digits and the place of the last one of a decimal number, written with or without exponent.
-struct Digits {
-  int significant = 0;
-  int decimals = 0;  ///< of the last digit: 3 means thousandths
-};
-
-Digits digits_of(std::string_view text) {
-  Digits digits;
-  bool point = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '.') point = true;
-    if (c >= '0' && c <= '9') {
-      if (c != '0' || digits.significant > 0) ++digits.significant;
-      if (point) ++digits.decimals;
-    }
-    if (c == 'e' || c == 'E') {
-      int exponent = 0;
-      const std::size_t sign = i + 1 < text.size() && text[i + 1] == '+' ? 1 : 0;
-      std::from_chars(text.data() + i + 1 + sign, text.data() + text.size(), exponent);
-      digits.decimals -= exponent;
-      return digits;
-    }
-  }
-  return digits;
-}
 
 class Parser {
  public:

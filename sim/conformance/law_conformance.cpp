@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_host.hpp"
+#include "sim/conformance/parameter_conformance.hpp"
 
 namespace dualdamp::sim {
 
@@ -44,19 +43,6 @@ class Random {
 
   core::RandomStream stream_;
   std::uint64_t count_ = 0;
-};
-
-/// Keeps each kind of fault once.
-class Faults {
- public:
-  void add(const std::string& kind) {
-    if (kinds_.insert(kind).second) list_.push_back(kind);
-  }
-  [[nodiscard]] const std::vector<std::string>& list() const { return list_; }
-
- private:
-  std::set<std::string> kinds_;
-  std::vector<std::string> list_;
 };
 
 double value_of(const Affine& a, double s, const Instant& now) {
@@ -366,99 +352,6 @@ void examine_factor(const LawCase& c, Faults& faults) {
   }
 }
 
-bool names(const std::vector<friction::ParameterFault>& faults, std::string_view name) {
-  return std::any_of(faults.begin(), faults.end(), [&](const auto& fault) { return fault.name == name; });
-}
-
-/// What the table says about one parameter that has a value, tried out on `values`.
-class ParameterExaminer {
- public:
-  ParameterExaminer(const std::vector<friction::Parameter>& table, const friction::ParameterValues& values,
-                    Faults& faults)
-      : table_(table), values_(values), completed_(values), faults_(faults) {}
-
-  void run() {
-    if (!friction::complete(table_, completed_).empty()) return faults_.add("the values of the case are refused");
-    for (const friction::Parameter& parameter : table_) {
-      examine_text(parameter);
-      if (is_numeric(parameter)) examine_number(parameter);
-      if (parameter.kind == friction::ParameterKind::choice)
-        refuse(parameter, "no such word", parameter.describe());
-      examine_presence(parameter);
-      if (parameter.fields.empty() || !completed_.has(parameter.name)) continue;
-      for (const friction::ParameterValues& record : completed_.list(parameter.name))
-        ParameterExaminer(parameter.fields, record, faults_).run();
-    }
-    friction::ParameterValues unknown = values_;
-    unknown.set("no_such_parameter", 1.0);
-    if (!names(friction::complete(table_, unknown), "no_such_parameter"))
-      faults_.add("an unknown parameter is accepted");
-  }
-
- private:
-  static bool is_numeric(const friction::Parameter& parameter) {
-    using Kind = friction::ParameterKind;
-    return parameter.kind == Kind::number || parameter.kind == Kind::count || parameter.kind == Kind::seed;
-  }
-
-  void examine_text(const friction::Parameter& parameter) {
-    const bool has_unit = !parameter.unit.empty() || parameter.kind != friction::ParameterKind::number;
-    if (parameter.meaning.empty() || !has_unit)
-      faults_.add("'" + std::string(parameter.name) + "' has no meaning or no unit");
-  }
-
-  void refuse(const friction::Parameter& parameter, const friction::ParameterValues::Value& value,
-              const std::string& allowed) {
-    // Of the other form, in a case that uses the one: refused whatever its value.
-    if (!parameter.instead_of.empty() && completed_.has(parameter.instead_of)) return;
-    friction::ParameterValues wrong = values_;
-    const std::string name(parameter.name);
-    wrong.set(name, value);
-    const auto found = friction::complete(table_, wrong);
-    const auto fault = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.name == name; });
-    const auto* number = std::get_if<double>(&value);
-    const std::string what = "'" + name + "' = " + (number == nullptr ? "another" : std::to_string(*number));
-    if (fault == found.end()) return faults_.add(what + " is accepted");
-    if (fault->found.empty()) faults_.add(what + " is refused without the value");
-    if (fault->allowed != allowed) faults_.add(what + " is refused without the range");
-  }
-
-  void examine_number(const friction::Parameter& parameter) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (const double value : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity})
-      refuse(parameter, value, "a finite number");
-    const friction::Range range = parameter.allowed_range();
-    const std::string allowed = range.describe(parameter.unit);
-    const bool is_whole = parameter.kind != friction::ParameterKind::number;
-    const auto beyond = [&](double end) { return is_whole ? 1.0 : 1e-3 * std::max(1.0, std::abs(end)); };
-    if (std::isfinite(range.low)) refuse(parameter, range.low - beyond(range.low), allowed);
-    if (range.low_open) refuse(parameter, range.low, allowed);
-    if (std::isfinite(range.high)) refuse(parameter, range.high + beyond(range.high), allowed);
-    if (range.high_open) refuse(parameter, range.high, allowed);
-    if (is_whole) refuse(parameter, std::max(range.low, 0.0) + 0.5, parameter.describe());
-    if (parameter.at_least.empty() || completed_.number(parameter.at_least) <= range.low) return;
-    friction::ParameterValues below = completed_;
-    below.set(parameter.name, std::nextafter(completed_.number(parameter.at_least), -infinity));
-    if (!names(friction::complete(table_, below), parameter.name))
-      faults_.add("'" + std::string(parameter.name) + "' below '" + std::string(parameter.at_least) +
-                  "' is accepted");
-  }
-
-  void examine_presence(const friction::Parameter& parameter) {
-    const std::string name(parameter.name);
-    // Without one form the other is asked for; a part of it alone does not do.
-    if (!parameter.required() || !completed_.has(name)) return;
-    friction::ParameterValues missing = values_;
-    missing.erase(name);
-    if (friction::complete(table_, missing).empty()) faults_.add("a missing '" + name + "' is accepted");
-  }
-
-  const std::vector<friction::Parameter>& table_;
-  const friction::ParameterValues& values_;
-  friction::ParameterValues completed_;
-  Faults& faults_;
-};
-
 friction::Law with_scaled_limits(const friction::LawEntry& entry, friction::ParameterValues values, double factor) {
   for (const std::string_view name : entry.limits) values.set(name, factor * values.number(name));
   return entry.make(values).front();
@@ -488,7 +381,7 @@ LawCase law_case(std::string_view name, const friction::ParameterValues& values)
 
 std::vector<std::string> nonconformities(const LawCase& c) {
   Faults faults;
-  if (c.parameters != nullptr) ParameterExaminer(*c.parameters, c.values, faults).run();
+  if (c.parameters != nullptr) examine_parameters(*c.parameters, c.values, faults);
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
     const std::vector<double> forces = walk(c, seed, faults);
     if (seed == 5U && walk(c, seed, faults) != forces)
