@@ -8,6 +8,7 @@
 #include "core/numbers.hpp"
 #include "identify/correlated_regression.hpp"
 #include "identify/force_parameters.hpp"
+#include "identify/replicas.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -92,28 +93,29 @@ ForceParameters force_parameters(const CorrelatedFit& fit, const Columns& column
           fit.coefficients[columns.friction]};
 }
 
-/// Covariance of (m, c, k, F0), zero where the constants give the value.
-Eigen::Matrix4d force_covariance(const CorrelatedFit& fit, const Columns& columns) {
-  const std::array<std::optional<Eigen::Index>, 4> places{columns.mass, columns.damping, columns.stiffness,
-                                                          columns.friction};
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      if (places[i] && places[j])
-        covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            fit.covariance(*places[i], *places[j]);
-  return covariance;
+constexpr Eigen::Index offset_place = 4;
+
+/// (m, c, k, F0, offset) and their standard errors, zero where the constants give the value.
+Reading reading_of(const CorrelatedFit& fit, const Columns& columns, const KnownConstants& constants) {
+  const ForceParameters force = force_parameters(fit, columns, constants);
+  Reading reading{Eigen::VectorXd(5), Eigen::VectorXd::Zero(5)};
+  reading.parameters << force.m, force.c, force.k, force.F0, fit.coefficients[columns.offset];
+  const std::array<std::optional<Eigen::Index>, 5> places{columns.mass, columns.damping, columns.stiffness,
+                                                          columns.friction, columns.offset};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i]) reading.errors[static_cast<Eigen::Index>(i)] = std::sqrt(fit.covariance(*places[i], *places[i]));
+  return reading;
 }
 
-std::vector<FurtherParameter> further_parameters(const CorrelatedFit& fit, const Columns& columns) {
-  const double half_width = quantile95(fit.freedom());
+std::vector<FurtherParameter> further_parameters(const Reading& reading, const Columns& columns,
+                                                 const std::optional<ReplicaSpread>& spread) {
   std::vector<FurtherParameter> list;
-  const auto add = [&](const char* name, const char* unit, Eigen::Index column) {
-    list.push_back(further(name, unit, fit.coefficients[column], fit.covariance(column, column), half_width));
+  const auto add = [&](const char* name, const char* unit, Eigen::Index place) {
+    list.push_back(further(name, unit, reading.parameters[place], spread, place));
   };
-  if (columns.mass) add("mass", "kg", *columns.mass);
-  if (columns.stiffness) add("stiffness", "N/m", *columns.stiffness);
-  add("offset", "N", columns.offset);
+  if (columns.mass) add("mass", "kg", 0);
+  if (columns.stiffness) add("stiffness", "N/m", 2);
+  add("offset", "N", offset_place);
   return list;
 }
 
@@ -197,7 +199,7 @@ void compare_cutoffs(const std::vector<NumberedHistory>& histories, const Regres
     const ForceParameters force = force_parameters(*other.fit, columns, constants);
     estimate.subsets.push_back({"cutoff " + core::format_number(cutoffs[choice], 4) + " Hz",
                                 static_cast<int>(other.rows.target.size()), parameters(force),
-                                further_parameters(*other.fit, columns)});
+                                further_parameters(reading_of(*other.fit, columns, constants), columns, {})});
     spread = std::max(spread, std::abs(force.F0 / estimate.value.F0 - 1.0));
     spread = std::max(spread, std::abs(force.c / estimate.value.c - 1.0));
   }
@@ -239,8 +241,15 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   std::vector<std::string> faults;
   if (!(force.m > 0.0)) faults.emplace_back("the mass came out negative");
   if (force.k < 0.0) faults.emplace_back("the stiffness came out negative");
-  set_estimate(estimate, force, force_covariance(fit, columns), quantile95(fit.freedom()));
-  estimate.others = further_parameters(fit, columns);
+  const Reading own = reading_of(fit, columns, constants);
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    Estimate ignored;
+    const Regression other = regress(usable_histories(replica, options, ignored), 0, columns, constants, options);
+    return other.fit ? std::optional(reading_of(*other.fit, columns, constants)) : std::nullopt;
+  };
+  const std::optional<ReplicaSpread> spread = replica_spread(histories, own, own.parameters[offset_place], again);
+  set_estimate(estimate, force, spread);
+  estimate.others = further_parameters(own, columns, spread);
   for (const NumberedHistory& item : histories) estimate.used.push_back(item.number);
   estimate.excluded.insert(estimate.excluded.end(), regression.rows.slow.begin(), regression.rows.slow.end());
   estimate.curves.push_back(friction_curve(regression.rows, fit, columns));

@@ -13,8 +13,8 @@
 /// cut-off, the others show among `subsets` what the choice matters. With exact x, v, a: exact.
 ///
 /// Checked: columns that nearly depend on each other (a = -w^2 x at one level and frequency); a term v|v|; how far
-/// the cut-offs agree. Uncertainty: covariance that allows for residuals that are alike from sample to sample
-/// (`identify/correlated_regression.hpp`); it knows nothing of errors in a, v and x, which bias the fit.
+/// the cut-offs agree. Uncertainty: from replicas of the record (`identify/replicas.hpp`), for errors in a, v and x
+/// bias the fit; residuals that are alike from sample to sample beyond them widen it.
 /// Source: after chen1996, janot2019. Errors: `outcome`. Cost: some 100 operations a sample.
 
 #include "identify/method.hpp"
@@ -28,7 +28,7 @@ namespace dualdamp::identify {
 inline constexpr MethodEntry acceleration_velocity_displacement_method{
     "acceleration_velocity_displacement",
     "mass, stiffness and friction by regressing the forces on acceleration, velocity and displacement",
-    "constant sample rate; mass, stiffness or force known; errors in the forces alone; checked: condition of the "
+    "constant sample rate; mass, stiffness or force known; white noise; checked: condition of the "
     "columns, a term v|v|, agreement of several cut-off frequencies",
     "k (y - x) + f = m a + c v + F0 sgn v + offset, least squares over samples with |v| > least speed",
     "chen1996, janot2019",

@@ -8,6 +8,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/force_parameters.hpp"
+#include "identify/replicas.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -26,7 +27,8 @@ struct Setting {
   double stiffness = 1.0;
   double width = 1.0;  ///< of the smoothed sign [m/s]
   double noise = 1.0;  ///< of x [m]
-  int steps = 1;       ///< of integration a sample
+  int steps = 1;       ///< of integration a sample, where the sign turns
+  int few_steps = 1;   ///< where it is saturated
 };
 
 /// Rates of state and covariance under the drive k y + f.
@@ -36,11 +38,10 @@ Belief rates(const Belief& at, double drive, const Setting& setting) {
   const double slope = (1.0 - sign * sign) / setting.width;
   Belief rate;
   rate.state << v, (drive - setting.stiffness * x - c * v - F0 * sign) / setting.mass, 0.0, 0.0;
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
-  A(0, 1) = 1.0;
-  A.row(1) << -setting.stiffness, -c - F0 * slope, -sign, -v;
-  A.row(1) /= setting.mass;
-  const Eigen::Matrix4d AP = A * at.P;
+  // Of A P only the first two rows are not zero.
+  Eigen::Matrix4d AP = Eigen::Matrix4d::Zero();
+  AP.row(0) = at.P.row(1);
+  AP.row(1) = Eigen::RowVector4d(-setting.stiffness, -c - F0 * slope, -sign, -v) * at.P / setting.mass;
   rate.P = AP + AP.transpose();
   return rate;
 }
@@ -49,11 +50,22 @@ Belief moved(const Belief& from, const Belief& rate, double by) {
   return {from.state + by * rate.state, from.P + by * rate.P};
 }
 
+/// Steps over a sample interval: many only where the velocity may come near the turn of the sign.
+int steps_over(const Belief& at, double from, double to, double interval, const Setting& setting) {
+  constexpr double saturated = 8.0;  // widths: 1 - tanh^2 is 5e-7 there
+  constexpr double margin = 1.5;
+  const double x = at.state[0], v = at.state[1], F0 = at.state[2], c = at.state[3];
+  const double pull = std::max(std::abs(from - setting.stiffness * x), std::abs(to - setting.stiffness * x));
+  const double change = (pull + std::abs(c * v) + std::abs(F0)) / setting.mass * interval;
+  return std::abs(v) > saturated * setting.width + margin * change ? setting.few_steps : setting.steps;
+}
+
 /// Runge and Kutta's method over one sample interval; the drive is linear in between.
 Belief predict(Belief belief, double from, double to, double interval, const Setting& setting) {
-  const double h = interval / setting.steps;
-  for (int step = 0; step < setting.steps; ++step) {
-    const auto drive = [&](double part) { return from + (to - from) * (step + part) / setting.steps; };
+  const int steps = steps_over(belief, from, to, interval, setting);
+  const double h = interval / steps;
+  for (int step = 0; step < steps; ++step) {
+    const auto drive = [&](double part) { return from + (to - from) * (step + part) / steps; };
     const Belief k1 = rates(belief, drive(0.0), setting);
     const Belief k2 = rates(moved(belief, k1, 0.5 * h), drive(0.5), setting);
     const Belief k3 = rates(moved(belief, k2, 0.5 * h), drive(0.5), setting);
@@ -133,11 +145,16 @@ Scales scales_of(const History& history, const MethodOptions& options) {
 }
 
 Setting setting_for(const Scales& scales, double width, const History& history, const KnownConstants& constants) {
-  Setting setting{constants.mass, constants.stiffness, width, scales.noise, 1};
+  Setting setting{constants.mass, constants.stiffness, width, scales.noise};
+  const double slowest = std::sqrt(constants.stiffness / constants.mass);
   // The steepest rate is that of the smoothed sign, for a friction of a quarter of the spring's force.
-  const double rate = 0.25 * constants.stiffness * scales.length / (constants.mass * width) +
-                      std::sqrt(constants.stiffness / constants.mass);
-  setting.steps = std::clamp(static_cast<int>(std::ceil(rate / history.sample_rate / 0.25)), 1, 100);
+  const double steepest = 0.25 * constants.stiffness * scales.length / (constants.mass * width) + slowest;
+  const auto steps_for = [&](double rate) {
+    constexpr double of_a_step = 0.25;
+    return std::clamp(static_cast<int>(std::ceil(rate / history.sample_rate / of_a_step)), 1, 100);
+  };
+  setting.steps = steps_for(steepest);
+  setting.few_steps = steps_for(slowest);
   return setting;
 }
 
@@ -158,11 +175,16 @@ std::string fault_of_passage(const Passage& passage, const Scales& scales) {
   return {};
 }
 
+/// (m, c, k, F0), mass and stiffness being constants; errors by what the innovations are beside what P expects.
+Reading reading_of(const Passage& passage, const KnownConstants& constants) {
+  const Eigen::Vector4d& end = passage.end.state;
+  const auto error = [&](Eigen::Index i) { return std::sqrt(passage.surprise * passage.end.P(i, i)); };
+  return {Eigen::Vector4d(constants.mass, end[3], constants.stiffness, end[2]),
+          Eigen::Vector4d(0.0, error(3), 0.0, error(2))};
+}
+
 void judge(const Passage& passage, const std::optional<Passage>& wider, Estimate& estimate,
            std::vector<std::string>& faults) {
-  estimate.warnings.emplace_back(
-      "the standard errors of this filter leave out what the smoothed sign of the velocity does, and are too "
-      "small");
   constexpr double surprising = 2.0;
   if (passage.surprise > surprising)
     estimate.warnings.push_back("the filter misses the motion by " +
@@ -201,24 +223,28 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
     refuse(estimate, "the mass does not move");
     return estimate;
   }
-  const double width = options.sign_width > 0.0 ? options.sign_width : 0.003 * scales.speed;
-  const Belief start = ignorance(*history, scales, constants);
+  const auto width_for = [&](const Scales& of) {
+    return options.sign_width > 0.0 ? options.sign_width : 0.003 * of.speed;
+  };
+  const double width = width_for(scales);
   const auto with_width = [&](double w) {
-    return pass(*history, start, setting_for(scales, w, *history, constants));
+    return pass(*history, ignorance(*history, scales, constants), setting_for(scales, w, *history, constants));
   };
   Passage passage = with_width(width);
   if (std::string fault = fault_of_passage(passage, scales); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    const History& noisy = replica.histories.front();
+    const Scales its = scales_of(noisy, options);
+    const Passage other =
+        pass(noisy, ignorance(noisy, its, constants), setting_for(its, width_for(its), noisy, constants));
+    return fault_of_passage(other, its).empty() ? std::optional(reading_of(other, constants)) : std::nullopt;
+  };
   const Eigen::Vector4d& end = passage.end.state;
-  const Eigen::Matrix4d& P = passage.end.P;
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  covariance(1, 1) = P(3, 3);
-  covariance(1, 3) = covariance(3, 1) = P(2, 3);
-  covariance(3, 3) = P(2, 2);
-  set_estimate(estimate, {constants.mass, end[3], constants.stiffness, end[2]}, covariance,
-               quantile95(std::numeric_limits<double>::infinity()));
+  set_estimate(estimate, {constants.mass, end[3], constants.stiffness, end[2]},
+               replica_spread({{number, history}}, reading_of(passage, constants), 0.0, again));
   estimate.used = {number};
   estimate.curves.push_back(std::move(passage.curve));
   std::optional<Passage> wider = with_width(2.0 * width);

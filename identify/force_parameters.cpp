@@ -14,7 +14,7 @@ ParameterSet parameters(const ForceParameters& force) {
 }
 
 void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen::Matrix4d& covariance,
-                  double half_width) {
+                  double half_width, const ForceParameters& bias) {
   estimate.value = parameters(force);
   const ParameterSet& value = estimate.value;
   const double twice_root = 2.0 * std::sqrt(force.m) * std::sqrt(force.k);
@@ -31,8 +31,10 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
     return std::array<double, 2>{middle - half_width * std, middle + half_width * std};
   };
   estimate.std = error;
-  estimate.interval95 = {around(value.zeta, error.zeta), around(value.c, error.c), around(value.x_f, error.x_f),
-                         around(value.F0, error.F0)};
+  const ParameterSet middle =
+      parameters({force.m - bias.m, force.c - bias.c, force.k - bias.k, force.F0 - bias.F0});
+  estimate.interval95 = {around(middle.zeta, error.zeta), around(middle.c, error.c), around(middle.x_f, error.x_f),
+                         around(middle.F0, error.F0)};
   // Without a spring there is no zeta to correlate: c in its place would be another quantity.
   if (!sprung) return;
   const double mixed = to_zeta.dot(covariance.col(3));

@@ -19,10 +19,10 @@ struct ForceParameters {
 
 [[nodiscard]] ParameterSet parameters(const ForceParameters& force);
 
-/// Value, standard errors, intervals value +- half_width std, covariance and correlation of (zeta, F0) from the
-/// covariance of (m, c, k, F0), whose rows of known constants are zero.
+/// Value, standard errors, intervals value - bias +- half_width std, covariance and correlation of (zeta, F0) from
+/// the covariance of (m, c, k, F0), whose rows of known constants are zero.
 void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen::Matrix4d& covariance,
-                  double half_width);
+                  double half_width, const ForceParameters& bias = {});
 
 /// A further parameter with its interval.
 [[nodiscard]] FurtherParameter further(std::string name, std::string unit, double value, double variance,

@@ -1,7 +1,6 @@
 #include "identify/friction_force.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "identify/correlated_regression.hpp"
 #include "identify/force_parameters.hpp"
 #include "identify/friction_samples.hpp"
+#include "identify/replicas.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -187,6 +187,46 @@ void judge_loop(Estimate& estimate, std::vector<std::string>& faults) {
     estimate.warnings.push_back(text);
 }
 
+/// The line through the samples that slide.
+struct SlidingLine {
+  double least_speed = 0.0;
+  Rows rows;
+  std::optional<CorrelatedFit> fit;
+  Turns turns;
+};
+
+SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const MethodOptions& options) {
+  const auto line_beyond = [&](double speed) {
+    SlidingLine line{speed, rows_of(histories, speed), {}, {}};
+    line.fit = fit_correlated(line.rows.columns, line.rows.target, line.rows.blocks);
+    if (line.fit) line.turns = turns_of(histories, *line.fit);
+    return line;
+  };
+  SlidingLine line = line_beyond(least_speed_for(histories, options));
+  // A compliant contact slides only beyond its transition velocity: what is slower is none of the line's.
+  constexpr double beyond = 1.2;
+  for (int pass = 0; pass < 3 && line.fit && options.least_speed == 0.0; ++pass) {
+    const double transition = beyond * line.turns.mean_speed();
+    if (!(transition > line.least_speed)) break;
+    SlidingLine faster = line_beyond(transition);
+    if (!faster.fit) break;
+    line = std::move(faster);
+  }
+  return line;
+}
+
+constexpr Eigen::Index offset_place = 4;
+
+/// (m, c, k, F0, offset), mass and stiffness being constants.
+Reading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {
+  const auto error = [&](Eigen::Index i) { return std::sqrt(fit.covariance(i, i)); };
+  Reading reading{Eigen::VectorXd(5), Eigen::VectorXd(5)};
+  reading.parameters << constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1],
+      fit.coefficients[2];
+  reading.errors << 0.0, error(0), 0.0, error(1), error(2);
+  return reading;
+}
+
 }  // namespace
 
 Estimate friction_force(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
@@ -194,49 +234,38 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
   estimate.method = "friction_force";
   const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);
   if (histories.empty()) return estimate;
-  double least_speed = least_speed_for(histories, options);
-  Rows rows = rows_of(histories, least_speed);
-  std::optional<CorrelatedFit> fit = fit_correlated(rows.columns, rows.target, rows.blocks);
-  if (!fit) {
+  const SlidingLine line = sliding_line(histories, options);
+  if (!line.fit) {
     refuse(estimate, "viscous and Coulomb friction cannot be told apart: the motion has too few samples beyond " +
-                         core::format_number(least_speed, 3) + " m/s, or one speed only");
+                         core::format_number(line.least_speed, 3) + " m/s, or one speed only");
     return estimate;
   }
-  Turns turns = turns_of(histories, *fit);
-  // A compliant contact slides only beyond its transition velocity: what is slower is none of the line's.
-  constexpr double beyond = 1.2;
-  for (int pass = 0; pass < 3 && options.least_speed == 0.0 && beyond * turns.mean_speed() > least_speed; ++pass) {
-    Rows faster = rows_of(histories, beyond * turns.mean_speed());
-    std::optional<CorrelatedFit> refit = fit_correlated(faster.columns, faster.target, faster.blocks);
-    if (!refit) break;
-    least_speed = beyond * turns.mean_speed();
-    rows = std::move(faster);
-    fit = std::move(refit);
-    turns = turns_of(histories, *fit);
-  }
-  const ForceParameters force{constants.mass, fit->coefficients[0], constants.stiffness, fit->coefficients[1]};
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  constexpr std::array<Eigen::Index, 2> places{1, 3};  // of c and F0
-  for (Eigen::Index i = 0; i < 2; ++i)
-    for (Eigen::Index j = 0; j < 2; ++j)
-      covariance(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]) = fit->covariance(i, j);
-  const double half_width = quantile95(fit->freedom());
-  set_estimate(estimate, force, covariance, half_width);
-  estimate.others.push_back(further("offset", "N", fit->coefficients[2], fit->covariance(2, 2), half_width));
+  const Reading own = reading_of(*line.fit, constants);
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    Estimate ignored;
+    const SlidingLine other = sliding_line(friction_samples(replica, constants, options, ignored), options);
+    return other.fit ? std::optional(reading_of(*other.fit, constants)) : std::nullopt;
+  };
+  Estimate ignored;
+  const std::optional<ReplicaSpread> spread =
+      replica_spread(usable_histories(record, options, ignored), own, own.parameters[offset_place], again);
+  const ForceParameters force{constants.mass, own.parameters[1], constants.stiffness, own.parameters[3]};
+  set_estimate(estimate, force, spread);
+  estimate.others.push_back(further("offset", "N", own.parameters[offset_place], spread, offset_place));
   for (const FrictionSamples& samples : histories) estimate.used.push_back(samples.number);
-  report_contact(turns, force.F0, estimate);
+  report_contact(line.turns, force.F0, estimate);
   add_curves(histories, force.c, estimate);
 
   std::vector<std::string> faults;
-  const double fastest = rows.columns.col(0).cwiseAbs().maxCoeff();
+  const double fastest = line.rows.columns.col(0).cwiseAbs().maxCoeff();
   const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
   judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
-  estimate.lack_of_fit = correlated_term_test(rows.columns, rows.target, rows.displacement, rows.blocks, scale,
-                                              "displacement term t-test");
+  estimate.lack_of_fit = correlated_term_test(line.rows.columns, line.rows.target, line.rows.displacement,
+                                              line.rows.blocks, scale, "displacement term t-test");
   judge_loop(estimate, faults);
   conclude(estimate, faults,
-           "rests on " + std::to_string(rows.target.size()) + " samples faster than " +
-               core::format_number(least_speed, 3) + " m/s");
+           "rests on " + std::to_string(line.rows.target.size()) + " samples faster than " +
+               core::format_number(line.least_speed, 3) + " m/s");
   return estimate;
 }
 

@@ -11,7 +11,8 @@
 ///
 /// Biases, first order, at resonance: a delay t of a adds -m w^2 t to c, of x +k t; a gain error e of a (or of k
 /// or m) leaves c and F0 and opens a loop of 2 e k X at v = 0 that looks like a compliant contact. Checked: such a
-/// loop, by a term in x. Source: liang2004identifying. Errors: `outcome`. Cost: some 100 operations a sample.
+/// loop, by a term in x. Uncertainty: from replicas of the record (`identify/replicas.hpp`). Source:
+/// liang2004identifying. Errors: `outcome`. Cost: some 100 operations a sample.
 
 #include "identify/method.hpp"
 #include "identify/signals.hpp"
@@ -24,7 +25,7 @@ namespace dualdamp::identify {
 inline constexpr MethodEntry friction_force_method{
     "friction_force",
     "friction force over velocity and displacement, contact stiffness and transition velocity",
-    "mass and stiffness known, signals without lag or gain error, errors in the forces alone; checked: a term in "
+    "mass and stiffness known, signals without lag or gain error, white noise; checked: a term in "
     "x, "
     "which gain errors and wrong constants leave",
     "F = k (y - x) + f - m a; F = c v + F0 sgn v + offset for |v| > least speed",

@@ -11,7 +11,9 @@
 #include "identify/correlated_regression.hpp"
 #include "identify/force_parameters.hpp"
 #include "identify/least_squares.hpp"
+#include "identify/replicas.hpp"
 #include "identify/sampled_oscillator.hpp"
+#include "identify/starred_record.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -268,23 +270,55 @@ Eigen::Matrix4d force_covariance(const Layout& layout, const Eigen::MatrixXd& co
   return of_force;
 }
 
-void report(const Layout& layout, const Residuals& residuals, const LeastSquaresFit& found, Estimate& estimate,
-            std::vector<std::string>& faults) {
+/// What one step of Gauss and Newton makes of other residuals at the estimate: so little does noise move the fit.
+std::optional<Reading> reading_of(const Layout& layout, const LeastSquaresFit& found,
+                                  const Eigen::VectorXd& residuals, const std::vector<Eigen::Index>& blocks) {
+  const std::optional<CorrelatedFit> step = fit_correlated(found.jacobian, residuals, blocks);
+  if (!step) return std::nullopt;
+  const ForceParameters force = layout.force(found.parameters - step->coefficients);
+  return Reading{Eigen::Vector4d(force.m, force.c, force.k, force.F0),
+                 force_covariance(layout, step->covariance).diagonal().cwiseSqrt()};
+}
+
+std::optional<ReplicaSpread> spread_of(const std::vector<Test>& tests, const Layout& layout,
+                                       const Residuals& residuals, const LeastSquaresFit& found,
+                                       const Reading& own) {
+  std::vector<NumberedHistory> histories;
+  for (const Test& test : tests) histories.push_back({test.number, test.history});
+  ForceParameters truth = layout.force(found.parameters);
+  const std::optional<StarredRecord> starred = starred_record(histories, truth, 0.0);
+  if (!starred) return std::nullopt;
+  const auto read = [&](const Record& replica) -> std::optional<Reading> {
+    Eigen::VectorXd misses(residuals.count());
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      const History& history = replica.histories[t];
+      Eigen::VectorXd x;
+      if (!SampledOscillator(history).run(layout.parameters(found.parameters, t, tests[t]), {}, x, nullptr))
+        return std::nullopt;
+      misses.segment(residuals.blocks()[t], x.size()) =
+          (x - Eigen::Map<const Eigen::VectorXd>(history.x.data(), x.size())) / layout.length();
+    }
+    return reading_of(layout, found, misses, residuals.blocks());
+  };
+  return spread_over_replicas(
+      own, Eigen::Vector4d(truth.m, truth.c, truth.k, truth.F0),
+      [&](int number) { return starred->replica(number); }, read);
+}
+
+void report(const std::vector<Test>& tests, const Layout& layout, const Residuals& residuals,
+            const LeastSquaresFit& found, Estimate& estimate, std::vector<std::string>& faults) {
   const ForceParameters force = layout.force(found.parameters);
   estimate.value = parameters(force);
-  const std::optional<CorrelatedFit> linear = fit_correlated(found.jacobian, found.residuals, residuals.blocks());
-  if (!linear) {
+  const std::optional<Reading> own = reading_of(layout, found, found.residuals, residuals.blocks());
+  if (!own) {
     faults.emplace_back("the motion does not tell the parameters apart");
     return;
   }
-  const double half_width = quantile95(linear->freedom());
-  const Eigen::Matrix4d covariance = force_covariance(layout, linear->covariance);
-  set_estimate(estimate, force, covariance, half_width);
+  const std::optional<ReplicaSpread> spread = spread_of(tests, layout, residuals, found, *own);
+  set_estimate(estimate, force, spread);
   for (const Layout::Entry& entry : layout.shared()) {
-    if (entry.by == By::mass)
-      estimate.others.push_back(further("mass", "kg", force.m, covariance(0, 0), half_width));
-    if (entry.by == By::stiffness)
-      estimate.others.push_back(further("stiffness", "N/m", force.k, covariance(2, 2), half_width));
+    if (entry.by == By::mass) estimate.others.push_back(further("mass", "kg", force.m, spread, 0));
+    if (entry.by == By::stiffness) estimate.others.push_back(further("stiffness", "N/m", force.k, spread, 2));
   }
   const double left = std::sqrt(found.sum_of_squares / static_cast<double>(found.residuals.size()));
   estimate.others.push_back({"residual_deviation", "m", left * layout.length(), std::nullopt, std::nullopt});
@@ -351,7 +385,7 @@ Estimate output_error(const Record& record, const KnownConstants& constants, con
     return estimate;
   }
   std::vector<std::string> faults;
-  report(layout, residuals, found, estimate, faults);
+  report(tests, layout, residuals, found, estimate, faults);
   for (const Test& test : tests) estimate.used.push_back(test.number);
   const ForceParameters force = layout.force(found.parameters);
   const double scale = force.k * layout.length();

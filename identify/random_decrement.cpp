@@ -143,6 +143,8 @@ Estimate random_decrement(const Record& record, const KnownConstants& constants,
   estimate.others.push_back({"amplitude", "m", damping.columns[0].values[middle], std::nullopt, std::nullopt});
   estimate.used = {number};
   estimate.curves = {std::move(damping), std::move(signature)};
+  estimate.warnings.emplace_back(
+      "no interval is claimed: the scatter of the mean stretches says nothing of how far zeta and F0 are off");
   conclude(estimate,
            {"random decrement does not separate Coulomb from viscous friction: read the equivalent damping alone"},
            {});

@@ -9,7 +9,7 @@
 /// zeta and F0 are those of a straight line over 1/a. THEY ARE NOT TO BE USED: the average is not the free decay of
 /// a nonlinear system, and the method does not separate Coulomb from viscous friction (F0 of 1 to 2 N comes out as
 /// about nothing, zeta several times too high). It is here as equivalent damping, and as an example of a method
-/// that gives plausible numbers. `usable` is always false.
+/// that gives plausible numbers. `usable` is always false, and no interval is claimed.
 ///
 /// Curves: equivalent_damping (a, zeta_eq), signature. Source: cole1973. Errors: `outcome`. Cost: a few operations
 /// a sample.

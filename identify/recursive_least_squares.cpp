@@ -9,6 +9,7 @@
 #include "identify/correlated_regression.hpp"
 #include "identify/force_parameters.hpp"
 #include "identify/friction_samples.hpp"
+#include "identify/replicas.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -111,6 +112,28 @@ void compare_halves(const Rows& rows, Estimate& estimate) {
       " from the first half of the record to the second: a forgetting factor below 1 follows it");
 }
 
+/// One passage over a record.
+struct Passage {
+  Rows rows;
+  std::optional<CorrelatedFit> fit;
+  Reading reading;  ///< (m, c, k, F0), mass and stiffness being constants
+  EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
+};
+
+Passage pass(const std::vector<FrictionSamples>& histories, const KnownConstants& constants,
+             const MethodOptions& options) {
+  Passage passage;
+  passage.rows = rows_of(histories, least_speed_for(histories, options));
+  passage.fit = fit_correlated(passage.rows.columns, passage.rows.target, passage.rows.blocks);
+  if (!passage.fit) return passage;
+  const double fastest = passage.rows.columns.col(0).cwiseAbs().maxCoeff();
+  const Recursion recursion = follow(passage.rows, options.forgetting, fastest, passage.curve);
+  const Eigen::Matrix2d covariance = covariance_of(*passage.fit, options.forgetting);
+  passage.reading.parameters = Eigen::Vector4d(constants.mass, recursion.c(), constants.stiffness, recursion.F0());
+  passage.reading.errors = Eigen::Vector4d(0.0, std::sqrt(covariance(0, 0)), 0.0, std::sqrt(covariance(1, 1)));
+  return passage;
+}
+
 }  // namespace
 
 Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
@@ -123,32 +146,32 @@ Estimate recursive_least_squares(const Record& record, const KnownConstants& con
     refuse(estimate, "the forgetting factor must be above 0 and at most 1");
     return estimate;
   }
-  const Rows rows = rows_of(histories, least_speed_for(histories, options));
-  const std::optional<CorrelatedFit> fit = fit_correlated(rows.columns, rows.target, rows.blocks);
-  if (!fit) {
+  Passage passage = pass(histories, constants, options);
+  if (!passage.fit) {
     refuse(estimate,
            "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
            "one speed only");
     return estimate;
   }
-  const double fastest = rows.columns.col(0).cwiseAbs().maxCoeff();
-  EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
-  const Recursion recursion = follow(rows, options.forgetting, fastest, curve);
-  const ForceParameters force{constants.mass, recursion.c(), constants.stiffness, recursion.F0()};
-  const Eigen::Matrix2d pair = covariance_of(*fit, options.forgetting);
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  covariance(1, 1) = pair(0, 0);
-  covariance(1, 3) = covariance(3, 1) = pair(0, 1);
-  covariance(3, 3) = pair(1, 1);
-  set_estimate(estimate, force, covariance, quantile95(fit->freedom()));
-  estimate.curves.push_back(std::move(curve));
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    Estimate ignored;
+    Passage other = pass(friction_samples(replica, constants, options, ignored), constants, options);
+    return other.fit ? std::optional(std::move(other.reading)) : std::nullopt;
+  };
+  Estimate ignored;
+  const Eigen::VectorXd& p = passage.reading.parameters;
+  const ForceParameters force{p[0], p[1], p[2], p[3]};
+  set_estimate(estimate, force,
+               replica_spread(usable_histories(record, options, ignored), passage.reading, 0.0, again));
+  estimate.curves.push_back(std::move(passage.curve));
   for (const FrictionSamples& samples : histories) estimate.used.push_back(samples.number);
 
   std::vector<std::string> faults;
+  const double fastest = passage.rows.columns.col(0).cwiseAbs().maxCoeff();
   const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
   judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
-  if (options.forgetting == 1.0) compare_halves(rows, estimate);
-  conclude(estimate, faults, "the state after " + std::to_string(rows.target.size()) + " samples");
+  if (options.forgetting == 1.0) compare_halves(passage.rows, estimate);
+  conclude(estimate, faults, "the state after " + std::to_string(passage.rows.target.size()) + " samples");
   return estimate;
 }
 

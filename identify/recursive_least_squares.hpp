@@ -8,9 +8,9 @@
 /// all samples so far. Samples with |v| < `least_speed` freeze the estimate. The other reading of the method, by
 /// the error of the output, is that of `output_error`.
 ///
-/// Curve: friction_over_time. Checked: with l = 1, whether both halves of the record agree. Uncertainty: covariance
-/// that allows for alike residuals, over the samples that are remembered. Source: after yao (liang2004identifying,
-/// reference 13; the text was not at hand), ljung1999. Errors: `outcome`. Cost: 30 operations a sample.
+/// Curve: friction_over_time. Checked: with l = 1, whether both halves of the record agree. Uncertainty: from
+/// replicas of the record (`identify/replicas.hpp`). Source: after yao (liang2004identifying, reference 13; the
+/// text was not at hand), ljung1999. Errors: `outcome`. Cost: 30 operations a sample.
 
 #include "identify/method.hpp"
 #include "identify/signals.hpp"
@@ -23,7 +23,7 @@ namespace dualdamp::identify {
 inline constexpr MethodEntry recursive_least_squares_method{
     "recursive_least_squares",
     "viscous and Coulomb friction followed over time, with forgetting",
-    "mass and stiffness known, errors in the forces alone, friction that drifts slowly; checked: agreement of both "
+    "mass and stiffness known, white noise, friction that drifts slowly; checked: agreement of both "
     "halves of the record where nothing is forgotten",
     "z = k (y - x) + f - m a, psi = (v, sgn v), theta += P psi (z - psi^T theta)/(l + psi^T P psi)",
     "liang2004identifying, ljung1999",

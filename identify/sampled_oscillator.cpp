@@ -85,7 +85,7 @@ SampledOscillator::SampledOscillator(const History& history)
       force_(interpolate(history.force, count_)) {}
 
 bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x,
-                            Eigen::MatrixXd* derivatives) {
+                            Eigen::MatrixXd* derivatives, Eigen::VectorXd* v) {
   p_ = parameters;
   inertia_ = p_.m * rate_ * rate_;
   damping_ = p_.c * rate_;
@@ -96,6 +96,8 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   for (double left = std::pow(fastest, terms_) / std::tgamma(terms_ + 1.0); left > 1e-18 && terms_ < most_terms;
        ++terms_)
     left *= fastest / (terms_ + 1);
+  for (int j = 0; j < most_terms; ++j)
+    integration_[static_cast<std::size_t>(j)] = 1.0 / (inertia_ * (j + 1) * (j + 2));
 
   tangents_.clear();
   if (derivatives != nullptr) {
@@ -109,6 +111,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
     derivatives->resize(static_cast<Eigen::Index>(count_), static_cast<Eigen::Index>(by.size()));
   }
   x.resize(static_cast<Eigen::Index>(count_));
+  if (v != nullptr) v->resize(x.size());
   x_ = p_.x0;
   v_ = p_.v0 / rate_;
   fastest_ = std::abs(v_);
@@ -116,6 +119,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   const auto store = [&](std::size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
     x[row] = x_;
+    if (v != nullptr) (*v)[row] = v_ * rate_;
     for (std::size_t j = 0; j < tangents_.size(); ++j)
       (*derivatives)(row, static_cast<Eigen::Index>(j)) = tangents_[j].x;
   };
@@ -181,6 +185,9 @@ double SampledOscillator::slip(double begin, double end) {
 /// Where the velocity leaves the direction of slip; negative: it does not.
 double SampledOscillator::first_reversal(double length) const {
   const auto speed = [this](double u) { return direction_ * slope_at(series_, terms_, u); };
+  double most_change = 0.0;  // of the velocity, over a whole sample interval
+  for (int j = 2; j < terms_; ++j) most_change += j * std::abs(series_[static_cast<std::size_t>(j)]);
+  if (std::abs(v_) > most_change) return -1.0;
   const double rounding = 1e-14 * fastest_;
   double low = 0.0;
   for (int i = 1; i <= parts; ++i) {
@@ -207,8 +214,7 @@ void SampledOscillator::expand(double begin) {
     const auto i = static_cast<std::size_t>(j);
     double force = j < nodes ? drive[i] : 0.0;
     if (j == 0) force -= p_.F0 * direction_;
-    series_[i + 2] =
-        (force - damping_ * (j + 1) * series_[i + 1] - p_.k * series_[i]) / (inertia_ * (j + 1) * (j + 2));
+    series_[i + 2] = (force - damping_ * (j + 1) * series_[i + 1] - p_.k * series_[i]) * integration_[i];
   }
   for (Tangent& tangent : tangents_) expand(tangent);
 }
@@ -243,7 +249,7 @@ void SampledOscillator::expand(Tangent& tangent) const {
   s[1] = tangent.v;
   for (int j = 0; j + 2 < terms_; ++j) {
     const auto i = static_cast<std::size_t>(j);
-    s[i + 2] = (forcing(j) - damping_ * (j + 1) * s[i + 1] - p_.k * s[i]) / (inertia_ * (j + 1) * (j + 2));
+    s[i + 2] = (forcing(j) - damping_ * (j + 1) * s[i + 1] - p_.k * s[i]) * integration_[i];
   }
 }
 

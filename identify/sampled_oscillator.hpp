@@ -38,10 +38,10 @@ class SampledOscillator {
   /// The drive of a history: y and force, each zero when it was not measured. At least eight samples.
   explicit SampledOscillator(const History& history);
 
-  /// x at the samples. `derivatives`, where there is one: a row a sample, a column for each of `by`. False: the
-  /// parameters are too fast for the sample rate, or a value is not finite.
+  /// x at the samples. `derivatives`, where there is one: a row a sample, a column for each of `by`; `v`, where
+  /// there is one: the velocity. False: the parameters are too fast for the sample rate, or a value is not finite.
   bool run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x,
-           Eigen::MatrixXd* derivatives);
+           Eigen::MatrixXd* derivatives, Eigen::VectorXd* v = nullptr);
 
  private:
   static constexpr int nodes = 8;
@@ -74,6 +74,7 @@ class SampledOscillator {
   Parameters p_;
   double inertia_ = 0.0;  ///< m, c by the unit of time of one sample interval
   double damping_ = 0.0;
+  Series integration_{};  ///< from a coefficient of the force to that of x two powers on
   int terms_ = 0;
   std::size_t interval_ = 0;
   int direction_ = 0;

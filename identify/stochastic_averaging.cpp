@@ -11,6 +11,8 @@
 
 #include "core/numbers.hpp"
 #include "identify/force_parameters.hpp"
+#include "identify/random_response.hpp"
+#include "identify/replicas.hpp"
 #include "identify/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -166,6 +168,76 @@ void judge(double visible, const Estimate& estimate, std::vector<std::string>& f
     warnings.emplace_back("averaging is for small damping: at this one the estimates are some per cent off");
 }
 
+/// What the method makes of one history, or why nothing.
+struct Averages {
+  std::string fault;
+  bool by_work = false;  ///< the drive was recorded, and gives D
+  double D = 0.0;        ///< m^2/s^3
+  double unit = 0.0;     ///< rms of A [m], in units of which the blocks are
+  Blocks blocks;
+  std::array<double, 7> m{};
+  Reading reading;  ///< (m, c, k, F0), mass and stiffness being constants; errors from the blocks
+};
+
+/// In units of its rms, which it sets.
+std::vector<double> amplitude_of(const History& history, double W, double& unit) {
+  const Motion motion = motion_of(history, 0.0);
+  std::vector<double> amplitude(motion.x.size());
+  double square = 0.0;
+  for (std::size_t i = 0; i < amplitude.size(); ++i) {
+    amplitude[i] = std::hypot(motion.x[i], motion.v[i] / W);
+    square += amplitude[i] * amplitude[i];
+  }
+  unit = std::sqrt(square / static_cast<double>(amplitude.size()));
+  for (double& A : amplitude) A /= unit;
+  return amplitude;
+}
+
+Averages averages_of(const History& history, const KnownConstants& constants) {
+  const double W = std::sqrt(constants.stiffness / constants.mass);
+  Averages averages;
+  const std::vector<double> amplitude = amplitude_of(history, W, averages.unit);
+  if (!(averages.unit > 0.0)) {
+    averages.fault = "the mass does not move";
+    return averages;
+  }
+  averages.blocks = blocks_of(amplitude);
+  const std::optional<Eigen::Vector2d> p = match(averages.blocks.mean[0], averages.blocks.mean[1]);
+  averages.by_work = driven(history);
+  averages.D =
+      averages.by_work ? intensity_from_work(history, constants) : intensity_from_increments(history, constants, 1);
+  if (!p || !(averages.D > 0.0)) {
+    averages.fault = p ? "the recorded drive does no work on the mass: it is not what excites it"
+                       : "no viscous damping fits the distribution of the amplitude";
+    return averages;
+  }
+  averages.m = moments(*p);
+  const double to_F0 = std::numbers::pi * constants.mass * averages.D / (8.0 * W * averages.unit);
+  const double to_c = constants.mass * averages.D / (W * W * averages.unit * averages.unit);
+  const Eigen::Matrix2d inverse = information(averages.m).inverse();
+  const Eigen::Matrix2d of_p = inverse * averages.blocks.covariance.topLeftCorner<2, 2>() * inverse;
+  averages.reading.parameters =
+      Eigen::Vector4d(constants.mass, to_c * (*p)[1], constants.stiffness, to_F0 * (*p)[0]);
+  averages.reading.errors = Eigen::Vector4d(0.0, to_c * std::sqrt(of_p(1, 1)), 0.0, to_F0 * std::sqrt(of_p(0, 0)));
+  return averages;
+}
+
+/// From other random responses of a mass with the estimated friction.
+std::optional<ReplicaSpread> spread_of(const History& history, const Averages& averages,
+                                       const KnownConstants& constants) {
+  Eigen::VectorXd truth = averages.reading.parameters.cwiseMax(0.0);
+  const RandomResponse response{history, {truth[0], truth[1], truth[2], truth[3]}, averages.D};
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    const Averages other = averages_of(replica.histories.front(), constants);
+    return other.fault.empty() ? std::optional(other.reading) : std::nullopt;
+  };
+  constexpr int replicas = 20;  // each is long
+  std::optional<ReplicaSpread> spread = spread_over_replicas(
+      averages.reading, truth, [&](int number) { return response.replica(number); }, again, replicas);
+  if (spread) spread->covariance *= response.share();
+  return spread;
+}
+
 }  // namespace
 
 Estimate stochastic_averaging(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
@@ -192,49 +264,23 @@ Estimate stochastic_averaging(const Record& record, const KnownConstants& consta
                          core::format_number(periods, 3));
     return estimate;
   }
-  const Motion motion = motion_of(*history, 0.0);
-  std::vector<double> amplitude(motion.x.size());
-  double square = 0.0;
-  for (std::size_t i = 0; i < amplitude.size(); ++i) {
-    amplitude[i] = std::hypot(motion.x[i], motion.v[i] / W);
-    square += amplitude[i] * amplitude[i];
-  }
-  const double unit = std::sqrt(square / static_cast<double>(amplitude.size()));
-  if (!(unit > 0.0)) {
-    refuse(estimate, "the mass does not move");
+  const Averages averages = averages_of(*history, constants);
+  if (!averages.fault.empty()) {
+    refuse(estimate, averages.fault);
     return estimate;
   }
-  for (double& A : amplitude) A /= unit;
-  const Blocks blocks = blocks_of(amplitude);
-  const std::optional<Eigen::Vector2d> p = match(blocks.mean[0], blocks.mean[1]);
-  const bool by_work = driven(*history);
-  const double D =
-      by_work ? intensity_from_work(*history, constants) : intensity_from_increments(*history, constants, 1);
-  if (!p || !(D > 0.0)) {
-    refuse(estimate, p ? "the recorded drive does no work on the mass: it is not what excites it"
-                       : "no viscous damping fits the distribution of the amplitude");
-    return estimate;
-  }
-  const std::array<double, 7> m = moments(*p);
-  const double to_F0 = std::numbers::pi * constants.mass * D / (8.0 * W * unit);
-  const double to_c = constants.mass * D / (W * W * unit * unit);
-  const Eigen::Matrix2d inverse = information(m).inverse();
-  const Eigen::Matrix2d of_p = inverse * blocks.covariance.topLeftCorner<2, 2>() * inverse;
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  covariance(1, 1) = to_c * to_c * of_p(1, 1);
-  covariance(1, 3) = covariance(3, 1) = to_c * to_F0 * of_p(0, 1);
-  covariance(3, 3) = to_F0 * to_F0 * of_p(0, 0);
-  const ForceParameters force{constants.mass, to_c * (*p)[1], constants.stiffness, to_F0 * (*p)[0]};
-  set_estimate(estimate, force, covariance, quantile95(Blocks::count - 1));
+  const Eigen::VectorXd& p = averages.reading.parameters;
+  const ForceParameters force{p[0], p[1], p[2], p[3]};
+  set_estimate(estimate, force, spread_of(*history, averages, constants));
   estimate.used = {number};
-  estimate.others.push_back({"intensity", "m^2/s^3", D, std::nullopt, std::nullopt});
-  estimate.lack_of_fit = third_moment_test(blocks, m);
+  estimate.others.push_back({"intensity", "m^2/s^3", averages.D, std::nullopt, std::nullopt});
+  estimate.lack_of_fit = third_moment_test(averages.blocks, averages.m);
   std::vector<std::string> faults;
   judge_force_signs(estimate, 0.0, 0.0, faults);
-  if (!by_work && !increments_are_white(*history, constants, D))
+  if (!averages.by_work && !increments_are_white(*history, constants, averages.D))
     faults.emplace_back(
         "the excitation is not white up to the sample rate, so its intensity is not known: record it");
-  const double x_rms = unit / std::numbers::sqrt2;
+  const double x_rms = averages.unit / std::numbers::sqrt2;
   judge(constants.stiffness * x_rms / std::abs(force.F0), estimate, faults, estimate.warnings);
   conclude(estimate, faults, "rests on " + core::format_number(std::floor(periods), 6) + " natural periods");
   return estimate;

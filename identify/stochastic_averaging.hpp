@@ -11,9 +11,10 @@
 ///
 /// Holds for small damping and an excitation that is white about W; where dry friction is the larger part of the
 /// damping F0 comes out some per cent off, and c for it up to a quarter. F0 is not to be seen once k x_rms > 30 F0.
-/// Checked: that ratio, the third moment of A, increments as white ones where they give D. Uncertainty: from blocks
-/// of the record. Source: after Iourtchenko and Dimentberg (liang2004identifying, reference C; the text was not at
-/// hand), roberts1986. Errors: `outcome`. Cost: 10 operations a sample.
+/// Checked: that ratio, the third moment of A, increments as white ones where they give D. Uncertainty: from
+/// responses to other random drives (`identify/random_response.hpp`), scatter between blocks of the record. Source:
+/// after Iourtchenko and Dimentberg (liang2004identifying, reference C; the text was not at hand), roberts1986.
+/// Errors: `outcome`. Cost: 10 operations a sample.
 
 #include "identify/method.hpp"
 #include "identify/signals.hpp"

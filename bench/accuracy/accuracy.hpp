@@ -1,12 +1,11 @@
 #pragma once
 /// Bias, spread and coverage of every identification method on synthetic records whose truth is known.
 ///
-/// Each method meets the first of the `experiments()` that it can use: a measurement of Coulomb and viscous
-/// friction, which all of them assume. Its motion is computed once, and every seed is another reading of it;
-/// where the motion itself is random every seed has its own. Coverage counts the 95 % intervals that hold the
-/// truth, of all estimates that have one, whether usable or not: to leave out those that the method doubts would
-/// bias it. A method claims it unless its intervals leave something out by what the method assumes; those are
-/// counted apart. Results do not depend on the number of threads.
+/// Each method meets the first of the `experiments()` that it can use, a measurement of Coulomb and viscous
+/// friction, which all of them assume, and the harder variants of that one. The motion is computed once, and every
+/// seed is another reading of it; where the motion itself is random every seed has its own. Coverage counts the 95
+/// % intervals that hold the truth, of all estimates that have one, whether usable or not: to leave out those that
+/// the method doubts would bias it. Results do not depend on the number of threads.
 
 #include <string>
 #include <vector>
@@ -23,6 +22,7 @@ struct Experiment {
   scenarios::Measurement measurement;
   /// For a noise of one metre in x: readings are linear in it.
   identify::Sensors sensors;
+  std::string variant_of;  ///< name of the experiment whose methods meet this one too; empty: one in its own right
 };
 
 [[nodiscard]] const std::vector<Experiment>& experiments();
@@ -52,12 +52,11 @@ struct Cell {
   int seeds = 0;
   int estimates = 0;  ///< of them gave numbers
   int usable = 0;
-  bool claims_coverage = false;
   Score zeta;
   Score F0;
 };
 
-/// Seeds 0, 1, ... For a method that can use none of the experiments there is no cell.
+/// Seeds 0, 1, ... A cell for each experiment that the method meets, and each noise.
 [[nodiscard]] std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& methods,
                                          const std::vector<double>& noises, int seeds);
 
@@ -65,12 +64,10 @@ struct Cell {
 inline constexpr double least_coverage = 0.93;
 inline constexpr double most_coverage = 0.97;
 
-/// Coverages that the cells claim, of zeta and F0 together, and those that lie outside.
+/// Coverages of the cells whose method gives intervals, of zeta and F0 together, and those that lie outside.
 struct Coverage {
   int claimed = 0;
-  int partial = 0;  ///< of intervals that leave something out
-  int partial_outside = 0;
-  std::vector<std::string> outside;  ///< "resonance_deming, 20 um, zeta: 91.2 %"
+  std::vector<std::string> outside;  ///< "resonance_deming, one sweep, 20 um, zeta: 91.2 %"
 };
 [[nodiscard]] Coverage coverage(const std::vector<Cell>& cells);
 

@@ -1,8 +1,12 @@
-// dualdamp-accuracy [SEEDS]: writes docs/methods/accuracy.md to stdout. Progress and coverages outside go to
-// stderr.
+// dualdamp-accuracy [SEEDS [METHOD...]]: writes docs/methods/accuracy.md to stdout, of all methods or of those
+// named. Progress with processor time, and coverages outside, go to stderr.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <span>
+#include <string_view>
 
 #include "bench/accuracy/accuracy.hpp"
 #include "identify/methods.hpp"
@@ -12,12 +16,16 @@ int main(int argc, char** argv) {
   constexpr int usual_seeds = 1000;
   const int seeds = argc > 1 ? std::atoi(argv[1]) : usual_seeds;
   if (seeds < 1) {
-    std::fputs("usage: dualdamp-accuracy [SEEDS]\n", stderr);
+    std::fputs("usage: dualdamp-accuracy [SEEDS [METHOD...]]\n", stderr);
     return 2;
   }
   std::vector<bench::Cell> cells;
+  const std::span<char*> named = std::span(argv, static_cast<std::size_t>(argc)).subspan(std::min(argc, 2));
   for (const identify::MethodEntry& method : identify::methods()) {
-    std::fprintf(stderr, "%s\n", std::string(method.name).c_str());
+    const auto is_it = [&](const char* name) { return method.name == name; };
+    if (!named.empty() && std::ranges::none_of(named, is_it)) continue;
+    std::fprintf(stderr, "%5.0f s %s\n", static_cast<double>(std::clock()) / CLOCKS_PER_SEC,
+                 std::string(method.name).c_str());
     for (bench::Cell& cell : bench::accuracy({&method}, {20e-6, 50e-6, 100e-6}, seeds))
       cells.push_back(std::move(cell));
   }

@@ -26,23 +26,24 @@ TEST_CASE("every method finds an experiment, and noise spreads its estimates in 
   for (const identify::MethodEntry& method : identify::methods()) {
     INFO(method.name);
     const std::vector<bench::Cell> cells = bench::accuracy({&method}, {1e-6, 4e-6}, 4);
-    REQUIRE(cells.size() == 2);
-    CHECK(cells[0].estimates == 4);
-    CHECK(cells[0].zeta.spread > 0.0);
-    // To first order; a random motion spreads the estimates far more than these readings do.
-    const bool random = cells[0].experiment == "random response";
-    const double growth = cells[1].zeta.spread / cells[0].zeta.spread;
-    CHECK(growth == (random ? Approx(1.0).epsilon(0.2) : Approx(4.0).epsilon(0.6)));
+    REQUIRE(cells.size() == (cells.at(0).experiment == "histories" ? 4 : 2));
+    for (std::size_t i = 0; i < cells.size(); i += 2) {
+      CHECK(cells[i].estimates == 4);
+      CHECK(cells[i].zeta.spread > 0.0);
+      // To first order; a random motion spreads the estimates far more than these readings do.
+      const bool random = cells[i].experiment == "random response";
+      const double growth = cells[i + 1].zeta.spread / cells[i].zeta.spread;
+      CHECK(growth == (random ? Approx(1.0).epsilon(0.2) : Approx(4.0).epsilon(0.6)));
+    }
   }
 }
 
-TEST_CASE("intervals of methods that claim them hold the truth in 95 % of 1,000 readings") {
+TEST_CASE("intervals hold the truth in 95 % of 1,000 readings") {
   // 95 % +- 2 % are 2.9 standard deviations of 1,000 draws.
   for (const char* method : {"den_hartog_fit", "free_decay", "resonance_deming", "resonance_least_squares"}) {
     INFO(method);
     const std::vector<bench::Cell> cells = cells_of(method, 50e-6, 1000);
     REQUIRE(cells.size() == 1);
-    REQUIRE(cells[0].claims_coverage);
     CHECK(cells[0].zeta.intervals == 1000);
     CHECK(bench::coverage(cells).claimed == 2);
     CHECK(bench::coverage(cells).outside.empty());

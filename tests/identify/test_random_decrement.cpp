@@ -41,6 +41,9 @@ TEST_CASE("With dry friction it reads an equivalent damping and does not separat
   CHECK(e.value.zeta > 1.3 * zeta);
   CHECK(e.value.F0 < 0.5 * F0);
   CHECK(e.curves.size() == 2);
+  CHECK_FALSE(e.interval95);
+  REQUIRE(e.warnings.size() == 1);
+  CHECK(e.warnings[0].find("no interval is claimed") != std::string::npos);
 }
 
 TEST_CASE("A random decrement of few extremes is refused") {
