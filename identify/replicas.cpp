@@ -103,7 +103,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const std::o
     note("c", &ParameterSet::c);
   note("F0", &ParameterSet::F0);
   if (!shifts.empty())
-    estimate.warnings.push_back("noise and what it neglects shift this method's " + shifts +
+    estimate.warnings.push_back("noise and what the method neglects shift its " + shifts +
                                 ": the intervals allow for it");
 }
 

@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::vector<bench::Cell> cells;
-  const std::span<char*> named = std::span(argv, static_cast<std::size_t>(argc)).subspan(std::min(argc, 2));
+  const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+  const std::span<char*> named = words.subspan(std::min<std::size_t>(words.size(), 2));
   for (const identify::MethodEntry& method : identify::methods()) {
     const auto is_it = [&](const char* name) { return method.name == name; };
     if (!named.empty() && std::ranges::none_of(named, is_it)) continue;

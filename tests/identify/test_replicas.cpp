@@ -168,7 +168,7 @@ TEST_CASE("A method that noise shifts says by how much, and its interval lies be
   CHECK(without_noise > 0.005);
   const double middle = 0.5 * (e.interval95->c[0] + e.interval95->c[1]);
   CHECK(e.value.c / middle - 1.0 == Approx(without_noise).epsilon(0.1));
-  CHECK(says(e, "shift this method's zeta by +1.0"));
+  CHECK(says(e, "shift its zeta by +1.0"));
   CHECK(says(e, "the intervals allow for it"));
 }
 
