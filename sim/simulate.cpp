@@ -59,8 +59,10 @@ FreeDecay free_decay(const Model& model, int peaks) {
   const std::unique_ptr<Engine> owned = make_engine(model);
   Engine& engine = *owned;
   if (engine.velocity() == 0.0) decay.peaks.push_back({0.0, engine.position()});
-  // A motion that creeps without turning (strong damping) has no further extreme; this many natural periods tell.
-  const double patience = 1e4 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
+  // A motion that creeps without turning (strong damping, friction that never quite holds) has no further extreme.
+  // With damping so near the critical that a swing lasts a hundred natural periods, it ends at exp(-628) of its
+  // start.
+  const double patience = 100.0 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
   double deadline = patience;
   while (static_cast<int>(decay.peaks.size()) < peaks) {
     if (engine.direction() == friction::Direction::rest) {

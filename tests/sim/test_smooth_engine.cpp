@@ -210,6 +210,23 @@ TEST_CASE("smooth engine: a motion too sharp to integrate is given up", "[sim][s
   CHECK(state.outcome.reason.find("too fast") != std::string::npos);
 }
 
+TEST_CASE("smooth engine: a free vibration that creeps for ever ends after its last turn", "[sim][smooth]") {
+  // Rock creeps ever more slowly and neither turns nor rests; waiting for a ninth turn took minutes.
+  sim::Model model;
+  model.oscillator = {.mass = 1.042, .stiffness = 1568.0, .damping = 8.0};
+  model.initial = {.position = 0.04};
+  model.friction = {law("rate_state", {{"normal_force", 10.0},
+                                       {"mu0", 0.2},
+                                       {"a", 0.05},
+                                       {"b", 0.075},
+                                       {"slip_distance", 0.01},
+                                       {"reference_velocity", 0.01}})};
+  const sim::FreeDecay decay = sim::free_decay(model, 20);
+  CHECK(decay.outcome.ok());
+  CHECK_FALSE(decay.came_to_rest);
+  CHECK(decay.peaks.size() == 8);
+}
+
 TEST_CASE("smooth engine: what a guard touches behind an event is not reported before it", "[sim][smooth]") {
   // The free mass turns at pi/10. The step that finds this looks beyond, to where the guard touches, and so does
   // the phase that begins there: reported by both, a touch would count twice. A loose tolerance makes long steps.
