@@ -43,7 +43,7 @@ function provenance() {
     ["libraries", Object.entries(program.libraries).map((l) => l.join(" ")).join(", ")], ...Object.entries(run.provenance ?? {}).map(([k, v]) => [k, typeof v === "string" ? v : JSON.stringify(v)])];
   return [heading("Where this comes from"),
     make("details", { id: "provenance" }, make("summary", {}, "Provenance"), grid(["", ""], rows.map(([k, v]) => [{ text: k, class: "text" }, { text: v, class: "long" }]))),
-    make("details", { class: "screen" }, make("summary", {}, "Scenario as it was run (SI)"), make("pre", { tabindex: 0 }, JSON.stringify(run.scenario, null, 2)))];
+    make("details", {}, make("summary", {}, "Scenario as it was run (SI)"), make("pre", { tabindex: 0 }, JSON.stringify(run.scenario, null, 2)))];
 }
 
 function body() {

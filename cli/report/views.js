@@ -132,7 +132,8 @@ function estimateCurves(estimates) {
     const [x, ...rest] = columns;
     out.push(chart({ title: `${name.slice(method.length + 1).replaceAll("_", " ")}, ${method}`,
       x: { label: x.name, unit: x.unit }, y: { label: rest.map((column) => column.name).join(", "), unit: rest[0].unit },
-      series: rest.map((column) => ({ label: column.name, x: x.values, y: column.values, width: 1.1 })) }));
+      series: rest.map((column, i) => ({ label: column.name, x: x.values, y: column.values, width: 1.1,
+        kind: column.name === "measured" ? "points" : i > 0 ? "dashed" : "line" })) }));
   }
   return out;
 }
