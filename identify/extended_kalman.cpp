@@ -206,18 +206,9 @@ void judge(const Passage& passage, const std::optional<Passage>& wider, Estimate
 Estimate extended_kalman(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
   Estimate estimate;
   estimate.method = "extended_kalman";
-  MethodOptions unfiltered = options;
-  unfiltered.cutoffs = {0.0};
-  const std::vector<NumberedHistory> histories = usable_histories(record, unfiltered, estimate);
-  if (histories.empty()) return estimate;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
-    refuse(estimate, std::move(fault));
-    return estimate;
-  }
-  const auto& [number, history] =
-      *std::ranges::max_element(histories, {}, [](const NumberedHistory& item) { return item.history->x.size(); });
-  for (const NumberedHistory& item : histories)
-    if (item.number != number) estimate.excluded.push_back({item.number, "the filter takes the longest history"});
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  if (!longest) return estimate;
+  const auto& [number, history] = *longest;
   const Scales scales = scales_of(*history, options);
   if (!(scales.length > 0.0)) {
     refuse(estimate, "the mass does not move");

@@ -96,16 +96,9 @@ ForceParameters line_through(const EstimateCurve& curve, const KnownConstants& c
 Estimate random_decrement(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
   Estimate estimate;
   estimate.method = "random_decrement";
-  MethodOptions unfiltered = options;
-  unfiltered.cutoffs = {0.0};
-  const std::vector<NumberedHistory> histories = usable_histories(record, unfiltered, estimate);
-  if (histories.empty()) return estimate;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
-    refuse(estimate, std::move(fault));
-    return estimate;
-  }
-  const auto& [number, history] =
-      *std::ranges::max_element(histories, {}, [](const NumberedHistory& item) { return item.history->x.size(); });
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  if (!longest) return estimate;
+  const auto& [number, history] = *longest;
   const double W = std::sqrt(constants.stiffness / constants.mass);
   const auto period = static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / W * history->sample_rate));
   std::vector<Start> starts;

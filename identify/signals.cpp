@@ -225,6 +225,24 @@ std::vector<NumberedHistory> usable_histories(const Record& record, const Method
   return usable;
 }
 
+std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
+                                               const MethodOptions& options, Estimate& estimate) {
+  MethodOptions unfiltered = options;
+  unfiltered.cutoffs = {0.0};
+  const std::vector<NumberedHistory> histories = usable_histories(record, unfiltered, estimate);
+  if (histories.empty()) return std::nullopt;
+  if (std::string fault = fault_of(constants); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return std::nullopt;
+  }
+  const auto length = [](const NumberedHistory& item) { return item.history->x.size(); };
+  const NumberedHistory longest = *std::ranges::max_element(histories, {}, length);
+  for (const NumberedHistory& item : histories)
+    if (item.number != longest.number)
+      estimate.excluded.push_back({item.number, "the method takes the longest history"});
+  return longest;
+}
+
 double least_speed_for(const std::vector<Motion>& motions, const MethodOptions& options) {
   if (options.least_speed > 0.0) return options.least_speed;
   double fastest = 0.0;

@@ -88,6 +88,11 @@ struct NumberedHistory {
 [[nodiscard]] std::vector<NumberedHistory> usable_histories(const Record& record, const MethodOptions& options,
                                                             Estimate& estimate);
 
+/// The longest history that can be used as it is, for the methods that take one alone and need mass and stiffness;
+/// the others go to the exclusions. Nothing: the estimate has been refused.
+[[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
+                                                             const MethodOptions& options, Estimate& estimate);
+
 /// Samples slower than this are left out of a regression on speed [m/s]: the option, or a hundredth of the largest
 /// speed, for the sign of a slower one is that of the noise.
 [[nodiscard]] double least_speed_for(const std::vector<Motion>& motions, const MethodOptions& options);

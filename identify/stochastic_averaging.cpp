@@ -243,18 +243,9 @@ std::optional<ReplicaSpread> spread_of(const History& history, const Averages& a
 Estimate stochastic_averaging(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
   Estimate estimate;
   estimate.method = "stochastic_averaging";
-  MethodOptions unfiltered = options;
-  unfiltered.cutoffs = {0.0};
-  const std::vector<NumberedHistory> histories = usable_histories(record, unfiltered, estimate);
-  if (histories.empty()) return estimate;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
-    refuse(estimate, std::move(fault));
-    return estimate;
-  }
-  const auto& [number, history] =
-      *std::ranges::max_element(histories, {}, [](const NumberedHistory& item) { return item.history->x.size(); });
-  for (const NumberedHistory& item : histories)
-    if (item.number != number) estimate.excluded.push_back({item.number, "the method takes the longest history"});
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  if (!longest) return estimate;
+  const auto& [number, history] = *longest;
   const double W = std::sqrt(constants.stiffness / constants.mass);
   const double periods =
       static_cast<double>(history->x.size()) / history->sample_rate * W / (2.0 * std::numbers::pi);
