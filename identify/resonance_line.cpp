@@ -205,7 +205,7 @@ void judge_method(const ResonanceData& data, const std::vector<Datum>& exact, co
   if (worst > 0.1) {
     faults.push_back(text);
   } else {
-    estimate.warnings.push_back(text);
+    estimate.warnings.push_back(text + (estimate.interval95 ? "; the interval allows for it" : ""));
   }
 }
 

@@ -145,7 +145,7 @@ void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& co
   if (worst > 0.1)
     faults.push_back(text);
   else
-    estimate.warnings.push_back(text);
+    estimate.warnings.push_back(text + (estimate.interval95 ? "; the interval allows for it" : ""));
 }
 
 std::optional<ForceLine> force_line(std::vector<Datum> points, double share) {
