@@ -51,7 +51,9 @@ function body() {
   const parts = [];
   for (const error of run.errors) parts.push(make("p", { class: "note bad" }, error.message));
   if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
-  for (const warning of run.warnings) parts.push(make("p", { class: "note" }, warning));
+  // Why an estimate is not usable stands beside it.
+  const said = (run.result?.estimates ?? []).map((e) => `${e.method} is not usable: ${e.diagnostics.reason}`);
+  for (const warning of run.warnings.filter((text) => !said.includes(text))) parts.push(make("p", { class: "note" }, warning));
   if (result.estimates) parts.push(heading("Estimates"), estimateTable(result.estimates));
   parts.push(...stressTables(), ...mechanismTables(result));
   const single = scalars(result).filter(({ path }) => !path.startsWith("fit.") && path !== "verdict" && path !== "" && path !== "fit" && !path.startsWith("severities."));

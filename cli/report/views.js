@@ -114,7 +114,8 @@ function ellipse(estimate) {
 
 function estimateTable(estimates) {
   const both = (value, interval, path) => ({
-    text: value === null ? "–" : short(value, 5) + (interval && interval[0] !== null ? ` (${short(interval[0], 4)} to ${short(interval[1], 4)})` : ""), path, value });
+    text: value === null ? "–" : make("span", {}, short(value, 5),
+      interval && interval[0] !== null ? make("small", { class: "under" }, ` ${short(interval[0], 4)} to ${short(interval[1], 4)}`) : null), path, value });
   return grid(["method", "", "ζ (95 %)", "c [N.s/m] (95 %)", "x_f [m]", "F0 [N] (95 %)", "because"],
     estimates.map((e, i) => [
       { text: e.method, class: "text" },
