@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/speed/contender.hpp"
+#include "bench/speed/identification.hpp"
 #include "bench/speed/smooth_table.hpp"
 #include "bench/speed/steady_states.hpp"
 #include "bench/speed/timing.hpp"
@@ -102,6 +103,16 @@ void print_figures(const StandardCase& work, const std::vector<Row>& rows) {
              seconds_for_curve(work, 10'000), 0.1);
 }
 
+void print_identification() {
+  const auto print_time = [](std::string_view what, double seconds, const std::string& target) {
+    fmt::print("{:60}{:>14.4f}{:>14}\n", what, seconds, target);
+  };
+  fmt::print("\n{:60}{:>14}{:>14}\n", "seconds of identification, one core, at most", "measured", "target");
+  print_time("1,000 bootstrap replicates of 50 pairs", seconds_for_bootstrap(), "0.1");
+  print_time("output_error with intervals, 10 s at 1 kHz", seconds_for_output_error(), "1");
+  print_time("law_selection of 50 pairs", seconds_for_law_selection(), "");
+}
+
 int compare(int batches) {
   const StandardCase work = standard_case();
   std::vector<Row> rows = in_process(work, batches);
@@ -124,6 +135,7 @@ int compare(int batches) {
   fmt::print("\nratio: median time over that of the exact engine; error: relative, to the closed form\n");
   print_figures(work, rows);
   print_smooth_table(batches);
+  print_identification();
   if (!sound) fmt::print(stderr, "a contender lost a reversal: there are two in each period\n");
   return sound ? 0 : 1;
 }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 
 #include "friction_models/coulomb.hpp"
@@ -168,16 +167,13 @@ TEST_CASE("Profiles and bootstrap of the exact law agree with its standard error
   options.bootstrap = 1000;
   Record record =
       pairs_at(0.1, 2.2e-3, {0.96, 0.98, 1.0, 1.02, 1.04, 0.97, 0.99, 1.01, 1.03, 1.05}, 0.02e-3, normal);
-  const auto start = std::chrono::steady_clock::now();
   const Estimate e = den_hartog_fit(record, bearing, options);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   REQUIRE(e.others.size() == 4);
   CHECK((*e.others[0].interval95)[0] == Approx(e.interval95->zeta[0]).margin(0.05 * e.std->zeta));
   CHECK((*e.others[1].interval95)[1] == Approx(e.interval95->F0[1]).margin(0.05 * e.std->F0));
   // Residuals drawn: 1000 replicates know a standard deviation to 2.2 %.
   CHECK(*e.others[2].std == Approx(e.std->zeta).epsilon(0.07));
   CHECK(*e.others[3].std == Approx(e.std->F0).epsilon(0.07));
-  CHECK(spent.count() < 1.0);  // profile and 1000 replicates of 50 pairs at ten frequencies; measured: tens of ms
 }
 
 TEST_CASE("The exact law leaves out what sticks and doubts what it cannot fit") {

