@@ -37,9 +37,10 @@ constexpr int max_newton = 60;
 constexpr double runaway = 1e9;
 
 /// Tells growth without end from growth that slows down and from beats. Asked at 500, 1000, 2000, ... periods: an
-/// amplitude grows on when it gained 1.7 times as much over the last doubling of time as over the one before; 2 is
-/// in proportion to time. One that tends to its end as 1 - exp(-n/tau) or as tanh(n/tau) gains so much for n below
-/// tau/4 or tau/3.4 only, and would not settle within `max_periods` from there. One that beats was larger before.
+/// amplitude grows on when it gained 1.7 times as much over the last doubling of time, n to 2 n, as over the one
+/// before; 2 is in proportion to time. One that tends to its end as 1 - exp(-n/tau) or as tanh(n/tau) gains so much
+/// for n below tau/4.5 or tau/3.4 only, and would not settle within `max_periods` from there. One that beats was
+/// larger before.
 class Growth {
  public:
   bool goes_on(int period, double amplitude) {
