@@ -7,7 +7,7 @@
 
 #include "bench/grid.hpp"
 #include "sim/departures.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench {
 

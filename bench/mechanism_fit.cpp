@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "identify/least_squares.hpp"
-#include "identify/line_estimate.hpp"
-#include "sim/steady_state.hpp"
+#include "identify/methods/amplitudes/line_estimate.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench {
 

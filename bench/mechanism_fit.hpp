@@ -8,9 +8,9 @@
 ///   chi2 = sum over parts of ((zeta - zeta_i)/std)^2 + ((F0 - F0_i)/std)^2
 ///
 /// A weak pull to where a search begins, no part of chi2, keeps it from wandering where the numbers do not change.
-/// Levenberg-Marquardt (`identify/least_squares.hpp`) with derivatives by differences, within bounds, among motions
-/// that never stick: a test that does is seen in its record. Cost: some hundred tests of as many steady states as
-/// there are levels.
+/// Levenberg-Marquardt (`identify/statistics/least_squares.hpp`) with derivatives by differences, within bounds,
+/// among motions that never stick: a test that does is seen in its record. Cost: some hundred tests of as many
+/// steady states as there are levels.
 
 #include <Eigen/Core>
 #include <cstddef>

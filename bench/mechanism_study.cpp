@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bench/mechanism_answer.hpp"
-#include "identify/free_decay.hpp"
+#include "identify/methods/decays/free_decay.hpp"
+#include "sim/motion/simulate.hpp"
 #include "sim/parallel.hpp"
-#include "sim/simulate.hpp"
 
 namespace dualdamp::bench {
 

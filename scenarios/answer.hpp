@@ -8,10 +8,10 @@
 #include "identify/record.hpp"
 #include "scenarios/json.hpp"
 #include "scenarios/run.hpp"
-#include "sim/continuation.hpp"
-#include "sim/curves.hpp"
-#include "sim/simulate.hpp"
-#include "sim/sticking_boundary.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/continuation.hpp"
+#include "sim/orbits/curves.hpp"
+#include "sim/orbits/sticking_boundary.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "identify/derived_records.hpp"
 #include "identify/methods.hpp"
+#include "identify/records/derived_records.hpp"
 #include "scenarios/checks_of_analyses.hpp"
 
 namespace dualdamp::scenarios {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "identify/record_reader.hpp"
+#include "identify/readers/record_reader.hpp"
 #include "scenarios/reader.hpp"
 
 namespace dualdamp::scenarios {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/record_reader.hpp"
+#include "identify/readers/record_reader.hpp"
 #include "scenarios/checked_file.hpp"
 #include "scenarios/checks.hpp"
 

@@ -3,12 +3,12 @@
 #include "friction_models/parameters.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
-#include "identify/record_reader.hpp"
+#include "identify/readers/record_reader.hpp"
 #include "scenarios/formulas.hpp"
 #include "sim/departures.hpp"
 #include "sim/excitation.hpp"
 #include "sim/mechanisms.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::scenarios {
 

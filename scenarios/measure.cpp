@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/random.hpp"
-#include "identify/derived_records.hpp"
-#include "sim/engine.hpp"
+#include "identify/records/derived_records.hpp"
+#include "sim/engine/engine.hpp"
+#include "sim/motion/simulate.hpp"
 #include "sim/parallel.hpp"
-#include "sim/simulate.hpp"
 
 namespace dualdamp::scenarios {
 

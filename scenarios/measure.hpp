@@ -2,16 +2,16 @@
 /// Synthetic measurements: the motion of a model turned into a record.
 ///
 /// Two steps, so that one motion serves many readings: `motion_of` computes what perfect sensors would see, which
-/// takes as long as the motion; `reading` adds what real ones make of it (identify/sensors.hpp).
+/// takes as long as the motion; `reading` adds what real ones make of it (identify/records/sensors.hpp).
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "identify/record.hpp"
-#include "identify/sensors.hpp"
+#include "identify/records/sensors.hpp"
 #include "sim/model.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -12,10 +12,10 @@
 #include "scenarios/expectations.hpp"
 #include "scenarios/formulas.hpp"
 #include "scenarios/result_fields.hpp"
-#include "sim/curves.hpp"
-#include "sim/simulate.hpp"
-#include "sim/steady_state.hpp"
-#include "sim/sticking_boundary.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/curves.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "sim/orbits/sticking_boundary.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -15,8 +15,8 @@
 #include "scenarios/formulas.hpp"
 #include "scenarios/law_values.hpp"
 #include "scenarios/reader.hpp"
-#include "sim/engine.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/engine/engine.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::scenarios {
 

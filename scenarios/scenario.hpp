@@ -15,8 +15,8 @@
 #include "scenarios/measure.hpp"
 #include "scenarios/mechanism_study.hpp"
 #include "scenarios/stress_test.hpp"
-#include "sim/continuation.hpp"
 #include "sim/model.hpp"
+#include "sim/orbits/continuation.hpp"
 
 namespace dualdamp::scenarios {
 

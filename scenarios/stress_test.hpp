@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "identify/methods.hpp"
-#include "identify/sensors.hpp"
+#include "identify/records/sensors.hpp"
 #include "sim/departures.hpp"
 
 namespace dualdamp::scenarios {

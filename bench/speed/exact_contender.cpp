@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "bench/speed/contender.hpp"
-#include "sim/exact_engine.hpp"
+#include "sim/engine/exact_engine.hpp"
 
 namespace dualdamp::bench::speed {
 namespace {

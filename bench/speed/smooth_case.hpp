@@ -13,7 +13,7 @@
 
 #include "bench/speed/standard_case.hpp"
 #include "friction_models/parameters.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bench/speed/smooth_contender.hpp"
-#include "sim/smooth_engine.hpp"
+#include "sim/engine/smooth_engine.hpp"
 
 namespace dualdamp::bench::speed {
 

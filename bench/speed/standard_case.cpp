@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "friction_models/coulomb.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {
 

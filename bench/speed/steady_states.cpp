@@ -12,8 +12,8 @@
 #include "bench/speed/smooth_case.hpp"
 #include "bench/speed/timing.hpp"
 #include "sim/batch/batch.hpp"
-#include "sim/curves.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/curves.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {
 namespace {

@@ -3,8 +3,9 @@
 
 usage: layering.py ROOT
 
-FOLDERS is the table of docs/architecture.md; LIBRARIES says where each foreign library may appear. A header is public
-when a CMakeLists.txt names it under HEADERS (they are installed), private otherwise.
+FOLDERS says which folders may include which, ROOMS the same of the rooms inside a folder; LIBRARIES says where each
+foreign library may appear. A header is public when a CMakeLists.txt names it under HEADERS (they are installed),
+private otherwise.
 """
 
 import re
@@ -21,6 +22,28 @@ FOLDERS = {
     "bench": ["core", "friction_models", "sim", "identify", "scenarios"],
     "cli": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
     "python": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
+}
+# What a room may include of its own folder, beside itself. "." is the folder's own top level.
+ROOMS = {
+    "sim": {
+        ".": [],
+        "engine": ["."],
+        "analytic": ["."],
+        "motion": [".", "engine"],
+        # A pack that cannot finish an orbit hands it to the search, and the search tries packs first.
+        "orbits": [".", "engine", "motion", "analytic", "batch"],
+        "batch": [".", "engine", "motion", "orbits"],
+        "conformance": [".", "engine"],
+    },
+    "identify": {
+        ".": ["methods"],  # the list of methods
+        "statistics": ["."],
+        "records": [".", "statistics"],
+        "readers": [".", "records"],
+        "models": [".", "statistics"],
+        "uncertainty": [".", "statistics", "records", "models"],
+        "methods": [".", "statistics", "records", "models", "uncertainty"],
+    },
 }
 ANYWHERE = list(FOLDERS)
 ABOVE_SIM = ["identify", "scenarios", "bench", "cli", "python"]
@@ -79,6 +102,25 @@ def line_of(text, position):
     return text.count("\n", 0, position) + 1
 
 
+def room_of(path):
+    """The room of a file: "engine" of sim/engine/state.hpp, "." of sim/model.hpp."""
+    parts = path.split("/")
+    return parts[1] if len(parts) > 2 else "."
+
+
+def room_fault(path, target):
+    """Why a file may not include another one of its folder, or None."""
+    folder, room, owner = path.split("/")[0], room_of(path), room_of(target)
+    if folder not in ROOMS or room == owner:
+        return None
+    if room not in ROOMS[folder]:
+        return f"{folder}/{room}/ is no room listed in scripts/checks/layering.py"
+    if owner in ROOMS[folder][room]:
+        return None
+    where = f"{folder}/" if room == "." else f"{folder}/{room}/"
+    return f"{where} may include of {folder}/ only {', '.join(ROOMS[folder][room]) or 'itself'}"
+
+
 def project_fault(root, path, target, public):
     """Why file `path` may not include project file `target`, or None."""
     folder, owner = path.split("/")[0], target.split("/")[0]
@@ -91,6 +133,8 @@ def project_fault(root, path, target, public):
         return f"{folder}/ may include only {allowed}"
     if not (root / target).exists():
         return "no such file"
+    if owner == folder and (fault := room_fault(path, target)):
+        return fault
     if owner != folder and target not in public:
         return f"this header is private to {owner}/"
     if path in public and target not in public:

@@ -5,7 +5,7 @@ usage: parity.py ROOT PROGRAM
 
 Laws and methods are those the built PROGRAM lists; a page of another name is a fault. Each law has a header,
 a source, a test, a page and a scenario that uses it; each method likewise, where one file pair may serve a family:
-identify/resonance.{hpp,cpp} serves resonance_two_point. Every header of a library is in a CMakeLists.txt (public under
+resonance.{hpp,cpp} serves resonance_two_point. Every header of a library is in a CMakeLists.txt (public under
 HEADERS, which makes a FILE_SET; private under SOURCES), so is every source, and the first line of every shipped scenario points editors to the schema.
 """
 
@@ -55,9 +55,9 @@ def used_words(root, key):
 
 
 def lacking(root, places):
-    """Of places [what, [candidate paths]], those with no candidate present."""
+    """Of places [what, [candidate patterns]], those with no candidate present."""
     for what, candidates in places:
-        if not any((root / path).is_file() for path in candidates):
+        if not any(path.is_file() for pattern in candidates for path in root.glob(pattern)):
             yield f"no {what} ({candidates[0]})"
 
 
@@ -82,9 +82,9 @@ def method_faults(root, names):
     for name in names:
         stems = family(name)
         yield from (f"method {name}: {fault}" for fault in lacking(root, [
-            ("header", [f"identify/{stem}.hpp" for stem in stems]),
-            ("source", [f"identify/{stem}.cpp" for stem in stems]),
-            ("test", [f"tests/identify/test_{stem}.cpp" for stem in stems]),
+            ("header", [f"identify/methods/*/{stem}.hpp" for stem in stems]),
+            ("source", [f"identify/methods/*/{stem}.cpp" for stem in stems]),
+            ("test", [f"tests/identify/methods/*/test_{stem}.cpp" for stem in stems]),
             ("page", [f"docs/methods/{name}.md"]),
         ]))
         if name not in used:

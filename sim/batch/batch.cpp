@@ -10,9 +10,9 @@
 
 #include "friction_models/coulomb.hpp"
 #include "sim/batch/kernels.hpp"
-#include "sim/exact_engine.hpp"
+#include "sim/engine/exact_engine.hpp"
+#include "sim/orbits/steady_state.hpp"
 #include "sim/parallel.hpp"
-#include "sim/steady_state.hpp"
 
 namespace dualdamp::sim {
 

@@ -24,10 +24,10 @@
 
 #include "core/first_crossing.hpp"
 #include "core/outcome.hpp"
+#include "sim/engine/state.hpp"
 #include "sim/excitation.hpp"
 #include "sim/model.hpp"
 #include "sim/oscillator.hpp"
-#include "sim/state.hpp"
 
 namespace dualdamp::sim {
 
@@ -91,7 +91,7 @@ struct BatchSteadyStates {
   std::vector<unsigned char> engine;  ///< 1: found by the exact engine, 0: in a pack
 };
 
-/// The steady state approached from rest at x = 0 (`sim/steady_state.hpp`). In packs: sliding orbits.
+/// The steady state approached from rest at x = 0 (`sim/orbits/steady_state.hpp`). In packs: sliding orbits.
 [[nodiscard]] BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options = {});
 
 /// Where motions are after some periods; in and out.

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "sim/stepper.hpp"
+#include "sim/engine/stepper.hpp"
 
 namespace dualdamp::sim {
 

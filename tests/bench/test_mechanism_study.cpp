@@ -11,7 +11,7 @@
 #include <string>
 
 #include "bench/mechanism_fit.hpp"
-#include "identify/resonance_least_squares.hpp"
+#include "identify/methods/amplitudes/resonance_least_squares.hpp"
 #include "scenarios/result_fields.hpp"
 #include "sim/parallel.hpp"
 

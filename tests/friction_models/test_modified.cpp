@@ -14,7 +14,7 @@
 #include "friction_models/reset_integrator.hpp"
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
-#include "sim/simulate.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;

@@ -13,7 +13,7 @@
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;

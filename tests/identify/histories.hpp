@@ -5,7 +5,7 @@
 
 #include "friction_models/coulomb.hpp"
 #include "identify/record.hpp"
-#include "sim/simulate.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/identify/records.hpp"
 
 namespace dualdamp::identify::testing {

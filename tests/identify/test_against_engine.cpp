@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "friction_models/coulomb.hpp"
-#include "identify/free_decay.hpp"
-#include "identify/resonance_least_squares.hpp"
-#include "identify/resonance_two_point.hpp"
+#include "identify/methods/amplitudes/resonance_least_squares.hpp"
+#include "identify/methods/amplitudes/resonance_two_point.hpp"
+#include "identify/methods/decays/free_decay.hpp"
 #include "sim/analytic/den_hartog.hpp"
-#include "sim/curves.hpp"
-#include "sim/simulate.hpp"
-#include "tests/identify/bearing.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/curves.hpp"
+#include "tests/identify/methods/histories/bearing.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;

@@ -8,7 +8,7 @@
 
 #include "core/units.hpp"
 #include "identify/methods.hpp"
-#include "identify/record_reader.hpp"
+#include "identify/readers/record_reader.hpp"
 
 using namespace dualdamp;
 

@@ -1,7 +1,7 @@
 #include "identify/verdict.hpp"
 
 #include <catch2/catch.hpp>
-#include "tests/identify/bearing.hpp"
+#include "tests/identify/methods/histories/bearing.hpp"
 
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;

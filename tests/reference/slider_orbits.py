@@ -3,7 +3,7 @@
 
 Shares nothing with the program: closed forms of each mode in 45-digit arithmetic (mpmath), events by a fine scan and
 then the secant rule, the periodic state by Newton's method on differences. Writes slider_orbits.csv beside itself;
-tests/sim/test_slider_orbits.cpp compares. Needs python3-mpmath; takes some minutes.
+tests/sim/orbits/test_slider_orbits.cpp compares. Needs python3-mpmath; takes some minutes.
 """
 
 import cmath

@@ -7,7 +7,7 @@
 #include "core/random.hpp"
 #include "friction_models/coulomb.hpp"
 #include "scenarios/measure.hpp"
-#include "sim/simulate.hpp"
+#include "sim/motion/simulate.hpp"
 
 using namespace dualdamp;
 using scenarios::Measurement;
@@ -174,7 +174,7 @@ TEST_CASE("sampled steady states give the pairs of exact ones", "[measure]") {
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const identify::Pair& pair = record.pairs->pairs[i];
     CHECK(pair.number == exact[i].number);
-    // What nine harmonics leave out of a Coulomb response (identify/derived_records.hpp).
+    // What nine harmonics leave out of a Coulomb response (identify/records/derived_records.hpp).
     CHECK(pair.Y == Approx(exact[i].Y).epsilon(1e-9));
     CHECK(pair.x == Approx(exact[i].x).epsilon(1e-3));
     CHECK(pair.phase == Approx(exact[i].phase).epsilon(1e-4));

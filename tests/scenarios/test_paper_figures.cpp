@@ -11,7 +11,7 @@
 
 #include "files.hpp"
 #include "scenarios/scenario.hpp"
-#include "sim/simulate.hpp"
+#include "sim/motion/simulate.hpp"
 
 using namespace dualdamp;
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
-#include "identify/record_reader.hpp"
+#include "identify/readers/record_reader.hpp"
 #include "scenarios/output.hpp"
 #include "scenarios/result_fields.hpp"
 

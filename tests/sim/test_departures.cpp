@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/steady_state.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;
 

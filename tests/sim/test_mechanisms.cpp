@@ -11,8 +11,8 @@
 
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
-#include "sim/simulate.hpp"
-#include "sim/steady_state.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;
 

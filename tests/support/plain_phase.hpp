@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sim/interval.hpp"
+#include "sim/engine/interval.hpp"
 #include "sim/model.hpp"
 #include "tests/support/exponential_sum.hpp"
 #include "tests/support/oracle.hpp"

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "sim/simulate.hpp"
+#include "sim/motion/simulate.hpp"
 
 namespace dualdamp::test {
 

@@ -1,0 +1,378 @@
+#include "identify/methods/amplitudes/den_hartog_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/methods/amplitudes/bootstrap.hpp"
+#include "identify/methods/amplitudes/line_estimate.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/profile_likelihood.hpp"
+#include "identify/statistics/statistics.hpp"
+#include "sim/analytic/den_hartog.hpp"
+
+namespace dualdamp::identify {
+
+namespace analytic = sim::analytic;
+
+namespace {
+
+constexpr double greatest_zeta = 0.95;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Frequencies this close are one.
+constexpr double same_frequency = 1e-6;
+
+/// Parameters (zeta, x_f in the unit of the data, ln(wn/wn of the constants)); the last may be held at 0.
+class Model {
+ public:
+  Model(std::vector<Datum> pairs, bool free) : pairs_(std::move(pairs)), size_(free ? 3 : 2) {
+    for (const Datum& datum : pairs_) {
+      const auto found = std::ranges::find_if(
+          ratios_, [&](double r) { return std::abs(r - datum.r) <= same_frequency * datum.r; });
+      frequency_.push_back(static_cast<std::size_t>(found - ratios_.begin()));
+      if (found == ratios_.end()) ratios_.push_back(datum.r);
+    }
+  }
+
+  [[nodiscard]] const std::vector<Datum>& pairs() const { return pairs_; }
+  [[nodiscard]] std::size_t frequencies() const { return ratios_.size(); }
+  [[nodiscard]] const std::vector<double>& ratios() const { return ratios_; }
+  [[nodiscard]] std::size_t frequency(std::size_t pair) const { return frequency_[pair]; }
+  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(pairs_.size()); }
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+
+  /// Model less measurement; derivatives in all three directions whether fitted or not. False outside of the law's
+  /// range.
+  bool evaluate(const Eigen::Vector3d& p, Eigen::VectorXd& residual, Eigen::MatrixX3d* jacobian) const {
+    if (!(p[0] > 0.0 && p[0] < greatest_zeta)) return false;
+    const double scale = std::exp(-p[2]);
+    functions_.clear();
+    slopes_.clear();
+    for (const double r : ratios_) {
+      functions_.push_back(analytic::den_hartog(p[0], r * scale));
+      if (jacobian != nullptr) slopes_.push_back(analytic::slopes(functions_.back()));
+    }
+    residual.resize(rows());
+    if (jacobian != nullptr) jacobian->resize(rows(), 3);
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      const Datum& datum = pairs_[static_cast<std::size_t>(i)];
+      const std::size_t k = frequency_[static_cast<std::size_t>(i)];
+      const analytic::DenHartog& d = functions_[k];
+      const double viscous = datum.Y / d.q;
+      const double reactive = d.H * p[1];
+      if (!(viscous > std::abs(reactive))) return false;
+      const double root = std::sqrt((viscous - reactive) * (viscous + reactive));
+      residual[i] = root - d.G * p[1] - datum.x;
+      if (jacobian == nullptr) continue;
+      const analytic::DenHartogSlopes& s = slopes_[k];
+      const auto slope = [&](double G, double H, double q) {
+        return -G * p[1] - (viscous * viscous * q / d.q + reactive * H * p[1]) / root;
+      };
+      (*jacobian)(i, 0) = slope(s.G_zeta, s.H_zeta, s.q_zeta);
+      (*jacobian)(i, 1) = -d.G - d.H * reactive / root;
+      (*jacobian)(i, 2) = -d.r * slope(s.G_r, s.H_r, s.q_r);
+    }
+    return true;
+  }
+
+  /// Mean square of dx/dY: by how much errors of the input are seen in the output.
+  [[nodiscard]] double mean_square_gain(const Eigen::Vector3d& p) const {
+    double sum = 0.0;
+    for (const Datum& datum : pairs_) {
+      const analytic::DenHartog d = analytic::den_hartog(p[0], datum.r * std::exp(-p[2]));
+      const double viscous = datum.Y / d.q;
+      const double gain = viscous / (d.q * std::sqrt(viscous * viscous - d.H * d.H * p[1] * p[1]));
+      sum += gain * gain;
+    }
+    return sum / static_cast<double>(pairs_.size());
+  }
+
+ private:
+  std::vector<Datum> pairs_;
+  std::vector<double> ratios_;
+  std::vector<std::size_t> frequency_;
+  Eigen::Index size_;
+  mutable std::vector<analytic::DenHartog> functions_;
+  mutable std::vector<analytic::DenHartogSlopes> slopes_;
+};
+
+double sum_of_squares(const Model& model, const Eigen::Vector3d& p) {
+  Eigen::VectorXd residual;
+  return model.evaluate(p, residual, nullptr) ? residual.squaredNorm() : infinity;
+}
+
+/// The best of a grid in zeta (and wn), the friction by linear least squares with H neglected.
+std::optional<Eigen::Vector3d> starting_point(const Model& model) {
+  std::optional<Eigen::Vector3d> best;
+  double least = infinity;
+  std::vector<analytic::DenHartog> functions;
+  const double reach = model.size() == 3 ? 0.15 : 0.0;
+  for (double u = -reach; u <= reach; u += 0.03) {
+    for (double zeta = 0.003; zeta < greatest_zeta; zeta *= 1.35) {
+      functions.clear();
+      for (const double r : model.ratios()) functions.push_back(analytic::den_hartog(zeta, r * std::exp(-u)));
+      double S_GG = 0.0;
+      double S_Gx = 0.0;
+      for (std::size_t i = 0; i < model.pairs().size(); ++i) {
+        const analytic::DenHartog& d = functions[model.frequency(i)];
+        S_GG += d.G * d.G;
+        S_Gx += d.G * (model.pairs()[i].Y / d.q - model.pairs()[i].x);
+      }
+      const Eigen::Vector3d p(zeta, std::max(S_Gx / S_GG, 0.0), u);
+      const double squares = sum_of_squares(model, p);
+      if (squares >= least) continue;
+      least = squares;
+      best = p;
+    }
+  }
+  return best;
+}
+
+struct Fit {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::VectorXd residual;
+  Eigen::MatrixX3d jacobian;  ///< in all three directions
+};
+
+std::optional<Fit> fit_model(const Model& model) {
+  const std::optional<Eigen::Vector3d> start = starting_point(model);
+  if (!start) return std::nullopt;
+  Fit result;
+  const auto full = [&model](const Eigen::VectorXd& p) {
+    return Eigen::Vector3d(p[0], p[1], model.size() == 3 ? p[2] : 0.0);
+  };
+  LeastSquaresProblem problem;
+  problem.residuals = model.rows();
+  problem.start = start->head(model.size());
+  problem.evaluate = [&](const Eigen::VectorXd& p, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
+    if (!model.evaluate(full(p), residual, jacobian == nullptr ? nullptr : &result.jacobian)) return false;
+    if (jacobian != nullptr) *jacobian = result.jacobian.leftCols(model.size());
+    return true;
+  };
+  const LeastSquaresFit found = fit(problem);
+  if (!found.outcome.ok()) return std::nullopt;
+  result.p = full(found.parameters);
+  if (!model.evaluate(result.p, result.residual, &result.jacobian)) return std::nullopt;
+  return result;
+}
+
+/// A few Gauss-Newton steps from a point that is near: what replicates of a bootstrap need.
+std::optional<Eigen::Vector3d> refine(const Model& model, Eigen::Vector3d p) {
+  Eigen::VectorXd residual;
+  Eigen::MatrixX3d jacobian;
+  constexpr int steps = 6;
+  for (int i = 0; i < steps; ++i) {
+    if (!model.evaluate(p, residual, &jacobian)) return std::nullopt;
+    Eigen::Vector3d step = Eigen::Vector3d::Zero();
+    if (model.size() == 3) {
+      step = (jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose() * residual);
+    } else {
+      const auto columns = jacobian.leftCols<2>();
+      step.head<2>() = (columns.transpose() * columns).ldlt().solve(columns.transpose() * residual);
+    }
+    p -= step;
+    if (std::abs(step[0]) < 1e-9 * p[0]) return p;
+  }
+  return p;
+}
+
+/// Fits, leaves out the pairs that stick at the estimate, and fits again until none does.
+std::optional<Fit> fit_sliding(Model& model, double unit, Estimate& estimate) {
+  while (model.rows() >= model.size()) {
+    std::optional<Fit> fit = fit_model(model);
+    if (!fit) return std::nullopt;
+    const double x_f = fit->p[1];
+    std::vector<Datum> left;
+    double r = 0.0;
+    double limit = 0.0;
+    for (const Datum& datum : model.pairs()) {
+      if (datum.r != r) {
+        r = datum.r;
+        limit = analytic::non_sticking_limit(analytic::den_hartog(fit->p[0], r * std::exp(-fit->p[2])));
+      }
+      if (x_f <= 0.0 || datum.x > limit * x_f) {
+        left.push_back(datum);
+        continue;
+      }
+      estimate.excluded.push_back(
+          {datum.number, "the mass sticks: x/x_f = " + core::format_number(datum.x / x_f, 4) + " is not above " +
+                             core::format_number(limit, 4) + " (at zeta = " + core::format_number(fit->p[0], 4) +
+                             ", x_f = " + core::format_number(x_f * unit, 4) + " m)"});
+    }
+    std::ranges::sort(estimate.excluded, {}, &Exclusion::number);
+    if (left.size() == model.pairs().size()) return fit;
+    model = Model(std::move(left), model.size() == 3);
+  }
+  return std::nullopt;
+}
+
+/// The constants with the mass that makes the fitted natural frequency of the known stiffness.
+KnownConstants fitted_constants(const KnownConstants& constants, const Fit& fit) {
+  KnownConstants result = constants;
+  result.mass *= std::exp(-2.0 * fit.p[2]);
+  return result;
+}
+
+void add_uncertainty(const Model& model, const Fit& fit, double unit, const KnownConstants& constants,
+                     const std::optional<Scatter>& scatter, Estimate& estimate) {
+  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(fit.jacobian.leftCols(model.size()));
+  if (scatter && covariance) {
+    const Eigen::DiagonalMatrix<double, 2> to_metres(1.0, unit);
+    const Eigen::Matrix2d friction = covariance->topLeftCorner<2, 2>();
+    set_uncertainty(estimate, scatter->variance * (to_metres * friction * to_metres), scatter->half_width,
+                    constants);
+  }
+  if (model.size() < 3) return;
+  const double omega_n = std::sqrt(constants.stiffness / constants.mass);
+  FurtherParameter parameter{"natural_frequency", "rad/s", omega_n, std::nullopt, std::nullopt};
+  if (scatter && covariance) {
+    const double std = omega_n * std::sqrt(scatter->variance * (*covariance)(2, 2));
+    parameter.std = std;
+    parameter.interval95 = {omega_n - scatter->half_width * std, omega_n + scatter->half_width * std};
+  }
+  estimate.others.push_back(std::move(parameter));
+}
+
+/// Is the friction another one at larger amplitudes, and is the natural frequency another one?
+void test_fit(const Model& model, const Fit& fit, Estimate& estimate, std::vector<std::string>& faults) {
+  const Eigen::MatrixXd columns = fit.jacobian.leftCols(model.size());
+  const Eigen::VectorXd residual = -fit.residual;  // measurement less model
+  Eigen::VectorXd square(model.rows());
+  for (Eigen::Index i = 0; i < model.rows(); ++i) {
+    const double fitted = model.pairs()[static_cast<std::size_t>(i)].x + fit.residual[i];
+    square[i] = fitted * fitted;
+  }
+  const double range = output_range(model.pairs());
+  estimate.lack_of_fit = added_term_test(columns, residual, square, range, "quadratic term F-test");
+  if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
+    faults.emplace_back("the pairs do not follow the amplitude law, so no single zeta and F0 describes them");
+  if (model.size() == 3 || model.frequencies() < 2) return;
+  const auto detuned = added_term_test(columns, residual, fit.jacobian.col(2), range, "natural frequency F-test");
+  if (detuned && detuned->fired)
+    faults.push_back(
+        "the frequencies contradict wn = sqrt(k/m) (F test, p = " + core::format_number(detuned->p_value, 2) +
+        "): with three or more of them the natural frequency can be fitted");
+}
+
+/// Phases are not fitted; they speak of the instruments and of wn.
+void judge_phases(const Record& record, const Model& model, const Fit& fit, Estimate& estimate) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Datum& datum : model.pairs()) {
+    const auto pair = std::ranges::find(record.pairs->pairs, datum.number, &Pair::number);
+    if (pair == record.pairs->pairs.end() || std::isnan(pair->phase)) continue;
+    const auto state = analytic::non_sticking_state(analytic::den_hartog(fit.p[0], datum.r * std::exp(-fit.p[2])),
+                                                    datum.Y, std::max(fit.p[1], 0.0));
+    if (!state) continue;
+    sum += std::remainder(pair->phase - state->phase, 2.0 * std::numbers::pi);
+    ++count;
+  }
+  constexpr double largest = 0.03;  // rad
+  if (count > 0 && std::abs(sum / count) > largest)
+    estimate.warnings.push_back("the measured phases are off those of the fitted motion by " +
+                                core::format_number(sum / count * 180.0 / std::numbers::pi, 3) +
+                                " degrees in the mean: a lag of the instruments, or another natural frequency");
+}
+
+Deviance deviance_of(const Model& model, const Fit& fit, double unit, double variance) {
+  return [&model, &fit, unit, variance, least = fit.residual.squaredNorm()](double zeta, double x_f) {
+    const auto deviance = [&](double u) {
+      return (sum_of_squares(model, {zeta, x_f / unit, u}) - least) / variance;
+    };
+    if (model.size() == 2) return deviance(0.0);
+    constexpr int digits = 20;
+    constexpr double reach = 0.05;
+    return boost::math::tools::brent_find_minima(deviance, fit.p[2] - reach, fit.p[2] + reach, digits).second;
+  };
+}
+
+void bootstrap(const Model& model, const Fit& fit, const ResonanceData& data, int replicates, Estimate& estimate) {
+  const std::vector<std::vector<std::size_t>> blocks = sweep_blocks(model.pairs());
+  const double widen = std::sqrt(static_cast<double>(model.rows()) /
+                                 static_cast<double>(std::max<Eigen::Index>(model.rows() - model.size(), 1)));
+  const auto drawn = [&](Draws& draws) {
+    std::vector<Datum> pairs;
+    for (std::size_t j = 0; j < blocks.size() && blocks.size() > 1; ++j)
+      for (const std::size_t i : blocks[draws.below(blocks.size())]) pairs.push_back(model.pairs()[i]);
+    if (blocks.size() > 1) return pairs;
+    pairs = model.pairs();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      pairs[i].x += fit.residual[static_cast<Eigen::Index>(i)] -
+                    widen * fit.residual[static_cast<Eigen::Index>(draws.below(pairs.size()))];
+    return pairs;
+  };
+  add_bootstrap(estimate, replicates, blocks.size(), data.constants,
+                [&](Draws& draws) -> std::optional<Eigen::Vector2d> {
+                  const auto p = refine(Model(drawn(draws), model.size() == 3), fit.p);
+                  if (!p || !p->allFinite()) return std::nullopt;
+                  return Eigen::Vector2d((*p)[0], (*p)[1] * data.unit);
+                });
+}
+
+/// Why there is no fit; empty when there may be one.
+std::string fault_of(const Model& model, const std::vector<Exclusion>& excluded) {
+  if (model.size() == 3 && model.frequencies() < 3)
+    return "the natural frequency cannot be told from fewer than three frequencies, and the record has " +
+           std::to_string(model.frequencies()) + ": zeta would be known tens of times worse";
+  if (model.rows() < model.size()) {
+    std::string fault = std::to_string(model.size()) + " pairs are needed, and " + std::to_string(model.rows()) +
+                        (model.rows() == 1 ? " is" : " are") + " left";
+    if (!excluded.empty())
+      fault += "; pair " + std::to_string(excluded.front().number) + ": " + excluded.front().reason;
+    return fault;
+  }
+  const auto same = [&](const Datum& datum) {
+    return datum.Y == model.pairs().front().Y && datum.r == model.pairs().front().r;
+  };
+  return std::ranges::all_of(model.pairs(), same) ? "the pairs are all of one input and one frequency" : "";
+}
+
+}  // namespace
+
+Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = den_hartog_fit_method.name;
+  std::optional<ResonanceData> data = take_pairs(record, constants, estimate);
+  if (!data) return estimate;
+  std::ranges::sort(data->pairs, {}, &Datum::number);
+  Model model(data->pairs, options.free_natural_frequency);
+  if (std::string fault = fault_of(model, estimate.excluded); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return estimate;
+  }
+  const std::optional<Fit> fit = fit_sliding(model, data->unit, estimate);
+  if (!fit) {
+    std::string fault = fault_of(model, estimate.excluded);
+    refuse(estimate, fault.empty() ? "no zeta below 0.95 fits the pairs" : std::move(fault));
+    return estimate;
+  }
+  const KnownConstants used_constants = fitted_constants(constants, *fit);
+  estimate.value = parameters(fit->p[0], fit->p[1] * data->unit, used_constants);
+  estimate.used = numbers_of(model.pairs());
+  const auto freedom = static_cast<double>(model.rows() - model.size());
+  const auto scatter = scatter_of(fit->residual.squaredNorm(), freedom, std::sqrt(model.mean_square_gain(fit->p)),
+                                  options, data->unit);
+  add_uncertainty(model, *fit, data->unit, used_constants, scatter, estimate);
+
+  std::vector<std::string> faults;
+  judge_signs(estimate, 1e-9 * model.pairs().front().Y * data->unit, faults);
+  test_fit(model, *fit, estimate, faults);
+  judge_phases(record, model, *fit, estimate);
+  if (options.profile && scatter)
+    add_profiles(estimate, deviance_of(model, *fit, data->unit, scatter->variance), scatter->half_width,
+                 used_constants);
+  if (options.bootstrap > 0) bootstrap(model, *fit, *data, options.bootstrap, estimate);
+  conclude(estimate, faults,
+           "rests on " + std::to_string(model.rows()) + " of " + std::to_string(record.pairs->pairs.size()) +
+               " pairs at " + std::to_string(model.frequencies()) +
+               (model.frequencies() == 1 ? " frequency" : " frequencies"));
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

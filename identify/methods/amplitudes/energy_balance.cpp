@@ -1,0 +1,185 @@
+#include "identify/methods/amplitudes/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "identify/methods/amplitudes/steady_states.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/records/history_energy.hpp"
+#include "identify/records/signals.hpp"
+#include "identify/statistics/statistics.hpp"
+
+namespace dualdamp::identify {
+
+using std::numbers::pi;
+
+EnergyTerms energy_of(const Pair& pair, double stiffness) {
+  const double fundamental = std::isnan(pair.fundamental) ? pair.x : pair.fundamental;
+  const double period = 2.0 * pi / pair.omega;
+  const double speed = pair.omega * fundamental;
+  return {
+      .work = pi * stiffness * pair.Y * fundamental * std::sin(pair.phase),
+      .path = 4.0 * pair.x,
+      .speed_square = period * (std::isnan(pair.mean_square_speed) ? 0.5 * speed * speed : pair.mean_square_speed),
+      .number = pair.number};
+}
+
+namespace {
+
+std::optional<ForceLine> line_through(const std::vector<EnergyTerms>& accounts) {
+  std::vector<Datum> points;
+  points.reserve(accounts.size());
+  for (const EnergyTerms& account : accounts)
+    points.push_back({account.speed_square / account.path, account.work / account.path, account.number});
+  return force_line(std::move(points), 1.0);
+}
+
+std::vector<EnergyTerms> accounts_of(const std::vector<Pair>& states, double stiffness) {
+  std::vector<EnergyTerms> accounts;
+  accounts.reserve(states.size());
+  for (const Pair& state : states) accounts.push_back(energy_of(state, stiffness));
+  return accounts;
+}
+
+}  // namespace
+
+bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& constants, Estimate& estimate,
+             std::vector<std::string>& faults, const OwnAccounts& own) {
+  const std::optional<ForceLine> line = line_through(accounts);
+  if (!line) {
+    refuse(estimate, "two steady states of different speeds are needed");
+    return false;
+  }
+  set_estimate(estimate, *line, constants);
+  ForceLine scattered = *line;  // without what the method's own approximation leaves, which is no error of the data
+  if (own && estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
+    const std::optional<ForceLine> of_own = line_through(own(estimate.value));
+    if (of_own && of_own->residuals.size() == scattered.residuals.size()) {
+      scattered.residuals -= of_own->residuals;
+      set_estimate(estimate, scattered, constants);
+    }
+  }
+  estimate.used = numbers_of(line->points);
+  constexpr double rounding = 1e-9;
+  const double scale = output_range(line->points);
+  judge_force_signs(estimate, rounding * scale / line->moments.mean_Y, rounding * scale, faults);
+  const CurvatureColumns columns = curvature_columns(line->points);
+  estimate.lack_of_fit =
+      added_term_test(columns.line, scattered.residuals, columns.square, scale, "quadratic term F-test");
+  if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
+    faults.emplace_back(
+        "the dissipation per path does not grow with the speed as Coulomb and viscous friction make it, so no "
+        "single "
+        "zeta and F0 describes these states");
+  return true;
+}
+
+namespace {
+
+/// Cycles that x would make in all its samples, turning as often as between its first and last turn. Only what
+/// turns back by more than `band` is one.
+int cycles_of(const std::vector<double>& x, double band) {
+  std::vector<std::size_t> turns;
+  double sense = 0.0;
+  std::size_t furthest = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double beyond = x[i] - x[furthest];
+    const bool turned = std::abs(beyond) > band && sense * beyond < 0.0;
+    if (turned) turns.push_back(furthest);
+    if (turned || sense * beyond > 0.0 || (sense == 0.0 && std::abs(beyond) > band)) {
+      sense = beyond > 0.0 ? 1.0 : -1.0;
+      furthest = i;
+    }
+  }
+  if (turns.size() < 2) return 1;
+  const double half_cycle =
+      static_cast<double>(turns.back() - turns.front()) / static_cast<double>(turns.size() - 1);
+  return std::max(static_cast<int>(static_cast<double>(x.size()) / (2.0 * half_cycle)), 1);
+}
+
+/// Histories in windows of about a cycle each, filtered with the first cut-off. Where the mass rests all that moves
+/// is noise, whose way is no motion: such windows are left out.
+std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
+                                               const MethodOptions& options, Estimate& estimate) {
+  std::vector<EnergyTerms> accounts;
+  for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
+    const Motion motion = motion_of(*item.history, cutoffs_for(*item.history, options).front());
+    constexpr double widest_noise = 10.0;  // standard deviations; of a million Gaussian ones it is 9.8
+    const double band = widest_noise * noise_deviation(item.history->x);
+    for (const WindowEnergy& window : energy_of(motion, constants, cycles_of(motion.x, band)))
+      if (window.path > 0.0 && window.range > band)
+        accounts.push_back({.work = window.input - window.stored,
+                            .path = window.path,
+                            .speed_square = window.square_speed,
+                            .number = item.number});
+  }
+  return accounts;
+}
+
+Estimate of_histories(const Record& record, const KnownConstants& constants, const MethodOptions& options,
+                      Estimate estimate) {
+  if (std::string fault = fault_of(constants); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return estimate;
+  }
+  const std::vector<EnergyTerms> accounts = accounts_of_histories(record, constants, options, estimate);
+  std::vector<std::string> faults;
+  if (!estimate.outcome.ok() || !balance(accounts, constants, estimate, faults)) return estimate;
+  const auto repeated = std::ranges::unique(estimate.used);
+  estimate.used.erase(repeated.begin(), repeated.end());
+  conclude(estimate, faults,
+           "rests on " + std::to_string(accounts.size()) + " cycles of " + std::to_string(estimate.used.size()) +
+               (estimate.used.size() == 1 ? " history" : " histories"));
+  return estimate;
+}
+
+Estimate of_states(const Record& record, const KnownConstants& constants, Estimate estimate) {
+  const std::optional<std::vector<Pair>> states = take_states(record, constants, true, estimate);
+  if (!states) return estimate;
+  const bool approximate = std::ranges::any_of(
+      *states, [](const Pair& pair) { return std::isnan(pair.fundamental) || std::isnan(pair.mean_square_speed); });
+  const auto own = [&](const ParameterSet& value) {
+    return accounts_of(exact_states(*states, value, constants), constants.stiffness);
+  };
+  std::vector<std::string> faults;
+  if (!balance(accounts_of(*states, constants.stiffness), constants, estimate, faults,
+               approximate ? OwnAccounts(own) : OwnAccounts()))
+    return estimate;
+  if (approximate) {
+    const auto read = [&](const std::vector<Pair>& exact) -> std::optional<ParameterSet> {
+      const std::optional<ForceLine> line = line_through(accounts_of(exact, constants.stiffness));
+      if (!line) return std::nullopt;
+      return parameters(ForceParameters{constants.mass, line->c(), constants.stiffness, line->F0()});
+    };
+    if (std::isnan(constants.mass))
+      estimate.warnings.emplace_back(
+          "a harmonic motion was assumed, since fundamental or mean square speed were not measured: c is some 2 % "
+          "too "
+          "large and F0 too small, or more away from resonance");
+    judge_own_reading(*states, constants, read,
+                      "because fundamental or mean square speed were not measured and a harmonic motion is assumed",
+                      estimate, faults);
+  }
+  conclude(estimate, faults,
+           "rests on " + std::to_string(estimate.used.size()) + " of " +
+               std::to_string(record.pairs->pairs.size()) + " steady states");
+  return estimate;
+}
+
+}  // namespace
+
+std::string lacks_energy(const Record& record) {
+  return record.histories.empty() || lacks_phases(record).empty() ? lacks_phases(record) : "";
+}
+
+/// States, being averaged over many cycles, come before histories.
+Estimate energy_balance(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = energy_balance_method.name;
+  if (record.histories.empty() || lacks_phases(record).empty())
+    return of_states(record, constants, std::move(estimate));
+  return of_histories(record, constants, options, std::move(estimate));
+}
+
+}  // namespace dualdamp::identify

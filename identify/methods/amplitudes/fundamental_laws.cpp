@@ -1,0 +1,140 @@
+#include "identify/methods/amplitudes/fundamental_laws.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/digamma.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "identify/methods/amplitudes/harmonic_balance.hpp"
+
+namespace dualdamp::identify {
+
+using std::numbers::pi;
+using Terms = FundamentalLaw::Terms;
+
+double dawson(double x) {
+  // A trapezoidal sum whose error falls like exp(-(pi/(2 h))^2), 7e-18 for this step; terms beyond the reach are as
+  // small.
+  constexpr double h = 0.25;
+  constexpr double reach = 6.1;
+  const auto first = std::max(0, static_cast<int>((std::abs(x) - reach) / (2.0 * h)));
+  const auto last = static_cast<int>((std::abs(x) + reach) / (2.0 * h));
+  double sum = 0.0;
+  for (int i = first; i <= last; ++i) {
+    const int n = 2 * i + 1;
+    const double near = std::exp(-(x - n * h) * (x - n * h));
+    sum -= near * std::expm1(-4.0 * x * n * h) / n;  // the terms n and -n
+  }
+  return sum / std::sqrt(pi);
+}
+
+namespace {
+
+/// (4/pi) sum_k (-1)^k a^(k+1) W_(k+2) with Wallis' integrals W_n = int sin^n; 16 terms leave a^17.
+ValueAndSlope saturating_series(double a) {
+  double even = 0.25 * pi;
+  double odd = 2.0 / 3.0;
+  double power = 1.0;
+  ValueAndSlope sum;
+  for (int k = 0; k < 16; k += 2) {
+    sum.value += power * a * (even - a * odd);
+    sum.slope += power * ((k + 1.0) * even - (k + 2.0) * a * odd);
+    power *= a * a;
+    even *= (k + 3.0) / (k + 4.0);
+    odd *= (k + 4.0) / (k + 5.0);
+  }
+  return {4.0 / pi * sum.value, 4.0 / pi * sum.slope};
+}
+
+}  // namespace
+
+ValueAndSlope saturating_fundamental(double a) {
+  if (a < 0.1) return saturating_series(a);
+  // (4/pi) int a sin^2/(1 + a sin) = (4/pi) (1 - pi/(2 a) + A/a), A = int 1/(1 + a sin), (1 - a^2) A' = a A - 1.
+  const double d = (1.0 - a) * (1.0 + a);
+  ValueAndSlope A{1.0 + (1.0 - a) / 3.0, -1.0 / 3.0};  // at a = 1
+  if (std::abs(d) > 1e-6) {
+    A.value = d > 0.0 ? std::acos(a) / std::sqrt(d) : std::acosh(a) / std::sqrt(-d);
+    A.slope = (a * A.value - 1.0) / d;
+  }
+  return {4.0 / pi * (1.0 + (A.value - 0.5 * pi) / a), 4.0 / pi * (A.slope - (A.value - 0.5 * pi) / a) / a};
+}
+
+namespace {
+
+constexpr double share = 4.0 / pi;  // of Coulomb friction in its fundamental
+
+using Fundamentals = FundamentalLaw::Fundamentals;
+/// Without the long double that Boost takes to round the last digit.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
+Fundamentals of_power(double V, double /*X*/, double n) {
+  const double phi = fundamental_factor(n) * std::pow(V, n);
+  const double factor_slope =
+      0.5 * (boost::math::digamma(0.5 * n + 1.0, InDouble()) - boost::math::digamma(0.5 * n + 1.5, InDouble()));
+  return {{share, phi}, {0.0, n * phi}, {0.0, phi * (std::log(V) + factor_slope)}};
+}
+
+Fundamentals of_saturating(double V, double /*X*/, double v0) {
+  const double a = V / v0;
+  const ValueAndSlope s = saturating_fundamental(a);
+  return {{share, v0 * s.value}, {0.0, V * s.slope}, {0.0, s.value - a * s.slope}};
+}
+
+Fundamentals of_stribeck(double V, double /*X*/, double vs) {
+  const double u = V / vs;
+  const double D = dawson(u);
+  const double slope = share * (1.0 - 2.0 * u * D - D / u);  // D' = 1 - 2 u D
+  return {{share, V, share * D / u}, {0.0, V, slope}, {0.0, 0.0, -slope / vs}};
+}
+
+/// Coulomb and viscous friction and one term that grows as X^n or V^n, without a shape.
+Fundamentals with_power(double V, double term, double n) { return {{share, V, term}, {0.0, V, n * term}, {}}; }
+
+}  // namespace
+
+const std::vector<FundamentalLaw>& fundamental_laws() {
+  static constexpr LawCoefficient F0{"F0", "N"};
+  static constexpr LawCoefficient c{"c", "N.s/m", 1};
+  static const std::vector<FundamentalLaw> laws = {
+      {.name = "coulomb_viscous",
+       .coefficients = {F0, c},
+       .fundamentals = [](double V, double, double) { return Fundamentals{{share, V}, {0.0, V}, {}}; },
+       .forces = [](double v, double) { return Terms{1.0, v}; }},
+      {.name = "quadratic_drag",
+       .coefficients = {F0, c, {"drag", "N.s^2/m^2", 2, 0, true}},
+       .fundamentals = [](double V, double, double) { return with_power(V, 8.0 / (3.0 * pi) * V * V, 2.0); },
+       .forces = [](double v, double) { return Terms{1.0, v, v * v}; },
+       .one_more = true},
+      {.name = "power",
+       .coefficients = {F0, {"force_at_1_m/s", "N"}},
+       .shape = LawShape{"exponent", "", 0.1, 4.0, false, true},
+       .fundamentals = of_power,
+       .forces = [](double v, double n) { return Terms{1.0, std::pow(v, n)}; },
+       .one_more = true},
+      {.name = "saturating_viscous",
+       .coefficients = {F0, c},
+       .shape = LawShape{"v0", "m/s", 0.02, 100.0, true, false},
+       .fundamentals = of_saturating,
+       .forces = [](double v, double v0) { return Terms{1.0, v / (1.0 + v / v0)}; },
+       .one_more = true},
+      {.name = "stribeck",
+       .coefficients = {F0, c, {"static_less_kinetic", "N"}},
+       .shape = LawShape{"stribeck_velocity", "m/s", 0.02, 5.0, true, false},
+       .fundamentals = of_stribeck,
+       .forces = [](double v, double vs) { return Terms{1.0, v, std::exp(-(v / vs) * (v / vs))}; }},
+      {.name = "position_quadratic",
+       .coefficients = {F0, c, {"curvature", "N/m^2", 0, 2, true}},
+       .fundamentals = [](double V, double X, double) { return with_power(V, share * X * X / 3.0, 2.0); },
+       .alias_at_one_frequency = true,
+       .one_more = true},
+      {.name = "position_linear",
+       .coefficients = {F0, c, {"slope", "N/m", 0, 1, true}},
+       .fundamentals = [](double V, double X, double) { return with_power(V, share * 0.5 * X, 1.0); },
+       .alias_at_one_frequency = true,
+       .one_more = true},
+  };
+  return laws;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,277 @@
+#include "identify/methods/amplitudes/receptance.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "identify/methods/amplitudes/steady_states.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/statistics.hpp"
+
+namespace dualdamp::identify {
+
+using std::numbers::pi;
+
+namespace {
+
+constexpr double same_frequency = 1e-4;
+
+double fundamental(const Pair& pair) { return std::isnan(pair.fundamental) ? pair.x : pair.fundamental; }
+
+/// k Y/X, N/m.
+double dynamic_stiffness(const Pair& pair, double stiffness) { return stiffness * pair.Y / fundamental(pair); }
+
+struct Fit {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd coefficients;
+  Eigen::VectorXd residuals;
+
+  [[nodiscard]] double freedom() const { return static_cast<double>(columns.rows() - columns.cols()); }
+  [[nodiscard]] double variance() const { return residuals.squaredNorm() / freedom(); }
+};
+
+using Row = std::function<Eigen::Vector3d(const Pair&)>;
+
+/// Least squares of two columns; `row` gives them and the value of one state.
+Fit fit_states(const std::vector<Pair>& states, const Row& row) {
+  Fit fit;
+  fit.columns.resize(static_cast<Eigen::Index>(states.size()), 2);
+  Eigen::VectorXd values(fit.columns.rows());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const Eigen::Vector3d numbers = row(states[static_cast<std::size_t>(i)]);
+    fit.columns.row(i) = numbers.head<2>();
+    values[i] = numbers[2];
+  }
+  fit.coefficients = Eigen::HouseholderQR<Eigen::MatrixXd>(fit.columns).solve(values);
+  fit.residuals = values - fit.columns * fit.coefficients;
+  return fit;
+}
+
+Eigen::Vector3d imaginary_row(const Pair& state, double stiffness) {
+  return {state.omega, 4.0 / (pi * fundamental(state)),
+          dynamic_stiffness(state, stiffness) * std::sin(state.phase)};
+}
+
+/// Coefficients (c, F0).
+Fit imaginary_part(const std::vector<Pair>& states, double stiffness) {
+  return fit_states(states, [stiffness](const Pair& state) { return imaginary_row(state, stiffness); });
+}
+
+/// What an error of x, as long in the direction of x as across it, makes of the imaginary part less its fit, per
+/// metre: across it turns the real part in, along it changes both sides and leaves c w/X.
+double error_gain(const Pair& state, double c, double stiffness) {
+  const double real = dynamic_stiffness(state, stiffness) * std::cos(state.phase);
+  return std::hypot(real, c * state.omega) / fundamental(state);
+}
+
+/// The same fit with states weighted by their errors: what remains are residuals alike.
+Fit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weights, double c, double stiffness) {
+  std::size_t i = 0;
+  return fit_states(states, [&](const Pair& state) -> Eigen::Vector3d {
+    return imaginary_row(state, stiffness) / error_gain(weights[i++], c, stiffness);
+  });
+}
+
+/// Coefficients (k, m).
+Fit real_part(const std::vector<Pair>& states, double stiffness) {
+  return fit_states(states, [stiffness](const Pair& state) {
+    return Eigen::Vector3d(1.0, -state.omega * state.omega,
+                           dynamic_stiffness(state, stiffness) * std::cos(state.phase));
+  });
+}
+
+std::optional<ParameterSet> read(const std::vector<Pair>& states, const KnownConstants& constants) {
+  const Fit fit = imaginary_part(states, constants.stiffness);
+  if (!fit.coefficients.allFinite()) return std::nullopt;
+  return parameters(ForceParameters{constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1]});
+}
+
+/// Residuals of the weighted fit less those that harmonic balance leaves of the exact motion at the estimate, which
+/// speak for the law and not against it.
+Eigen::VectorXd weighted_residuals(const std::vector<Pair>& states, const ParameterSet& value,
+                                   const KnownConstants& constants) {
+  Eigen::VectorXd residuals = weighted_part(states, states, value.c, constants.stiffness).residuals;
+  if (!(value.zeta > 0.0) || !(value.x_f >= 0.0)) return residuals;
+  const std::vector<Pair> exact = exact_states(states, value, constants);
+  if (exact.size() == states.size())
+    residuals -= weighted_part(exact, states, value.c, constants.stiffness).residuals;
+  return residuals;
+}
+
+/// The covariance is that of an unweighted fit to data of unequal errors; their size is told by the weighted one.
+void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownConstants& constants,
+                  Estimate& estimate) {
+  const double c = fit.coefficients[0];
+  const ForceParameters force{constants.mass, c, constants.stiffness, fit.coefficients[1]};
+  estimate.value = parameters(force);
+  const std::optional<Eigen::MatrixXd> unit = unit_covariance(fit.columns);
+  if (fit.freedom() < 1.0 || !unit) return;
+  Eigen::VectorXd gain(fit.residuals.size());
+  for (Eigen::Index i = 0; i < gain.size(); ++i)
+    gain[i] = error_gain(states[static_cast<std::size_t>(i)], c, constants.stiffness);
+  const Eigen::MatrixXd scaled = gain.asDiagonal() * fit.columns * *unit;
+  const double variance = weighted_residuals(states, estimate.value, constants).squaredNorm() / fit.freedom();
+  const Eigen::Matrix2d of_fit = variance * (scaled.transpose() * scaled);
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  covariance(1, 1) = of_fit(0, 0);
+  covariance(3, 3) = of_fit(1, 1);
+  covariance(1, 3) = covariance(3, 1) = of_fit(0, 1);
+  set_estimate(estimate, force, covariance, quantile95(fit.freedom()));
+}
+
+/// Stiffness and mass as the motion shows them; harmonic balance alone puts them off by some percent.
+void list_real_part(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
+  const Fit fit = real_part(states, constants.stiffness);
+  const std::optional<Eigen::MatrixXd> unit = unit_covariance(fit.columns);
+  const double k = fit.coefficients[0];
+  const double m = fit.coefficients[1];
+  if (!unit || !(k > 0.0) || !(m > 0.0)) {
+    estimate.warnings.emplace_back("the real part of the inverse receptance shows no stiffness and mass");
+    return;
+  }
+  const double half_width = fit.freedom() < 1.0 ? 0.0 : quantile95(fit.freedom());
+  const double variance = fit.freedom() < 1.0 ? 0.0 : fit.variance();
+  const double omega_n = std::sqrt(k / m);
+  const Eigen::Vector2d slope(0.5 * omega_n / k, -0.5 * omega_n / m);
+  estimate.others.push_back(further("stiffness", "N/m", k, variance * (*unit)(0, 0), half_width));
+  estimate.others.push_back(
+      further("natural_frequency", "rad/s", omega_n, variance * slope.dot(*unit * slope), half_width));
+  constexpr double largest = 0.1;
+  if (std::abs(k / constants.stiffness - 1.0) > largest)
+    estimate.warnings.push_back("the real part shows a stiffness " + percent(k / constants.stiffness - 1.0) +
+                                " off the known one: another spring, or phases with a lag");
+}
+
+/// |X/(k Y)| = A sin(phi) - B, hysteretic damping h = 1/A, as a line of 1 over the quantities measured.
+struct Limacon {
+  ParameterSet value;
+  double c_std = 0.0;  ///< N.s/m
+};
+
+std::optional<Limacon> limacon_of(const std::vector<Pair>& states, const KnownConstants& constants) {
+  std::vector<Datum> points;
+  double force = 0.0;
+  for (const Pair& state : states) {
+    points.push_back({std::sin(state.phase), 1.0 / dynamic_stiffness(state, constants.stiffness), state.number});
+    force += constants.stiffness * state.Y / static_cast<double>(states.size());
+  }
+  const std::optional<ForceLine> line = force_line(std::move(points), 1.0);
+  if (!line || !(line->line.slope > 0.0) || line->freedom() < 1.0) return std::nullopt;
+  const double omega_n = std::sqrt(constants.stiffness / constants.mass);
+  const double c = 1.0 / (line->line.slope * omega_n);
+  const double variance = line->residuals.squaredNorm() / line->freedom() / line->moments.S_YY;
+  return Limacon{parameters(ForceParameters{constants.mass, c, constants.stiffness,
+                                            -0.25 * pi * force * line->line.intercept / line->line.slope}),
+                 c * std::sqrt(variance) / line->line.slope};
+}
+
+/// The limacon of one input amplitude. Its own bias is large where phases vary little, so it is compared with that
+/// of the exact motion at the estimate.
+void list_limacon(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
+  const auto [least, greatest] = std::ranges::minmax_element(states, {}, &Pair::Y);
+  constexpr double constant = 0.01;
+  if (std::isnan(constants.mass) || greatest->Y - least->Y > constant * greatest->Y) return;
+  const std::optional<Limacon> limacon = limacon_of(states, constants);
+  if (!limacon) return;
+  estimate.subsets.push_back({"limacon", static_cast<int>(states.size()), limacon->value});
+  if (!(estimate.value.zeta > 0.0) || !(estimate.value.x_f >= 0.0)) return;
+  const std::vector<Pair> exact = exact_states(states, estimate.value, constants);
+  const std::optional<Limacon> own = exact.size() == states.size() ? limacon_of(exact, constants) : std::nullopt;
+  constexpr double deviations = 4.0;
+  constexpr double fraction = 0.1;
+  if (own &&
+      std::abs(limacon->value.c - own->value.c) > std::max(fraction * own->value.c, deviations * limacon->c_std))
+    estimate.warnings.push_back("the limacon gives c = " + core::format_number(limacon->value.c, 4) +
+                                " N.s/m where the estimate's own would give " +
+                                core::format_number(own->value.c, 4) +
+                                " N.s/m: damping, sticking or the phases are not what the method assumes");
+}
+
+/// A friction that grows with the amplitude adds w^2 X to the imaginary part.
+void test_amplitude(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate,
+                    std::vector<std::string>& faults) {
+  const double c = estimate.value.c;
+  const Fit fit = weighted_part(states, states, c, constants.stiffness);
+  const Eigen::VectorXd residuals = weighted_residuals(states, estimate.value, constants);
+  Eigen::VectorXd term(residuals.size());
+  for (Eigen::Index i = 0; i < term.size(); ++i) {
+    const Pair& state = states[static_cast<std::size_t>(i)];
+    term[i] = state.omega * state.omega * fundamental(state) / error_gain(state, c, constants.stiffness);
+  }
+  const Eigen::VectorXd values = fit.columns * fit.coefficients + fit.residuals;
+  estimate.lack_of_fit = added_term_test(fit.columns, residuals, term, values.maxCoeff() - values.minCoeff(),
+                                         "quadratic friction F-test");
+  if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
+    faults.emplace_back("the imaginary part is not that of Coulomb and viscous friction");
+}
+
+bool enough(const std::vector<Pair>& states, Estimate& estimate) {
+  std::vector<double> frequencies;
+  for (const Pair& state : states)
+    if (std::ranges::none_of(frequencies, [&](double w) { return std::abs(w - state.omega) < same_frequency * w; }))
+      frequencies.push_back(state.omega);
+  if (frequencies.size() >= 3) return true;
+  std::string reason = "phases at three frequencies are needed, and " + std::to_string(frequencies.size()) +
+                       (frequencies.size() == 1 ? " is" : " are") + " left";
+  if (!estimate.excluded.empty())
+    reason +=
+        "; pair " + std::to_string(estimate.excluded.front().number) + ": " + estimate.excluded.front().reason;
+  refuse(estimate, std::move(reason));
+  return false;
+}
+
+}  // namespace
+
+std::string lacks_receptance(const Record& record) {
+  if (std::string lack = lacks_phases(record); !lack.empty()) return lack;
+  std::vector<double> frequencies;
+  for (const Pair& pair : record.pairs->pairs)
+    if (!std::isnan(pair.omega) && !std::isnan(pair.phase) &&
+        std::ranges::find(frequencies, pair.omega) == frequencies.end())
+      frequencies.push_back(pair.omega);
+  return frequencies.size() >= 3 ? "" : "the pairs with phases are at fewer than three frequencies";
+}
+
+Estimate receptance(const Record& record, const KnownConstants& constants, const MethodOptions& /*options*/) {
+  Estimate estimate;
+  estimate.method = receptance_method.name;
+  if (std::string lack = lacks_receptance(record); !lack.empty()) {
+    refuse(estimate, std::move(lack));
+    return estimate;
+  }
+  std::optional<std::vector<Pair>> states = take_states(record, constants, true, estimate);
+  if (!states) return estimate;
+  Fit fit;
+  do {
+    if (!enough(*states, estimate)) return estimate;
+    fit = imaginary_part(*states, constants.stiffness);
+    estimate.value = read(*states, constants).value_or(ParameterSet{});
+  } while (drop_sticking(*states, estimate.value, constants, estimate));
+  if (!fit.coefficients.allFinite()) {
+    refuse(estimate, "the outputs are such that c and F0 cannot be told apart");
+    return estimate;
+  }
+  set_estimate(*states, fit, constants, estimate);
+  for (const Pair& state : *states) estimate.used.push_back(state.number);
+
+  std::vector<std::string> faults;
+  constexpr double rounding = 1e-9;
+  judge_force_signs(estimate, rounding * constants.stiffness / states->front().omega,
+                    rounding * constants.stiffness * states->front().x, faults);
+  test_amplitude(*states, constants, estimate, faults);
+  judge_own_reading(
+      *states, constants, [&](const auto& exact) { return read(exact, constants); },
+      "because the motion is not harmonic", estimate, faults);
+  list_real_part(*states, constants, estimate);
+  list_limacon(*states, constants, estimate);
+  conclude(estimate, faults,
+           "rests on " + std::to_string(states->size()) + " of " + std::to_string(record.pairs->pairs.size()) +
+               " steady states");
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,104 @@
+#include "identify/methods/decays/jacobsen_ayre.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "identify/methods/decays/extremes.hpp"
+#include "identify/statistics/statistics.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using std::numbers::pi;
+
+struct Friction {
+  double zeta = 0.0;
+  double x_f = 0.0;
+};
+
+/// X holds magnitudes, three or more.
+Friction rule_of_thumb(const std::vector<double>& X) {
+  const std::size_t n = X.size();
+  return {std::log(X[0] / X[2]) / (2.0 * pi), (X[n - 3] - X[n - 1]) / 4.0};
+}
+
+/// Where each number is free of what the other adds to it; nothing when the large swings are not larger than the
+/// small ones, and the two equations are one.
+std::optional<Friction> corrected(const Friction& crude, const std::vector<double>& X) {
+  const double to_zeta = 2.0 / (pi * X[1]);           // of x_f
+  const double to_x_f = 0.5 * pi * X[X.size() - 2];   // of zeta
+  const double determinant = 1.0 - to_zeta * to_x_f;  // 1 - X_small/X_large
+  constexpr double least = 0.05;
+  if (!(determinant > least)) return std::nullopt;
+  return Friction{(crude.zeta - to_zeta * crude.x_f) / determinant,
+                  (crude.x_f - to_x_f * crude.zeta) / determinant};
+}
+
+/// From the standard deviation of one extreme.
+Eigen::Matrix2d covariance(const std::vector<double>& X, double deviation) {
+  const auto n = static_cast<Eigen::Index>(X.size());
+  Eigen::Matrix2Xd jacobian = Eigen::Matrix2Xd::Zero(2, n);
+  jacobian(0, 0) = 1.0 / (2.0 * pi * X[0]);
+  jacobian(0, 2) = -1.0 / (2.0 * pi * X[2]);
+  jacobian(1, n - 3) = 0.25;
+  jacobian(1, n - 1) = -0.25;
+  return deviation * deviation * jacobian * jacobian.transpose();
+}
+
+/// The bias of the rule, as far as the corrected numbers tell it.
+void judge_bias(const Friction& crude, const std::optional<Friction>& better, Estimate& estimate,
+                std::vector<std::string>& faults) {
+  if (!better || !(better->zeta > 0.0) || !(better->x_f > 0.0)) {
+    faults.emplace_back("the bias of the rule cannot be told from these extremes");
+    return;
+  }
+  const double zeta_bias = crude.zeta / better->zeta - 1.0;
+  const double x_f_bias = crude.x_f / better->x_f - 1.0;
+  const std::string text = "the rule takes one friction for the other: zeta is about " + percent(zeta_bias) +
+                           " off and F0 about " + percent(x_f_bias) + " (free_decay is not)";
+  constexpr double largest = 0.1;
+  if (std::max(std::abs(zeta_bias), std::abs(x_f_bias)) > largest)
+    faults.push_back(text);
+  else
+    estimate.warnings.push_back(text);
+}
+
+}  // namespace
+
+Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = jacobsen_ayre_method.name;
+  if (std::string lack = lacks_decay(record); !lack.empty()) {
+    refuse(estimate, std::move(lack));
+    return estimate;
+  }
+  const std::optional<Extremes> extremes = take_extremes(record, constants, estimate);
+  if (!extremes || !enough(*extremes, 3, estimate)) return estimate;
+  std::vector<double> X;
+  for (const double value : extremes->values) X.push_back(std::abs(value));
+  if (!(X[2] > 0.0) || !(X[0] > X[2]) || !(X[X.size() - 3] > X[X.size() - 1])) {
+    refuse(estimate, "the swings do not shrink");
+    return estimate;
+  }
+  const Friction crude = rule_of_thumb(X);
+  const std::optional<Friction> better = corrected(crude, X);
+  estimate.value = parameters(crude.zeta, crude.x_f * extremes->unit, constants);
+  for (std::size_t i = 0; i < X.size(); ++i) estimate.used.push_back(static_cast<int>(i) + 1);
+  if (better)
+    estimate.subsets.push_back({"corrected", static_cast<int>(X.size()),
+                                parameters(better->zeta, better->x_f * extremes->unit, constants)});
+  if (options.sigma_x > 0.0) {
+    const Eigen::DiagonalMatrix<double, 2> to_metres(1.0, extremes->unit);
+    set_uncertainty(estimate, to_metres * covariance(X, options.sigma_x / extremes->unit) * to_metres,
+                    quantile95(std::numeric_limits<double>::infinity()), constants);
+  }
+  std::vector<std::string> faults;
+  judge_bias(crude, better, estimate, faults);
+  conclude(estimate, faults, "rests on the first and the last three of " + std::to_string(X.size()) + " extremes");
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

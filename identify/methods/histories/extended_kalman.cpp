@@ -1,0 +1,258 @@
+#include "identify/methods/histories/extended_kalman.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/statistics.hpp"
+#include "identify/uncertainty/replicas.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// State (x, v, F0, c) and its covariance.
+struct Belief {
+  Eigen::Vector4d state = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
+};
+
+/// What the filter knows beforehand.
+struct Setting {
+  double mass = 1.0;
+  double stiffness = 1.0;
+  double width = 1.0;  ///< of the smoothed sign [m/s]
+  double noise = 1.0;  ///< of x [m]
+  int steps = 1;       ///< of integration a sample, where the sign turns
+  int few_steps = 1;   ///< where it is saturated
+};
+
+/// Rates of state and covariance under the drive k y + f.
+Belief rates(const Belief& at, double drive, const Setting& setting) {
+  const double x = at.state[0], v = at.state[1], F0 = at.state[2], c = at.state[3];
+  const double sign = std::tanh(v / setting.width);
+  const double slope = (1.0 - sign * sign) / setting.width;
+  Belief rate;
+  rate.state << v, (drive - setting.stiffness * x - c * v - F0 * sign) / setting.mass, 0.0, 0.0;
+  // Of A P only the first two rows are not zero.
+  Eigen::Matrix4d AP = Eigen::Matrix4d::Zero();
+  AP.row(0) = at.P.row(1);
+  AP.row(1) = Eigen::RowVector4d(-setting.stiffness, -c - F0 * slope, -sign, -v) * at.P / setting.mass;
+  rate.P = AP + AP.transpose();
+  return rate;
+}
+
+Belief moved(const Belief& from, const Belief& rate, double by) {
+  return {from.state + by * rate.state, from.P + by * rate.P};
+}
+
+/// Steps over a sample interval: many only where the velocity may come near the turn of the sign.
+int steps_over(const Belief& at, double from, double to, double interval, const Setting& setting) {
+  constexpr double saturated = 8.0;  // widths: 1 - tanh^2 is 5e-7 there
+  constexpr double margin = 1.5;
+  const double x = at.state[0], v = at.state[1], F0 = at.state[2], c = at.state[3];
+  const double pull = std::max(std::abs(from - setting.stiffness * x), std::abs(to - setting.stiffness * x));
+  const double change = (pull + std::abs(c * v) + std::abs(F0)) / setting.mass * interval;
+  return std::abs(v) > saturated * setting.width + margin * change ? setting.few_steps : setting.steps;
+}
+
+/// Runge and Kutta's method over one sample interval; the drive is linear in between.
+Belief predict(Belief belief, double from, double to, double interval, const Setting& setting) {
+  const int steps = steps_over(belief, from, to, interval, setting);
+  const double h = interval / steps;
+  for (int step = 0; step < steps; ++step) {
+    const auto drive = [&](double part) { return from + (to - from) * (step + part) / steps; };
+    const Belief k1 = rates(belief, drive(0.0), setting);
+    const Belief k2 = rates(moved(belief, k1, 0.5 * h), drive(0.5), setting);
+    const Belief k3 = rates(moved(belief, k2, 0.5 * h), drive(0.5), setting);
+    const Belief k4 = rates(moved(belief, k3, h), drive(1.0), setting);
+    belief.state += h / 6.0 * (k1.state + 2.0 * k2.state + 2.0 * k3.state + k4.state);
+    belief.P += h / 6.0 * (k1.P + 2.0 * k2.P + 2.0 * k3.P + k4.P);
+  }
+  return belief;
+}
+
+/// What one passage over the record leaves.
+struct Passage {
+  Belief end;
+  double surprise = 0.0;  ///< mean square of the innovations over what P expects, in the second half
+  double miss = 0.0;      ///< rms innovation there [m]
+  bool finite = true;
+  EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
+};
+
+Passage pass(const History& history, const Belief& start, const Setting& setting) {
+  const std::size_t n = history.x.size();
+  const auto drive = [&](std::size_t i) {
+    return (history.y.empty() ? 0.0 : setting.stiffness * history.y[i]) +
+           (history.force.empty() ? 0.0 : history.force[i]);
+  };
+  constexpr std::size_t most_points = 2000;
+  const std::size_t every = std::max<std::size_t>(1, n / most_points);
+  Passage passage;
+  Belief belief = start;
+  double count = 0.0;
+  for (std::size_t i = 1; i < n && passage.finite; ++i) {
+    belief = predict(belief, drive(i - 1), drive(i), 1.0 / history.sample_rate, setting);
+    const double variance = belief.P(0, 0) + setting.noise * setting.noise;
+    const double innovation = history.x[i] - belief.state[0];
+    const Eigen::Vector4d gain = belief.P.col(0) / variance;
+    belief.state += gain * innovation;
+    belief.P -= (gain * belief.P.row(0)).eval();
+    belief.P = (0.5 * (belief.P + belief.P.transpose())).eval();
+    passage.finite = belief.state.allFinite() && belief.P.allFinite() && variance > 0.0;
+    if (2 * i > n) {
+      passage.surprise += innovation * innovation / variance;
+      passage.miss += innovation * innovation;
+      count += 1.0;
+    }
+    if (i % every != 0) continue;
+    passage.curve.columns[0].values.push_back(history.start + static_cast<double>(i) / history.sample_rate);
+    passage.curve.columns[1].values.push_back(belief.state[3]);
+    passage.curve.columns[2].values.push_back(belief.state[2]);
+  }
+  passage.surprise /= std::max(1.0, count);
+  passage.miss = std::sqrt(passage.miss / std::max(1.0, count));
+  passage.end = belief;
+  return passage;
+}
+
+/// Scales of the motion, from which the filter starts knowing next to nothing.
+struct Scales {
+  double length = 0.0;  ///< half of peak to trough [m]
+  double speed = 0.0;   ///< m/s
+  double noise = 0.0;   ///< m
+  double v0 = 0.0;      ///< m/s
+};
+
+Scales scales_of(const History& history, const MethodOptions& options) {
+  const auto [low, high] = std::ranges::minmax_element(history.x);
+  Scales scales;
+  scales.length = 0.5 * (*high - *low);
+  const std::vector<double> v =
+      history.v.empty() ? five_point_average(central_difference(history.x, history.sample_rate)) : history.v;
+  for (const double speed : v) scales.speed = std::max(scales.speed, std::abs(speed));
+  scales.v0 = v[2];
+  // The smoothed sign is a worse model than good samples deserve: a filter that trusts them more diverges.
+  constexpr double least = 1e-3;
+  scales.noise =
+      std::max(options.sigma_x > 0.0 ? options.sigma_x : noise_deviation(history.x), least * scales.length);
+  return scales;
+}
+
+Setting setting_for(const Scales& scales, double width, const History& history, const KnownConstants& constants) {
+  Setting setting{constants.mass, constants.stiffness, width, scales.noise};
+  const double slowest = std::sqrt(constants.stiffness / constants.mass);
+  // The steepest rate is that of the smoothed sign, for a friction of a quarter of the spring's force.
+  const double steepest = 0.25 * constants.stiffness * scales.length / (constants.mass * width) + slowest;
+  const auto steps_for = [&](double rate) {
+    constexpr double of_a_step = 0.25;
+    return std::clamp(static_cast<int>(std::ceil(rate / history.sample_rate / of_a_step)), 1, 100);
+  };
+  setting.steps = steps_for(steepest);
+  setting.few_steps = steps_for(slowest);
+  return setting;
+}
+
+Belief ignorance(const History& history, const Scales& scales, const KnownConstants& constants) {
+  Belief belief;
+  belief.state << history.x[0], scales.v0, 0.0, 0.0;
+  const double force = 0.25 * constants.stiffness * scales.length;
+  const double damping = 0.5 * std::sqrt(constants.mass * constants.stiffness);
+  const Eigen::Vector4d deviation(scales.noise, 0.1 * scales.speed, force, damping);
+  belief.P = deviation.cwiseAbs2().asDiagonal();
+  return belief;
+}
+
+std::string fault_of_passage(const Passage& passage, const Scales& scales) {
+  if (!passage.finite) return "the filter diverged: give a smaller width of the sign of the velocity";
+  constexpr double lost = 0.1;  // of the motion
+  if (passage.miss > lost * scales.length) return "the filter diverged: it does not follow the motion any more";
+  return {};
+}
+
+/// (m, c, k, F0), mass and stiffness being constants; errors by what the innovations are beside what P expects.
+Reading reading_of(const Passage& passage, const KnownConstants& constants) {
+  const Eigen::Vector4d& end = passage.end.state;
+  const auto error = [&](Eigen::Index i) { return std::sqrt(passage.surprise * passage.end.P(i, i)); };
+  return {Eigen::Vector4d(constants.mass, end[3], constants.stiffness, end[2]),
+          Eigen::Vector4d(0.0, error(3), 0.0, error(2))};
+}
+
+void judge(const Passage& passage, const std::optional<Passage>& wider, Estimate& estimate,
+           std::vector<std::string>& faults) {
+  constexpr double surprising = 2.0;
+  if (passage.surprise > surprising)
+    estimate.warnings.push_back("the filter misses the motion by " +
+                                core::format_number(std::sqrt(passage.surprise), 2) +
+                                " times what it expects: the law, a constant or the noise is wrong");
+  const double F0 = estimate.value.F0;
+  const double c = estimate.value.c;
+  const double change =
+      wider ? std::max(std::abs(wider->end.state[2] / F0 - 1.0), std::abs(wider->end.state[3] / c - 1.0))
+            : std::numeric_limits<double>::infinity();
+  constexpr double too_much = 0.1;
+  if (change > too_much)
+    faults.push_back(wider ? "twice the width of the sign changes the friction by " + percent(change).substr(1)
+                           : "with twice the width of the sign the filter diverges");
+}
+
+}  // namespace
+
+Estimate extended_kalman(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = "extended_kalman";
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  if (!longest) return estimate;
+  const auto& [number, history] = *longest;
+  const Scales scales = scales_of(*history, options);
+  if (!(scales.length > 0.0)) {
+    refuse(estimate, "the mass does not move");
+    return estimate;
+  }
+  const auto width_for = [&](const Scales& of) {
+    return options.sign_width > 0.0 ? options.sign_width : 0.003 * of.speed;
+  };
+  const double width = width_for(scales);
+  const auto with_width = [&](double w) {
+    return pass(*history, ignorance(*history, scales, constants), setting_for(scales, w, *history, constants));
+  };
+  Passage passage = with_width(width);
+  if (std::string fault = fault_of_passage(passage, scales); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return estimate;
+  }
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    const History& noisy = replica.histories.front();
+    const Scales its = scales_of(noisy, options);
+    const Passage other =
+        pass(noisy, ignorance(noisy, its, constants), setting_for(its, width_for(its), noisy, constants));
+    return fault_of_passage(other, its).empty() ? std::optional(reading_of(other, constants)) : std::nullopt;
+  };
+  const Eigen::Vector4d& end = passage.end.state;
+  set_estimate(estimate, {constants.mass, end[3], constants.stiffness, end[2]},
+               replica_spread({{number, history}}, reading_of(passage, constants), 0.0, again));
+  estimate.used = {number};
+  estimate.curves.push_back(std::move(passage.curve));
+  std::optional<Passage> wider = with_width(2.0 * width);
+  if (!fault_of_passage(*wider, scales).empty()) wider.reset();
+  if (wider)
+    estimate.subsets.push_back(
+        {"sign width " + core::format_number(2.0 * width, 3) + " m/s",
+         static_cast<int>(history->x.size()),
+         parameters(ForceParameters{constants.mass, wider->end.state[3], constants.stiffness, wider->end.state[2]}),
+         {}});
+  std::vector<std::string> faults;
+  judge_force_signs(estimate, 0.0, 0.0, faults);
+  judge(passage, wider, estimate, faults);
+  conclude(estimate, faults,
+           "the state after " + std::to_string(history->x.size()) +
+               " samples, sign of the velocity smoothed over " + core::format_number(width, 3) + " m/s");
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

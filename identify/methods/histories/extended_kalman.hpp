@@ -1,0 +1,37 @@
+#pragma once
+/// Extended Kalman filter with the friction among the states (x, v, F0, c):
+///
+///   v' = [k (y - x) + f - c v - F0 tanh(v/e)]/m,   F0' = c' = 0,   measured: x
+///   P' = A P + P A^T between samples;  K = P h/(h^T P h + s^2), state += K (x_i - x), P -= K h^T P at a sample
+///
+/// The sign of the velocity must be smooth for A to exist: its width e (`sign_width`, default 0.003 of the
+/// largest speed) biases the estimate, and too wide a one makes the filter diverge. P knows nothing of that:
+/// intervals come from replicas of the record (`identify/uncertainty/replicas.hpp`). Checked: the estimate with
+/// twice the width
+/// (`subsets`); the innovations against what P expects; divergence is refused. s: noise of x, from `sigma_x` or the
+/// record itself.
+///
+/// Curve: friction_over_time. Source: after Stanway (liang2004identifying, reference 12; the text was not at hand),
+/// detchmendy1966. Errors: `outcome`. Cost: 2 us a step, some steps a sample.
+
+#include "identify/method.hpp"
+#include "identify/records/signals.hpp"
+
+namespace dualdamp::identify {
+
+[[nodiscard]] Estimate extended_kalman(const Record& record, const KnownConstants& constants,
+                                       const MethodOptions& options);
+
+inline constexpr MethodEntry extended_kalman_method{
+    "extended_kalman",
+    "viscous and Coulomb friction as states of an extended Kalman filter on the displacement",
+    "mass and stiffness known, y and force without error, a smooth sign of the velocity; checked: twice the width "
+    "of "
+    "that sign, the innovations",
+    "v' = [k (y - x) + f - c v - F0 tanh(v/e)]/m, F0' = c' = 0, extended Kalman filter on x",
+    "liang2004identifying, detchmendy1966",
+    RecordKind::history,
+    lacks_histories,
+    extended_kalman};
+
+}  // namespace dualdamp::identify

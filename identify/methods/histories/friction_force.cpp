@@ -1,0 +1,272 @@
+#include "identify/methods/histories/friction_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/methods/histories/friction_samples.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/correlated_regression.hpp"
+#include "identify/statistics/statistics.hpp"
+#include "identify/uncertainty/replicas.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Rows of the regression on {v, sgn v, 1}.
+struct Rows {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd target, displacement;
+  std::vector<Eigen::Index> blocks;
+};
+
+Rows rows_of(const std::vector<FrictionSamples>& histories, double least_speed) {
+  std::size_t count = 0;
+  for (const FrictionSamples& samples : histories) count += samples.force.size();
+  Rows rows;
+  rows.columns.resize(static_cast<Eigen::Index>(count), 3);
+  rows.target.resize(rows.columns.rows());
+  rows.displacement.resize(rows.columns.rows());
+  Eigen::Index row = 0;
+  for (const FrictionSamples& samples : histories) {
+    rows.blocks.push_back(row);
+    for (std::size_t i = 0; i < samples.force.size(); ++i) {
+      if (!(std::abs(samples.motion.v[i]) > least_speed)) continue;
+      rows.columns.row(row) << samples.motion.v[i], samples.motion.sign[i], 1.0;
+      rows.target[row] = samples.force[i];
+      rows.displacement[row] = samples.motion.x[i];
+      ++row;
+    }
+  }
+  rows.columns.conservativeResize(row, Eigen::NoChange);
+  rows.target.conservativeResize(row);
+  rows.displacement.conservativeResize(row);
+  return rows;
+}
+
+void add_curves(const std::vector<FrictionSamples>& histories, double c, Estimate& estimate) {
+  EstimateCurve over_velocity{"friction_velocity", {{"v", "m/s", {}}, {"F", "N", {}}, {"dry", "N", {}}}};
+  EstimateCurve over_displacement{"friction_displacement", {{"x", "m", {}}, {"F", "N", {}}}};
+  for (const FrictionSamples& samples : histories) {
+    for (std::size_t i = 0; i < samples.force.size(); ++i) {
+      over_velocity.columns[0].values.push_back(samples.motion.v[i]);
+      over_velocity.columns[1].values.push_back(samples.force[i]);
+      over_velocity.columns[2].values.push_back(samples.force[i] - c * samples.motion.v[i]);
+      over_displacement.columns[0].values.push_back(samples.motion.x[i]);
+      over_displacement.columns[1].values.push_back(samples.force[i]);
+    }
+  }
+  estimate.curves = {std::move(over_velocity), std::move(over_displacement)};
+}
+
+/// Sums over the turns of the motion.
+struct Turns {
+  double S_xx = 0.0, S_xF = 0.0, S_FF = 0.0;  ///< of force over displacement after a reversal
+  double samples = 0.0;                       ///< that went into them, beyond two unknowns a turn
+  double resolved = 0.0;                      ///< turns with three samples or more
+  double speed = 0.0;                         ///< sum of transition speeds
+  double transitions = 0.0;
+  double swing = 0.0;  ///< sum of |x| from turn to turn
+  double time = 0.0;   ///< from turn to turn
+  double work = 0.0;   ///< of the friction force
+  double swings = 0.0;
+
+  [[nodiscard]] bool contact_shows() const {
+    return swings >= 2.0 && resolved >= 0.5 * swings && S_xF > 0.0 && samples > 0.0;
+  }
+  /// Transition velocity [m/s]; 0 where the contact does not show.
+  [[nodiscard]] double mean_speed() const {
+    return contact_shows() && transitions >= 0.5 * swings ? speed / transitions : 0.0;
+  }
+};
+
+/// The dry part has turned by 2 F0: what a contact of stiffness K does on 2 F0/K of displacement.
+void follow_turn(const FrictionSamples& samples, const std::vector<double>& dry, std::size_t turn, std::size_t next,
+                 double F0, Turns& turns) {
+  constexpr double straight = 0.8;   // of the turn, beyond which the contact begins to slip
+  constexpr double complete = 0.98;  // the level of sliding is known no better
+  const std::vector<double>& x = samples.motion.x;
+  double n = 0.0, mean_x = 0.0, mean_F = 0.0, S_xx = 0.0, S_xF = 0.0, S_FF = 0.0;
+  std::size_t i = turn;
+  for (; i < next && std::abs(dry[i] - dry[turn]) < straight * 2.0 * F0; ++i) {
+    n += 1.0;
+    const double dx = x[i] - mean_x;
+    const double dF = dry[i] - mean_F;
+    mean_x += dx / n;
+    mean_F += dF / n;
+    S_xx += dx * (x[i] - mean_x);
+    S_xF += dx * (dry[i] - mean_F);
+    S_FF += dF * (dry[i] - mean_F);
+  }
+  if (n >= 3.0) {
+    turns.S_xx += S_xx;
+    turns.S_xF += S_xF;
+    turns.S_FF += S_FF;
+    turns.samples += n - 2.0;
+    turns.resolved += 1.0;
+  }
+  while (i < next && std::abs(dry[i] - dry[turn]) < complete * 2.0 * F0) ++i;
+  if (i >= next || i == turn) return;
+  const double before = std::abs(dry[i - 1] - dry[turn]) / (2.0 * F0);
+  const double after = std::abs(dry[i] - dry[turn]) / (2.0 * F0);
+  const double share = std::clamp((complete - before) / (after - before), 0.0, 1.0);
+  const std::vector<double>& v = samples.motion.v;
+  // v^2 grows in proportion to the displacement from the turn.
+  turns.speed += std::abs(v[i - 1] + share * (v[i] - v[i - 1])) / std::sqrt(complete);
+  turns.transitions += 1.0;
+}
+
+void follow(const FrictionSamples& samples, double c, double offset, double F0, Turns& turns) {
+  const std::vector<double>& v = samples.motion.v;
+  std::vector<double> dry(samples.force.size());
+  for (std::size_t i = 0; i < dry.size(); ++i) dry[i] = samples.force[i] - c * v[i] - offset;
+  std::vector<std::size_t> at;  // last sample before the velocity changes its sign
+  int sign = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const int here = (v[i] > 0.0) - (v[i] < 0.0);
+    if (here == 0) continue;
+    if (sign != 0 && here != sign) at.push_back(i - 1);
+    sign = here;
+  }
+  for (std::size_t r = 0; r + 1 < at.size(); ++r) {
+    follow_turn(samples, dry, at[r], at[r + 1], F0, turns);
+    const std::vector<double>& x = samples.motion.x;
+    turns.swing += std::abs(x[at[r + 1]] - x[at[r]]);
+    turns.time += static_cast<double>(at[r + 1] - at[r]) / samples.motion.sample_rate;
+    for (std::size_t i = at[r]; i < at[r + 1]; ++i)
+      turns.work += 0.5 * (samples.force[i] + samples.force[i + 1]) * (x[i + 1] - x[i]);
+    turns.swings += 1.0;
+  }
+}
+
+Turns turns_of(const std::vector<FrictionSamples>& histories, const CorrelatedFit& fit) {
+  Turns turns;
+  for (const FrictionSamples& samples : histories)
+    follow(samples, fit.coefficients[0], fit.coefficients[2], fit.coefficients[1], turns);
+  return turns;
+}
+
+/// Contact stiffness, transition velocity and the loop's area, as far as the sample rate shows them.
+void report_contact(const Turns& turns, double F0, Estimate& estimate) {
+  if (turns.swings < 2.0 || !(F0 > 0.0)) return;
+  estimate.others.push_back({"loop_area", "J", 2.0 * turns.work / turns.swings, std::nullopt, std::nullopt});
+  if (!turns.contact_shows()) {
+    estimate.warnings.emplace_back(
+        "the force turns within two samples: the contact is stiffer than this sample rate shows");
+    return;
+  }
+  const double slope = turns.S_xF / turns.S_xx;
+  const double left = std::max(0.0, turns.S_FF - slope * turns.S_xF);
+  estimate.others.push_back(
+      further("contact_stiffness", "N/m", slope, left / turns.samples / turns.S_xx, quantile95(turns.samples)));
+  const double speed = turns.mean_speed();
+  if (!(speed > 0.0)) return;
+  const double X = 0.5 * turns.swing / turns.swings;
+  const double omega = std::numbers::pi * turns.swings / turns.time;
+  estimate.others.push_back({"transition_velocity", "m/s", speed, std::nullopt, std::nullopt});
+  const double inner = X * X - speed * speed / (omega * omega);
+  if (inner > 0.0)
+    estimate.others.push_back(
+        {"stiffness_from_transition", "N/m", 2.0 * F0 / (X - std::sqrt(inner)), std::nullopt, std::nullopt});
+}
+
+void judge_loop(Estimate& estimate, std::vector<std::string>& faults) {
+  if (!estimate.lack_of_fit) return;
+  LackOfFit& test = *estimate.lack_of_fit;
+  test.least_effect = 0.02;
+  test.fired = test.p_value < test.level && test.effect > test.least_effect;
+  const std::string text =
+      "the force depends on displacement by " + percent(test.effect).substr(1) + " of its largest value";
+  if (test.fired)
+    faults.push_back(text + ": a gain error, a wrong mass or stiffness, or friction that varies with position");
+  else if (test.p_value < test.level && test.effect > 1e-3)
+    estimate.warnings.push_back(text);
+}
+
+/// The line through the samples that slide.
+struct SlidingLine {
+  double least_speed = 0.0;
+  Rows rows;
+  std::optional<CorrelatedFit> fit;
+  Turns turns;
+};
+
+SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const MethodOptions& options) {
+  const auto line_beyond = [&](double speed) {
+    SlidingLine line{speed, rows_of(histories, speed), {}, {}};
+    line.fit = fit_correlated(line.rows.columns, line.rows.target, line.rows.blocks);
+    if (line.fit) line.turns = turns_of(histories, *line.fit);
+    return line;
+  };
+  SlidingLine line = line_beyond(least_speed_for(histories, options));
+  // A compliant contact slides only beyond its transition velocity: what is slower is none of the line's.
+  constexpr double beyond = 1.2;
+  for (int pass = 0; pass < 3 && line.fit && options.least_speed == 0.0; ++pass) {
+    const double transition = beyond * line.turns.mean_speed();
+    if (!(transition > line.least_speed)) break;
+    SlidingLine faster = line_beyond(transition);
+    if (!faster.fit) break;
+    line = std::move(faster);
+  }
+  return line;
+}
+
+constexpr Eigen::Index offset_place = 4;
+
+/// (m, c, k, F0, offset), mass and stiffness being constants.
+Reading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {
+  const auto error = [&](Eigen::Index i) { return std::sqrt(fit.covariance(i, i)); };
+  Reading reading{Eigen::VectorXd(5), Eigen::VectorXd(5)};
+  reading.parameters << constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1],
+      fit.coefficients[2];
+  reading.errors << 0.0, error(0), 0.0, error(1), error(2);
+  return reading;
+}
+
+}  // namespace
+
+Estimate friction_force(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = "friction_force";
+  const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);
+  if (histories.empty()) return estimate;
+  const SlidingLine line = sliding_line(histories, options);
+  if (!line.fit) {
+    refuse(estimate, "viscous and Coulomb friction cannot be told apart: the motion has too few samples beyond " +
+                         core::format_number(line.least_speed, 3) + " m/s, or one speed only");
+    return estimate;
+  }
+  const Reading own = reading_of(*line.fit, constants);
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    Estimate ignored;
+    const SlidingLine other = sliding_line(friction_samples(replica, constants, options, ignored), options);
+    return other.fit ? std::optional(reading_of(*other.fit, constants)) : std::nullopt;
+  };
+  Estimate ignored;
+  const std::optional<ReplicaSpread> spread =
+      replica_spread(usable_histories(record, options, ignored), own, own.parameters[offset_place], again);
+  const ForceParameters force{constants.mass, own.parameters[1], constants.stiffness, own.parameters[3]};
+  set_estimate(estimate, force, spread);
+  estimate.others.push_back(further("offset", "N", own.parameters[offset_place], spread, offset_place));
+  for (const FrictionSamples& samples : histories) estimate.used.push_back(samples.number);
+  report_contact(line.turns, force.F0, estimate);
+  add_curves(histories, force.c, estimate);
+
+  std::vector<std::string> faults;
+  const double fastest = line.rows.columns.col(0).cwiseAbs().maxCoeff();
+  const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
+  judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
+  estimate.lack_of_fit = correlated_term_test(line.rows.columns, line.rows.target, line.rows.displacement,
+                                              line.rows.blocks, scale, "displacement term t-test");
+  judge_loop(estimate, faults);
+  conclude(estimate, faults,
+           "rests on " + std::to_string(line.rows.target.size()) + " samples faster than " +
+               core::format_number(line.least_speed, 3) + " m/s");
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

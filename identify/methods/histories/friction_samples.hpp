@@ -1,0 +1,28 @@
+#pragma once
+/// The friction force that the other forces leave,  k (y - x) + f - m a,  at the samples of a history.
+
+#include <optional>
+#include <vector>
+
+#include "identify/method.hpp"
+#include "identify/records/signals.hpp"
+
+namespace dualdamp::identify {
+
+/// One history: signals as `motion_of` gives them, and the friction force, viscous and dry together.
+struct FrictionSamples {
+  int number = 0;
+  Motion motion;
+  std::vector<double> force;  ///< N
+};
+
+/// Velocity that was not measured beside an acceleration that was: central difference and five-point average, as
+/// in the paper; else `motion_of` with the first cut-off. Empty: the estimate has been refused, for mass and
+/// stiffness (0: none) must be known.
+[[nodiscard]] std::vector<FrictionSamples> friction_samples(const Record& record, const KnownConstants& constants,
+                                                            const MethodOptions& options, Estimate& estimate);
+
+/// Samples slower than this are left out [m/s]: the option, or a twentieth of the largest speed.
+[[nodiscard]] double least_speed_for(const std::vector<FrictionSamples>& histories, const MethodOptions& options);
+
+}  // namespace dualdamp::identify

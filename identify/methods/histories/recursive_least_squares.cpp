@@ -1,0 +1,178 @@
+#include "identify/methods/histories/recursive_least_squares.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/methods/histories/friction_samples.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/correlated_regression.hpp"
+#include "identify/statistics/statistics.hpp"
+#include "identify/uncertainty/replicas.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// theta and P, in units that make both columns of order one.
+class Recursion {
+ public:
+  Recursion(double forgetting, double speed) : forgetting_(forgetting), speed_(speed) {
+    constexpr double ignorance = 1e12;  // variance at the start: the first samples decide
+    P_ << ignorance, 0.0, 0.0, ignorance;
+  }
+
+  void update(double force, double v, double sign) {
+    const Eigen::Vector2d psi(v / speed_, sign);
+    const Eigen::Vector2d gain = P_ * psi / (forgetting_ + psi.dot((P_ * psi).eval()));
+    theta_ += gain * (force - psi.dot(theta_));
+    P_ = ((P_ - gain * (psi.transpose() * P_).eval()) / forgetting_).eval();
+    P_(1, 0) = P_(0, 1) = 0.5 * (P_(0, 1) + P_(1, 0));  // rounding must not make P lose its symmetry
+  }
+
+  [[nodiscard]] double c() const { return theta_[0] / speed_; }
+  [[nodiscard]] double F0() const { return theta_[1]; }
+
+ private:
+  double forgetting_;
+  double speed_;
+  Eigen::Vector2d theta_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d P_;
+};
+
+/// The samples that count, as rows.
+struct Rows {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd target;
+  std::vector<double> time;
+  std::vector<Eigen::Index> blocks;
+};
+
+Rows rows_of(const std::vector<FrictionSamples>& histories, double least_speed) {
+  std::size_t count = 0;
+  for (const FrictionSamples& samples : histories) count += samples.force.size();
+  Rows rows;
+  rows.columns.resize(static_cast<Eigen::Index>(count), 2);
+  rows.target.resize(rows.columns.rows());
+  double elapsed = 0.0;  // histories one after the other
+  for (const FrictionSamples& samples : histories) {
+    const Motion& motion = samples.motion;
+    rows.blocks.push_back(static_cast<Eigen::Index>(rows.time.size()));
+    for (std::size_t i = 0; i < samples.force.size(); ++i) {
+      if (!(std::abs(motion.v[i]) > least_speed)) continue;
+      const auto row = static_cast<Eigen::Index>(rows.time.size());
+      rows.columns.row(row) << motion.v[i], motion.sign[i];
+      rows.target[row] = samples.force[i];
+      rows.time.push_back(elapsed + motion.start + static_cast<double>(i) / motion.sample_rate);
+    }
+    elapsed += static_cast<double>(samples.force.size()) / motion.sample_rate;
+  }
+  const auto used = static_cast<Eigen::Index>(rows.time.size());
+  rows.columns.conservativeResize(used, Eigen::NoChange);
+  rows.target.conservativeResize(used);
+  return rows;
+}
+
+Recursion follow(const Rows& rows, double forgetting, double speed, EstimateCurve& curve) {
+  constexpr Eigen::Index most_points = 2000;
+  const Eigen::Index every = std::max<Eigen::Index>(1, rows.target.size() / most_points);
+  Recursion recursion(forgetting, speed);
+  for (Eigen::Index i = 0; i < rows.target.size(); ++i) {
+    recursion.update(rows.target[i], rows.columns(i, 0), rows.columns(i, 1));
+    if (i % every != 0 || i < 2) continue;
+    curve.columns[0].values.push_back(rows.time[static_cast<std::size_t>(i)]);
+    curve.columns[1].values.push_back(recursion.c());
+    curve.columns[2].values.push_back(recursion.F0());
+  }
+  return recursion;
+}
+
+/// Covariance of (c, F0): that of least squares over the samples that are remembered.
+Eigen::Matrix2d covariance_of(const CorrelatedFit& fit, double forgetting) {
+  const auto samples = static_cast<double>(fit.residuals.size());
+  // Exponential weights are worth (1 + l)/(1 - l) equal ones.
+  const double remembered = forgetting < 1.0 ? (1.0 + forgetting) / (1.0 - forgetting) : samples;
+  return fit.covariance * std::max(1.0, samples / remembered);
+}
+
+/// Friction in both halves of the record.
+void compare_halves(const Rows& rows, Estimate& estimate) {
+  const Eigen::Index half = rows.target.size() / 2;
+  const auto first = fit_correlated(rows.columns.topRows(half), rows.target.head(half), {});
+  const auto second = fit_correlated(rows.columns.bottomRows(half), rows.target.tail(half), {});
+  if (!first || !second) return;
+  const double change = second->coefficients[1] - first->coefficients[1];
+  const double error = std::sqrt(first->covariance(1, 1) + second->covariance(1, 1));
+  constexpr double of_weight = 0.01;
+  if (std::abs(change) < 3.0 * error || std::abs(change) < of_weight * std::abs(estimate.value.F0)) return;
+  estimate.warnings.push_back(
+      "the Coulomb friction changes by " + percent(change / estimate.value.F0) +
+      " from the first half of the record to the second: a forgetting factor below 1 follows it");
+}
+
+/// One passage over a record.
+struct Passage {
+  Rows rows;
+  std::optional<CorrelatedFit> fit;
+  Reading reading;  ///< (m, c, k, F0), mass and stiffness being constants
+  EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
+};
+
+Passage pass(const std::vector<FrictionSamples>& histories, const KnownConstants& constants,
+             const MethodOptions& options) {
+  Passage passage;
+  passage.rows = rows_of(histories, least_speed_for(histories, options));
+  passage.fit = fit_correlated(passage.rows.columns, passage.rows.target, passage.rows.blocks);
+  if (!passage.fit) return passage;
+  const double fastest = passage.rows.columns.col(0).cwiseAbs().maxCoeff();
+  const Recursion recursion = follow(passage.rows, options.forgetting, fastest, passage.curve);
+  const Eigen::Matrix2d covariance = covariance_of(*passage.fit, options.forgetting);
+  passage.reading.parameters = Eigen::Vector4d(constants.mass, recursion.c(), constants.stiffness, recursion.F0());
+  passage.reading.errors = Eigen::Vector4d(0.0, std::sqrt(covariance(0, 0)), 0.0, std::sqrt(covariance(1, 1)));
+  return passage;
+}
+
+}  // namespace
+
+Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
+                                 const MethodOptions& options) {
+  Estimate estimate;
+  estimate.method = "recursive_least_squares";
+  const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);
+  if (histories.empty()) return estimate;
+  if (!(options.forgetting > 0.0 && options.forgetting <= 1.0)) {
+    refuse(estimate, "the forgetting factor must be above 0 and at most 1");
+    return estimate;
+  }
+  Passage passage = pass(histories, constants, options);
+  if (!passage.fit) {
+    refuse(estimate,
+           "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
+           "one speed only");
+    return estimate;
+  }
+  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+    Estimate ignored;
+    Passage other = pass(friction_samples(replica, constants, options, ignored), constants, options);
+    return other.fit ? std::optional(std::move(other.reading)) : std::nullopt;
+  };
+  Estimate ignored;
+  const Eigen::VectorXd& p = passage.reading.parameters;
+  const ForceParameters force{p[0], p[1], p[2], p[3]};
+  set_estimate(estimate, force,
+               replica_spread(usable_histories(record, options, ignored), passage.reading, 0.0, again));
+  estimate.curves.push_back(std::move(passage.curve));
+  for (const FrictionSamples& samples : histories) estimate.used.push_back(samples.number);
+
+  std::vector<std::string> faults;
+  const double fastest = passage.rows.columns.col(0).cwiseAbs().maxCoeff();
+  const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
+  judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
+  if (options.forgetting == 1.0) compare_halves(passage.rows, estimate);
+  conclude(estimate, faults, "the state after " + std::to_string(passage.rows.target.size()) + " samples");
+  return estimate;
+}
+
+}  // namespace dualdamp::identify

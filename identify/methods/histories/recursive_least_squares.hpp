@@ -1,0 +1,34 @@
+#pragma once
+/// Recursive least squares on the equation of motion: friction as it goes, over time.
+///
+///   z = k (y - x) + f - m a,   psi = (v, sgn v),   theta = (c, F0)
+///   K = P psi/(l + psi^T P psi),   theta += K (z - psi^T theta),   P = (P - K psi^T P)/l
+///
+/// A forgetting factor l < 1 follows a slow drift, with a memory of 1/(1 - l) samples; l = 1 is least squares of
+/// all samples so far. Samples with |v| < `least_speed` freeze the estimate. The other reading of the method, by
+/// the error of the output, is that of `output_error`.
+///
+/// Curve: friction_over_time. Checked: with l = 1, whether both halves of the record agree. Uncertainty: from
+/// replicas of the record (`identify/uncertainty/replicas.hpp`). Source: after yao (liang2004identifying, reference
+/// 13; the text was not at hand), ljung1999. Errors: `outcome`. Cost: 30 operations a sample.
+
+#include "identify/method.hpp"
+#include "identify/records/signals.hpp"
+
+namespace dualdamp::identify {
+
+[[nodiscard]] Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
+                                               const MethodOptions& options);
+
+inline constexpr MethodEntry recursive_least_squares_method{
+    "recursive_least_squares",
+    "viscous and Coulomb friction followed over time, with forgetting",
+    "mass and stiffness known, white noise, friction that drifts slowly; checked: agreement of both "
+    "halves of the record where nothing is forgotten",
+    "z = k (y - x) + f - m a, psi = (v, sgn v), theta += P psi (z - psi^T theta)/(l + psi^T P psi)",
+    "liang2004identifying, ljung1999",
+    RecordKind::history,
+    lacks_histories,
+    recursive_least_squares};
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,69 @@
+#include "identify/models/force_parameters.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+ParameterSet parameters(const ForceParameters& force) {
+  const bool sprung = force.k > 0.0;
+  return {sprung ? force.c / (2.0 * std::sqrt(force.m) * std::sqrt(force.k)) : unknown, force.c,
+          sprung ? force.F0 / force.k : unknown, force.F0};
+}
+
+void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen::Matrix4d& covariance,
+                  double half_width, const ForceParameters& bias) {
+  estimate.value = parameters(force);
+  const ParameterSet& value = estimate.value;
+  const double twice_root = 2.0 * std::sqrt(force.m) * std::sqrt(force.k);
+  // Rows: derivatives of zeta and x_f by (m, c, k, F0).
+  const Eigen::RowVector4d to_zeta(-0.5 * value.zeta / force.m, 1.0 / twice_root, -0.5 * value.zeta / force.k, 0.0);
+  const Eigen::RowVector4d to_x_f(0.0, 0.0, -value.x_f / force.k, 1.0 / force.k);
+  const auto deviation = [&](const Eigen::RowVector4d& row) {
+    return std::sqrt(row.dot((covariance * row.transpose()).transpose()));
+  };
+  const bool sprung = force.k > 0.0;
+  const ParameterSet error{sprung ? deviation(to_zeta) : unknown, std::sqrt(covariance(1, 1)),
+                           sprung ? deviation(to_x_f) : unknown, std::sqrt(covariance(3, 3))};
+  const auto around = [half_width](double middle, double std) {
+    return std::array<double, 2>{middle - half_width * std, middle + half_width * std};
+  };
+  estimate.std = error;
+  const ParameterSet middle =
+      parameters({force.m - bias.m, force.c - bias.c, force.k - bias.k, force.F0 - bias.F0});
+  estimate.interval95 = {around(middle.zeta, error.zeta), around(middle.c, error.c), around(middle.x_f, error.x_f),
+                         around(middle.F0, error.F0)};
+  // Without a spring there is no zeta to correlate: c in its place would be another quantity.
+  if (!sprung) return;
+  const double mixed = to_zeta.dot(covariance.col(3));
+  Eigen::Matrix2d of_pair;
+  of_pair << error.zeta * error.zeta, mixed, mixed, error.F0 * error.F0;
+  estimate.covariance = of_pair;
+  if (error.zeta > 0.0 && error.F0 > 0.0) estimate.correlation = mixed / (error.zeta * error.F0);
+}
+
+FurtherParameter further(std::string name, std::string unit, double value, double variance, double half_width) {
+  const double std = std::sqrt(variance);
+  return {std::move(name), std::move(unit), value, std,
+          std::array<double, 2>{value - half_width * std, value + half_width * std}};
+}
+
+void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults) {
+  const auto judge = [&](double value, double least, const std::array<double, 2>* interval,
+                         const std::string& name) {
+    if (interval == nullptr) {
+      if (value < -least) faults.push_back(name + " came out negative");
+    } else if (value < -least && (*interval)[1] < 0.0) {
+      faults.push_back(name + " came out negative by more than its uncertainty");
+    } else if ((*interval)[0] <= 0.0 && (*interval)[1] >= 0.0 && (*interval)[1] - (*interval)[0] > least) {
+      estimate.warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");
+    }
+  };
+  const bool known = estimate.interval95.has_value();
+  judge(estimate.value.c, least_c, known ? &estimate.interval95->c : nullptr, "the viscous damping");
+  judge(estimate.value.F0, least_F0, known ? &estimate.interval95->F0 : nullptr, "the Coulomb friction");
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,266 @@
+#include "identify/models/sampled_oscillator.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr int nodes = 8;
+
+template <std::size_t N>
+double value_at(const std::array<double, N>& series, int terms, double u) {
+  double sum = 0.0;
+  for (int j = terms - 1; j >= 0; --j) sum = sum * u + series[static_cast<std::size_t>(j)];
+  return sum;
+}
+
+template <std::size_t N>
+double slope_at(const std::array<double, N>& series, int terms, double u) {
+  double sum = 0.0;
+  for (int j = terms - 1; j >= 1; --j) sum = sum * u + j * series[static_cast<std::size_t>(j)];
+  return sum;
+}
+
+template <std::size_t N>
+double curvature_at(const std::array<double, N>& series, int terms, double u) {
+  double sum = 0.0;
+  for (int j = terms - 1; j >= 2; --j) sum = sum * u + j * (j - 1) * series[static_cast<std::size_t>(j)];
+  return sum;
+}
+
+/// The same polynomial in powers of u - by.
+std::array<double, nodes> shifted(std::array<double, nodes> p, double by) {
+  for (std::size_t i = 0; i + 1 < nodes && by != 0.0; ++i)
+    for (std::size_t j = nodes - 1; j-- > i;) p[j] += by * p[j + 1];
+  return p;
+}
+
+/// The polynomials through the eight samples around each interval.
+std::vector<std::array<double, nodes>> interpolate(const std::vector<double>& samples, std::size_t count) {
+  std::vector<std::array<double, nodes>> polynomials(count - 1);
+  if (samples.empty()) return polynomials;
+  Eigen::Matrix<double, nodes, nodes> weights;
+  std::ptrdiff_t laid_out = -1;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const auto here = static_cast<std::ptrdiff_t>(i);
+    const auto first = std::clamp<std::ptrdiff_t>(here - 3, 0, static_cast<std::ptrdiff_t>(count) - nodes);
+    const std::ptrdiff_t back = here - first;
+    if (back != laid_out) {
+      Eigen::Matrix<double, nodes, nodes> powers;
+      for (int r = 0; r < nodes; ++r)
+        for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(static_cast<double>(r - back), c);
+      weights = powers.inverse();
+      laid_out = back;
+    }
+    const Eigen::Map<const Eigen::Matrix<double, nodes, 1>> around(samples.data() + first);
+    const Eigen::Matrix<double, nodes, 1> coefficients = weights * around;
+    std::copy_n(coefficients.data(), nodes, polynomials[i].begin());
+  }
+  return polynomials;
+}
+
+/// A sign change of f between low and high, to rounding.
+template <class Function>
+double root(const Function& f, double low, double high) {
+  const bool rising = f(high) > 0.0;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) > 0.0) == rising ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Parts of an interval whose ends are looked at for a change of sign.
+constexpr int parts = 4;
+
+}  // namespace
+
+SampledOscillator::SampledOscillator(const History& history)
+    : count_(history.x.size()),
+      rate_(history.sample_rate),
+      y_(interpolate(history.y, count_)),
+      force_(interpolate(history.force, count_)) {}
+
+bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x,
+                            Eigen::MatrixXd* derivatives, Eigen::VectorXd* v) {
+  p_ = parameters;
+  inertia_ = p_.m * rate_ * rate_;
+  damping_ = p_.c * rate_;
+  const double fastest = std::max(std::sqrt(p_.k / inertia_), std::abs(damping_) / inertia_);
+  if (!(fastest < 2.0)) return false;
+  // The series of a drive of degree seven ends two terms later but for the oscillator's own motion.
+  terms_ = nodes + 3;
+  for (double left = std::pow(fastest, terms_) / std::tgamma(terms_ + 1.0); left > 1e-18 && terms_ < most_terms;
+       ++terms_)
+    left *= fastest / (terms_ + 1);
+  for (int j = 0; j < most_terms; ++j)
+    integration_[static_cast<std::size_t>(j)] = 1.0 / (inertia_ * (j + 1) * (j + 2));
+
+  tangents_.clear();
+  if (derivatives != nullptr) {
+    for (const By what : by) {
+      Tangent tangent;
+      tangent.by = what;
+      tangent.x = what == By::position ? 1.0 : 0.0;
+      tangent.v = what == By::velocity ? 1.0 / rate_ : 0.0;
+      tangents_.push_back(tangent);
+    }
+    derivatives->resize(static_cast<Eigen::Index>(count_), static_cast<Eigen::Index>(by.size()));
+  }
+  x.resize(static_cast<Eigen::Index>(count_));
+  if (v != nullptr) v->resize(x.size());
+  x_ = p_.x0;
+  v_ = p_.v0 / rate_;
+  fastest_ = std::abs(v_);
+  direction_ = (v_ > 0.0) - (v_ < 0.0);
+  const auto store = [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    x[row] = x_;
+    if (v != nullptr) (*v)[row] = v_ * rate_;
+    for (std::size_t j = 0; j < tangents_.size(); ++j)
+      (*derivatives)(row, static_cast<Eigen::Index>(j)) = tangents_[j].x;
+  };
+  for (std::size_t i = 0; i + 1 < count_; ++i) {
+    store(i);
+    if (!walk_interval(i)) return false;
+  }
+  store(count_ - 1);
+  return x.allFinite();
+}
+
+/// From one sample to the next, through the events between them.
+bool SampledOscillator::walk_interval(std::size_t interval) {
+  interval_ = interval;
+  for (std::size_t j = 0; j < nodes; ++j) drive_[j] = p_.k * y_[interval][j] + force_[interval][j];
+  constexpr int most_events = 32;  // more are rounding at one instant
+  double at = 0.0;
+  if (interval == 0 && direction_ == 0) settle(0.0);
+  for (int event = 0; at < 1.0; ++event) {
+    if (direction_ != 0) {
+      at = event < most_events ? slip(at, 1.0) : 1.0;
+    } else {
+      at = rest(at, 1.0);
+      if (at < 1.0) direction_ = pull(at) > 0.0 ? 1 : -1;
+    }
+  }
+  return std::isfinite(x_) && std::isfinite(v_);
+}
+
+double SampledOscillator::pull(double at) const { return value_at(drive_, nodes, at) - p_.k * x_; }
+
+/// Time of release, or `end`.
+double SampledOscillator::rest(double begin, double end) const {
+  const auto excess = [this](double at) { return std::abs(pull(at)) - p_.F0; };
+  double low = begin;
+  for (int i = 1; i <= parts; ++i) {
+    const double high = begin + (end - begin) * i / parts;
+    if (excess(high) > 0.0) return excess(low) > 0.0 ? low : root(excess, low, high);
+    low = high;
+  }
+  return end;
+}
+
+/// Moves on to the next reversal, and through it, or to `end`; returns the time reached.
+double SampledOscillator::slip(double begin, double end) {
+  expand(begin);
+  const double reversal = first_reversal(end - begin);
+  if (reversal < 0.0) {
+    move_to(end - begin);
+    return end;
+  }
+  const double before = curvature_at(series_, terms_, reversal);
+  move_to(reversal);
+  v_ = 0.0;
+  const double at = begin + reversal;
+  settle(at);
+  const double force = pull(at) - p_.F0 * direction_;
+  const double after = direction_ == 0 ? 0.0 : force / inertia_;
+  for (Tangent& tangent : tangents_) tangent.v = before != 0.0 ? tangent.v * after / before : 0.0;
+  return at;
+}
+
+/// Where the velocity leaves the direction of slip; negative: it does not.
+double SampledOscillator::first_reversal(double length) const {
+  const auto speed = [this](double u) { return direction_ * slope_at(series_, terms_, u); };
+  double most_change = 0.0;  // of the velocity, over a whole sample interval
+  for (int j = 2; j < terms_; ++j) most_change += j * std::abs(series_[static_cast<std::size_t>(j)]);
+  if (std::abs(v_) > most_change) return -1.0;
+  const double rounding = 1e-14 * fastest_;
+  double low = 0.0;
+  for (int i = 1; i <= parts; ++i) {
+    const double high = length * i / parts;
+    if (speed(high) < -rounding) return speed(low) > 0.0 ? root(speed, low, high) : low;
+    low = high;
+  }
+  return -1.0;
+}
+
+/// What friction does at v = 0.
+void SampledOscillator::settle(double at) {
+  const double force = pull(at);
+  direction_ = std::abs(force) <= p_.F0 ? 0 : (force > 0.0 ? 1 : -1);
+}
+
+/// Taylor series of the motion from `begin` within the interval, and of its derivatives.
+void SampledOscillator::expand(double begin) {
+  const Drive drive = shifted(drive_, begin);
+  y_here_ = shifted(y_[interval_], begin);
+  series_[0] = x_;
+  series_[1] = v_;
+  for (int j = 0; j + 2 < terms_; ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    double force = j < nodes ? drive[i] : 0.0;
+    if (j == 0) force -= p_.F0 * direction_;
+    series_[i + 2] = (force - damping_ * (j + 1) * series_[i + 1] - p_.k * series_[i]) * integration_[i];
+  }
+  for (Tangent& tangent : tangents_) expand(tangent);
+}
+
+void SampledOscillator::expand(Tangent& tangent) const {
+  const auto forcing = [&](int j) {
+    const auto i = static_cast<std::size_t>(j);
+    switch (tangent.by) {
+      case By::mass:
+        return -rate_ * rate_ * (j + 1) * (j + 2) * series_[i + 2];
+      case By::damping:
+        return -rate_ * (j + 1) * series_[i + 1];
+      case By::stiffness:
+        return (j < nodes ? y_here_[i] : 0.0) - series_[i];
+      case By::friction:
+        return j == 0 ? -static_cast<double>(direction_) : 0.0;
+      case By::drag: {
+        double square = 0.0;  // coefficient j of v^2
+        for (std::size_t a = 0; a <= i; ++a)
+          square +=
+              static_cast<double>(a + 1) * series_[a + 1] * static_cast<double>(i - a + 1) * series_[i - a + 1];
+        return -rate_ * rate_ * direction_ * square;
+      }
+      case By::position:
+      case By::velocity:
+        return 0.0;
+    }
+    return 0.0;
+  };
+  Series& s = tangent.series;
+  s[0] = tangent.x;
+  s[1] = tangent.v;
+  for (int j = 0; j + 2 < terms_; ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    s[i + 2] = (forcing(j) - damping_ * (j + 1) * s[i + 1] - p_.k * s[i]) * integration_[i];
+  }
+}
+
+void SampledOscillator::move_to(double u) {
+  x_ = value_at(series_, terms_, u);
+  v_ = slope_at(series_, terms_, u);
+  fastest_ = std::max(fastest_, std::abs(v_));
+  for (Tangent& tangent : tangents_) {
+    tangent.x = value_at(tangent.series, terms_, u);
+    tangent.v = slope_at(tangent.series, terms_, u);
+  }
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,44 @@
+#pragma once
+/// What histories hold beside their samples: x-Y pairs of driven steady states, extremes of a free vibration.
+///
+/// A steady state is read by sine fits (identify/records/sine_fit.hpp): Y and the phase from the fundamental of y,
+/// x as half of peak to trough of the fitted waveform of x with up to nine harmonics, the mean square speed from v
+/// where it was measured and else from that waveform. A transient at the beginning is found by fits to pieces of
+/// whole cycles and skipped; noise is taken for one in 2 of 10,000 histories at most. What nine harmonics leave out
+/// of a Coulomb response is 2e-3 of x at the limit of sticking and falls as 1/x^2.
+///
+/// An extreme of a free vibration is the value that a local fit takes where its slope is zero. The acceleration
+/// jumps there, by twice the friction over the mass, so that the fit has a polynomial of its own on each side.
+///
+/// Errors: none thrown; a history that gives nothing says why among the warnings. Cost: linear, about 1 us a
+/// sample.
+
+#include <string>
+#include <vector>
+
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+struct DerivedPairs {
+  PairRecord record;  ///< empty where no history is a driven steady state
+  std::vector<std::string> warnings;
+};
+
+/// One pair for each history with x and y at a steady state. `frequency` [rad/s] of the drive; unknown: fitted to
+/// y, history by history. The part of a history's label before a `/` is the sweep of its pair: `up/3`.
+[[nodiscard]] DerivedPairs pairs_of(const std::vector<History>& histories, double frequency = unknown);
+
+struct DerivedDecay {
+  DecayRecord record;                   ///< empty where the history is no free decay
+  std::vector<double> standard_errors;  ///< of the extremes [m], from the noise of x
+};
+
+/// Turning points of x, from the first after its release to where the mass comes to rest or the record ends.
+[[nodiscard]] DerivedDecay decay_of(const History& history);
+
+/// Adds to a record that holds nothing but histories what can be derived from them: pairs where they are driven, a
+/// decay where there is a single one without drive. Returns warnings.
+[[nodiscard]] std::vector<std::string> complete(Record& record, double frequency = unknown);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,109 @@
+#include "identify/records/sensors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Of the first signal: away from the draws that laws and excitations of the same seed make.
+constexpr std::uint32_t first_stream = 16;
+
+/// A sensor at work: readings in order.
+class Reader {
+ public:
+  Reader(const Sensor& sensor, std::uint64_t seed, std::uint32_t stream)
+      : sensor_(sensor), draws_{.seed = seed, .stream = stream} {}
+
+  double operator()(double value) { return quantise((1.0 + sensor_.gain_error) * value + noise()); }
+
+  void read(std::vector<double>& signal) {
+    for (double& value : signal) value = (*this)(value);
+  }
+
+  double amplitude(double value, int cycles) {
+    double sum = 0.0;
+    for (int i = 0; i < cycles; ++i) {
+      const double peak = (*this)(value);
+      sum += 0.5 * (peak - (*this)(-value));
+    }
+    return sum / cycles;
+  }
+
+  /// Error of a phase [rad] of a signal of this amplitude.
+  double phase_error(double amplitude, double omega, int cycles) {
+    double sum = 0.0;
+    for (int i = 0; i < cycles; ++i) sum += noise();
+    return sensor_.lag(omega) * omega + (amplitude > 0.0 ? sum / (cycles * amplitude) : 0.0);
+  }
+
+ private:
+  double noise() { return sensor_.noise > 0.0 ? sensor_.noise * draws_.normal(count_++) : 0.0; }
+
+  [[nodiscard]] double quantise(double value) const {
+    if (sensor_.resolution > 0.0) value = sensor_.resolution * std::round(value / sensor_.resolution);
+    return std::clamp(value, -sensor_.clipping, sensor_.clipping);
+  }
+
+  Sensor sensor_;
+  core::RandomStream draws_;
+  std::uint64_t count_ = 0;
+};
+
+struct Readers {
+  Readers(const Sensors& sensors, std::uint64_t seed)
+      : y(sensors.y, seed, first_stream),
+        x(sensors.x, seed, first_stream + 1),
+        v(sensors.v, seed, first_stream + 2),
+        a(sensors.a, seed, first_stream + 3),
+        force(sensors.force, seed, first_stream + 4) {}
+
+  Reader y, x, v, a, force;
+};
+
+/// In [0, 2 pi).
+double wrapped(double phase) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  return phase - turn * std::floor(phase / turn);
+}
+
+/// What was not known before is not known after.
+Pair read_pair(const Pair& exact, Readers& readers, int cycles) {
+  Pair pair = exact;
+  pair.Y = readers.y.amplitude(exact.Y, cycles);
+  pair.x = readers.x.amplitude(exact.x, cycles);
+  if (!std::isnan(exact.phase)) {
+    const double late = readers.x.phase_error(exact.x, exact.omega, cycles);
+    pair.phase = wrapped(exact.phase + late - readers.y.phase_error(exact.Y, exact.omega, cycles));
+  }
+  if (!std::isnan(exact.fundamental)) pair.fundamental = readers.x.amplitude(exact.fundamental, cycles);
+  if (!std::isnan(exact.mean_square_speed)) {
+    const double speed = readers.v.amplitude(std::sqrt(exact.mean_square_speed), cycles);
+    pair.mean_square_speed = speed * speed;
+  }
+  return pair;
+}
+
+}  // namespace
+
+Record read(const Record& exact, const Sensors& sensors, std::uint64_t seed) {
+  Record record = exact;
+  Readers readers(sensors, seed);
+  if (record.pairs)
+    for (Pair& pair : record.pairs->pairs) pair = read_pair(pair, readers, sensors.average_cycles);
+  if (record.decay) readers.x.read(record.decay->extremes);
+  for (History& history : record.histories) {
+    readers.y.read(history.y);
+    readers.x.read(history.x);
+    readers.v.read(history.v);
+    readers.a.read(history.a);
+    readers.force.read(history.force);
+  }
+  return record;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,258 @@
+#include "identify/records/signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "identify/statistics/statistics.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using std::numbers::pi;
+
+double mean_square(std::span<const double> signal) {
+  double mean = 0.0;
+  for (const double value : signal) mean += value;
+  mean /= static_cast<double>(signal.size());
+  double sum = 0.0;
+  for (const double value : signal) sum += (value - mean) * (value - mean);
+  return sum / static_cast<double>(signal.size());
+}
+
+/// Mean frequency of a motion [Hz]: that of the sine with the same rms of x and v. Differences over the whole
+/// signal in few steps, for noise would otherwise decide.
+double mean_frequency(const History& history) {
+  const std::size_t step = std::max<std::size_t>(1, history.x.size() / 2000);
+  std::vector<double> thinned;
+  for (std::size_t i = 0; i < history.x.size(); i += step) thinned.push_back(history.x[i]);
+  const double rate = history.sample_rate / static_cast<double>(step);
+  const double motion = mean_square(thinned);
+  return motion > 0.0 ? std::sqrt(mean_square(central_difference(thinned, rate)) / motion) / (2.0 * pi) : 0.0;
+}
+
+}  // namespace
+
+std::vector<double> central_difference(std::span<const double> x, double sample_rate) {
+  const std::size_t n = x.size();
+  std::vector<double> v(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) v[i] = 0.5 * sample_rate * (x[i + 1] - x[i - 1]);
+  v[0] = 0.5 * sample_rate * (-3.0 * x[0] + 4.0 * x[1] - x[2]);
+  v[n - 1] = 0.5 * sample_rate * (3.0 * x[n - 1] - 4.0 * x[n - 2] + x[n - 3]);
+  return v;
+}
+
+std::vector<double> second_difference(std::span<const double> x, double sample_rate) {
+  const std::size_t n = x.size();
+  std::vector<double> a(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) a[i] = sample_rate * sample_rate * (x[i + 1] - 2.0 * x[i] + x[i - 1]);
+  a[0] = a[1];
+  a[n - 1] = a[n - 2];
+  return a;
+}
+
+std::vector<double> five_point_average(std::span<const double> x) {
+  const std::size_t n = x.size();
+  std::vector<double> mean(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t half = std::min({std::size_t{2}, i, n - 1 - i});
+    double sum = 0.0;
+    for (std::size_t j = i - half; j <= i + half; ++j) sum += x[j];
+    mean[i] = sum / static_cast<double>(2 * half + 1);
+  }
+  return mean;
+}
+
+double five_point_gain(double omega, double sample_rate) {
+  const double angle = omega / sample_rate;
+  return (1.0 + 2.0 * std::cos(angle) + 2.0 * std::cos(2.0 * angle)) / 5.0;
+}
+
+double noise_deviation(std::span<const double> x) {
+  double sum = 0.0;
+  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
+    const double fourth = x[i - 2] - 4.0 * x[i - 1] + 6.0 * x[i] - 4.0 * x[i + 1] + x[i + 2];
+    sum += fourth * fourth;
+  }
+  constexpr double gain = 70.0;  // sum of the squared coefficients
+  return std::sqrt(sum / (gain * static_cast<double>(x.size() - 4)));
+}
+
+ZeroPhaseFilter::ZeroPhaseFilter(double cutoff, double sample_rate) {
+  const double warped = std::tan(pi * cutoff / sample_rate);
+  const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * warped + warped * warped);
+  b_ = warped * warped * norm;
+  a1_ = 2.0 * (warped * warped - 1.0) * norm;
+  a2_ = (1.0 - std::numbers::sqrt2 * warped + warped * warped) * norm;
+  // The transient decays like exp(-2 pi cutoff t/sqrt(2)): a thousandth is left after seven time constants.
+  constexpr double time_constants = 7.0;
+  edge_ = static_cast<std::size_t>(std::ceil(time_constants * sample_rate / (std::numbers::sqrt2 * pi * cutoff)));
+}
+
+/// In place, from the steady state of the first sample.
+void ZeroPhaseFilter::run(std::vector<double>& signal) const {
+  const double level = signal.front();
+  double z2 = (b_ - a2_) * level;
+  double z1 = (2.0 * b_ - a1_) * level + z2;
+  for (double& value : signal) {
+    const double in = value;
+    value = b_ * in + z1;
+    z1 = 2.0 * b_ * in - a1_ * value + z2;
+    z2 = b_ * in - a2_ * value;
+  }
+}
+
+std::vector<double> ZeroPhaseFilter::operator()(std::span<const double> signal) const {
+  const std::size_t n = signal.size();
+  const std::size_t pad = std::min(edge_, n - 1);
+  std::vector<double> all(n + 2 * pad);
+  for (std::size_t i = 0; i < pad; ++i) {
+    all[i] = 2.0 * signal[0] - signal[pad - i];
+    all[pad + n + i] = 2.0 * signal[n - 1] - signal[n - 2 - i];
+  }
+  std::ranges::copy(signal, all.begin() + static_cast<std::ptrdiff_t>(pad));
+  run(all);
+  std::ranges::reverse(all);
+  run(all);
+  std::ranges::reverse(all);
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(pad);
+  return {first, first + static_cast<std::ptrdiff_t>(n)};
+}
+
+Motion motion_of(const History& history, double cutoff) {
+  const std::size_t n = history.x.size();
+  const double rate = history.sample_rate;
+  std::optional<ZeroPhaseFilter> filter;
+  if (cutoff > 0.0) filter.emplace(cutoff, rate);
+  const auto filtered = [&](std::span<const double> signal) {
+    return filter ? (*filter)(signal) : std::vector<double>(signal.begin(), signal.end());
+  };
+
+  Motion motion;
+  motion.x = filtered(history.x);
+  motion.v = history.v.empty() ? central_difference(motion.x, rate) : filtered(history.v);
+  if (!history.a.empty()) {
+    motion.a = filtered(history.a);
+  } else {
+    motion.a = history.v.empty() ? second_difference(motion.x, rate) : central_difference(motion.v, rate);
+  }
+  // Where friction turns, the acceleration jumps: a filter moves the zero of the velocity there, the less the
+  // higher its cut-off.
+  constexpr double sharper = 4.0;
+  std::vector<double> turning;
+  if (history.v.empty() && filter)
+    turning = central_difference(ZeroPhaseFilter(std::min(sharper * cutoff, 0.4 * rate), rate)(history.x), rate);
+  const std::vector<double>& speed = !history.v.empty() ? history.v : (filter ? turning : motion.v);
+  std::vector<double> sign(n);
+  std::vector<double> drag(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    sign[i] = static_cast<double>((speed[i] > 0.0) - (speed[i] < 0.0));
+    drag[i] = speed[i] * std::abs(speed[i]);
+  }
+  motion.sign = filtered(sign);
+  motion.drag = filtered(drag);
+  motion.y = history.y.empty() ? std::vector<double>(n, 0.0) : filtered(history.y);
+  motion.force = history.force.empty() ? std::vector<double>(n, 0.0) : filtered(history.force);
+
+  const bool differentiated = history.v.empty() || history.a.empty();
+  const std::size_t edge = filter ? filter->edge() : (differentiated ? 1 : 0);
+  // Four samples a period of the cut-off hold all that has passed the filter.
+  const std::size_t step = filter ? std::max<std::size_t>(1, static_cast<std::size_t>(rate / (4.0 * cutoff))) : 1;
+  for (std::vector<double>* signal :
+       {&motion.y, &motion.x, &motion.v, &motion.a, &motion.force, &motion.sign, &motion.drag}) {
+    std::size_t count = 0;
+    for (std::size_t i = edge; i + edge < n; i += step) (*signal)[count++] = (*signal)[i];
+    signal->resize(count);
+  }
+  motion.start = history.start + static_cast<double>(edge) / rate;
+  motion.sample_rate = rate / static_cast<double>(step);
+  return motion;
+}
+
+std::vector<double> cutoffs_for(const History& history, const MethodOptions& options) {
+  if (!options.cutoffs.empty()) return options.cutoffs;
+  if (!history.v.empty() && !history.a.empty()) return {0.0};
+  const double rate = history.sample_rate;
+  const double first = std::min(std::max(rate / 20.0, 8.0 * mean_frequency(history)), 0.2 * rate);
+  return {first, 0.6 * first, 0.4 * first};
+}
+
+std::string fault_of(const History& history) {
+  if (!(history.sample_rate > 0.0) || !std::isfinite(history.sample_rate)) return "the sample rate is not positive";
+  if (history.x.empty()) return "the displacement x was not recorded";
+  if (history.x.size() < 16) return "there are fewer than 16 samples";
+  for (const auto* signal : {&history.y, &history.x, &history.v, &history.a, &history.force}) {
+    if (!signal->empty() && signal->size() != history.x.size()) return "the signals are of different length";
+    if (!std::ranges::all_of(*signal, [](double value) { return std::isfinite(value); }))
+      return "a sample is not finite";
+  }
+  return {};
+}
+
+std::string fault_of_cutoff(const History& history, double cutoff) {
+  if (cutoff == 0.0) return {};
+  const std::string text = "the cut-off frequency " + core::format_number(cutoff, 4) + " Hz ";
+  if (!(cutoff > 0.0)) return text + "is not positive";
+  if (cutoff > 0.45 * history.sample_rate) return text + "is above 0.45 of the sample rate";
+  if (history.x.size() < 4 * ZeroPhaseFilter(cutoff, history.sample_rate).edge())
+    return text + "is too low for a record of this length";
+  return {};
+}
+
+std::vector<NumberedHistory> usable_histories(const Record& record, const MethodOptions& options,
+                                              Estimate& estimate) {
+  std::vector<NumberedHistory> usable;
+  if (std::string lack = lacks_histories(record); !lack.empty()) {
+    refuse(estimate, std::move(lack));
+    return usable;
+  }
+  for (std::size_t i = 0; i < record.histories.size(); ++i) {
+    const History& history = record.histories[i];
+    std::string fault = fault_of(history);
+    if (fault.empty()) {
+      for (const double cutoff : cutoffs_for(history, options))
+        if (fault.empty()) fault = fault_of_cutoff(history, cutoff);
+    }
+    const int number = static_cast<int>(i) + 1;
+    if (fault.empty())
+      usable.push_back({number, &history});
+    else
+      estimate.excluded.push_back({number, std::move(fault)});
+  }
+  if (usable.empty()) refuse(estimate, "no history can be used: " + estimate.excluded.front().reason);
+  return usable;
+}
+
+std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
+                                               const MethodOptions& options, Estimate& estimate) {
+  MethodOptions unfiltered = options;
+  unfiltered.cutoffs = {0.0};
+  const std::vector<NumberedHistory> histories = usable_histories(record, unfiltered, estimate);
+  if (histories.empty()) return std::nullopt;
+  if (std::string fault = fault_of(constants); !fault.empty()) {
+    refuse(estimate, std::move(fault));
+    return std::nullopt;
+  }
+  const auto length = [](const NumberedHistory& item) { return item.history->x.size(); };
+  const NumberedHistory longest = *std::ranges::max_element(histories, {}, length);
+  for (const NumberedHistory& item : histories)
+    if (item.number != longest.number)
+      estimate.excluded.push_back({item.number, "the method takes the longest history"});
+  return longest;
+}
+
+double least_speed_for(const std::vector<Motion>& motions, const MethodOptions& options) {
+  if (options.least_speed > 0.0) return options.least_speed;
+  double fastest = 0.0;
+  for (const Motion& motion : motions)
+    for (const double v : motion.v) fastest = std::max(fastest, std::abs(v));
+  return 0.01 * fastest;
+}
+
+std::string lacks_histories(const Record& record) {
+  return record.histories.empty() ? "the record holds no time histories" : "";
+}
+
+}  // namespace dualdamp::identify

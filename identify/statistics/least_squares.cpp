@@ -1,0 +1,172 @@
+#include "identify/statistics/least_squares.hpp"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace dualdamp::identify {
+
+namespace {
+
+class Cost final : public ceres::CostFunction {
+ public:
+  explicit Cost(const LeastSquaresProblem& problem)
+      : problem_(problem), residuals_(problem.residuals), jacobian_(problem.residuals, problem.start.size()) {
+    set_num_residuals(static_cast<int>(problem.residuals));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.start.size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::VectorXd p = Eigen::Map<const Eigen::VectorXd>(parameters[0], problem_.start.size());
+    const bool derivative = jacobians != nullptr && jacobians[0] != nullptr;
+    if (!problem_.evaluate(p, residuals_, derivative ? &jacobian_ : nullptr)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, residuals_.size()) = residuals_;
+    if (derivative)
+      for (Eigen::Index i = 0; i < jacobian_.rows(); ++i)
+        for (Eigen::Index j = 0; j < jacobian_.cols(); ++j)
+          jacobians[0][i * jacobian_.cols() + j] = jacobian_(i, j);
+    return true;
+  }
+
+ private:
+  const LeastSquaresProblem& problem_;
+  mutable Eigen::VectorXd residuals_;
+  mutable Eigen::MatrixXd jacobian_;
+};
+
+/// One run of the solver from `parameters` to where it ends, with the parameters numbered in `held` as they are.
+ceres::Solver::Summary solve(const LeastSquaresProblem& problem, const std::vector<int>& held, int most_iterations,
+                             Eigen::VectorXd& parameters) {
+  ceres::Problem ceres_problem;
+  ceres_problem.AddResidualBlock(new Cost(problem), nullptr, parameters.data());
+  const auto size = static_cast<int>(parameters.size());
+  for (int i = 0; i < size && problem.low.size() > 0; ++i) {
+    ceres_problem.SetParameterLowerBound(parameters.data(), i, problem.low[i]);
+    ceres_problem.SetParameterUpperBound(parameters.data(), i, problem.high[i]);
+  }
+  if (!held.empty()) ceres_problem.SetManifold(parameters.data(), new ceres::SubsetManifold(size, held));
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  options.max_num_iterations = most_iterations;
+  options.function_tolerance = problem.tolerance;
+  options.gradient_tolerance = 0.0;
+  options.parameter_tolerance = 1e-15;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_problem, &summary);
+  return summary;
+}
+
+struct Linearised {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+};
+
+std::optional<Linearised> linearised(const LeastSquaresProblem& problem, const Eigen::VectorXd& parameters) {
+  Linearised at{Eigen::VectorXd(problem.residuals), Eigen::MatrixXd(problem.residuals, parameters.size())};
+  if (!problem.evaluate(parameters, at.residuals, &at.jacobian)) return std::nullopt;
+  return at;
+}
+
+/// Takes the parameters to their bounds that the linearised problem wants beyond them, and numbers these.
+std::vector<int> take_to_bounds(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
+  const auto at = linearised(problem, parameters);
+  if (!at) return {};
+  const Eigen::VectorXd wanted =
+      parameters - Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(at->jacobian).solve(at->residuals);
+  std::vector<int> taken;
+  for (int i = 0; i < parameters.size(); ++i) {
+    const double inside = std::clamp(wanted[i], problem.low[i], problem.high[i]);
+    if (inside == wanted[i]) continue;
+    parameters[i] = inside;
+    taken.push_back(i);
+  }
+  return taken;
+}
+
+/// Would the sum of squares fall beyond the bound of each of these parameters?
+bool are_held(const LeastSquaresProblem& problem, const Eigen::VectorXd& parameters,
+              const std::vector<int>& numbers) {
+  const auto at = linearised(problem, parameters);
+  return at && std::ranges::all_of(numbers, [&](int i) {
+           const double gradient = at->jacobian.col(i).dot(at->residuals);
+           return parameters[i] <= problem.low[i] ? gradient >= 0.0 : gradient <= 0.0;
+         });
+}
+
+/// Within bounds. Where one of them is met the solver's steps, made for the whole space and cut off at the bound,
+/// creep along it: a hundred instead of ten. So what the bounds should hold is held there, and let go if they do
+/// not.
+ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
+  constexpr int most_iterations = 200;
+  constexpr int first_iterations = 4;
+  if (problem.low.size() == 0) return solve(problem, {}, most_iterations, parameters);
+  ceres::Solver::Summary summary = solve(problem, {}, first_iterations, parameters);
+  if (summary.termination_type == ceres::CONVERGENCE) return summary;
+  Eigen::VectorXd on_bounds = parameters;
+  const std::vector<int> held = take_to_bounds(problem, on_bounds);
+  if (!held.empty() && held.size() < static_cast<std::size_t>(parameters.size())) {
+    summary = solve(problem, held, most_iterations, on_bounds);
+    if (summary.termination_type == ceres::CONVERGENCE && are_held(problem, on_bounds, held)) {
+      parameters = on_bounds;
+      return summary;
+    }
+  }
+  return solve(problem, {}, most_iterations, parameters);
+}
+
+/// Ceres tells standard error of a fit that came to where the model ends, whatever its options say. The outcome
+/// says so too.
+void keep_silent() {
+  static const bool once = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+}  // namespace
+
+LeastSquaresFit fit(const LeastSquaresProblem& problem) {
+  keep_silent();
+  LeastSquaresFit result;
+  result.parameters = problem.start;
+  result.residuals.resize(problem.residuals);
+  if (!problem.evaluate(problem.start, result.residuals, nullptr)) {
+    result.outcome = {core::OutcomeKind::not_identifiable, "the model has no value where the fit begins"};
+    return result;
+  }
+  const ceres::Solver::Summary summary = solve(problem, result.parameters);
+
+  result.jacobian.resize(problem.residuals, problem.start.size());
+  const bool has_value = problem.evaluate(result.parameters, result.residuals, &result.jacobian);
+  // Where rounding is all that is left no step reduces the cost any more, which Ceres counts as a failure.
+  const bool usable = summary.IsSolutionUsable() || (has_value && summary.num_successful_steps > 0);
+  if (!usable || !has_value) result.outcome = {core::OutcomeKind::not_identifiable, "the fit did not converge"};
+  result.sum_of_squares = result.residuals.squaredNorm();
+  return result;
+}
+
+std::optional<Eigen::MatrixXd> unit_covariance(const Eigen::MatrixXd& jacobian) {
+  if (jacobian.rows() < jacobian.cols()) return std::nullopt;
+  const Eigen::VectorXd scale = jacobian.colwise().norm();
+  if (!(scale.minCoeff() > 0.0)) return std::nullopt;
+  const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const Eigen::Index size = jacobian.cols();
+  const Eigen::MatrixXd R = qr.matrixR().topRows(size);
+  constexpr double singular = 1e-13;  // below this a direction rests on rounding
+  if (!(std::abs(R(size - 1, size - 1)) > singular * std::abs(R(0, 0)))) return std::nullopt;
+  const Eigen::MatrixXd inverse = R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(size, size));
+  const Eigen::MatrixXd root = scale.cwiseInverse().asDiagonal() * (qr.colsPermutation() * inverse);
+  return root * root.transpose();
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,153 @@
+#include "identify/statistics/statistics.hpp"
+
+#include <Eigen/QR>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::identify {
+
+double quantile95(double freedom) {
+  constexpr double upper = 0.975;
+  if (std::isinf(freedom)) return boost::math::quantile(boost::math::normal(), upper);
+  return boost::math::quantile(boost::math::students_t(freedom), upper);
+}
+
+std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
+                                         const Eigen::VectorXd& term, double range, std::string name, int spent) {
+  const auto count = jacobian.rows();
+  const auto freedom = static_cast<int>(count - jacobian.cols() - 1) - spent;
+  if (freedom < 1 || !(range > 0.0)) return std::nullopt;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  const Eigen::VectorXd explained = jacobian * qr.solve(term);
+  const Eigen::VectorXd extra = term - explained;  // what the term adds to the fitted columns
+  const double weight = extra.squaredNorm();
+  if (!(weight > 1e-16 * term.squaredNorm())) return std::nullopt;
+  const double gain = extra.dot(residual) / weight;
+
+  const double explained_square = gain * gain * weight;
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * range;
+  const double floor = static_cast<double>(count) * rounding * rounding;
+  const double left = std::max((residual - gain * extra).squaredNorm(), floor);
+  LackOfFit test;
+  test.test = std::move(name);
+  test.freedom = freedom;
+  test.statistic = explained_square / (left / freedom);
+  test.p_value = boost::math::cdf(boost::math::complement(boost::math::fisher_f(1.0, freedom), test.statistic));
+  test.effect = std::sqrt(explained_square / static_cast<double>(count)) / range;
+  test.fired = test.p_value < test.level && test.effect > test.least_effect;
+  return test;
+}
+
+ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants) {
+  // Two roots instead of sqrt(m k): the product may leave the range of double precision.
+  return {zeta, 2.0 * zeta * std::sqrt(constants.mass) * std::sqrt(constants.stiffness), x_f,
+          constants.stiffness * x_f};
+}
+
+void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
+                     const KnownConstants& constants) {
+  const ParameterSet error = parameters(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), constants);
+  const auto around = [half_width](double value, double deviation) {
+    return std::array<double, 2>{value - half_width * deviation, value + half_width * deviation};
+  };
+  estimate.std = error;
+  estimate.interval95 = {around(estimate.value.zeta, error.zeta), around(estimate.value.c, error.c),
+                         around(estimate.value.x_f, error.x_f), around(estimate.value.F0, error.F0)};
+  const Eigen::DiagonalMatrix<double, 2> to_force(1.0, constants.stiffness);
+  estimate.covariance = to_force * covariance * to_force;
+  if (error.zeta > 0.0 && error.x_f > 0.0) estimate.correlation = covariance(0, 1) / (error.zeta * error.x_f);
+}
+
+std::string fault_of(const KnownConstants& constants) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (std::isnan(constants.mass)) return "the method needs the mass";
+  if (std::isnan(constants.stiffness)) return "the method needs the stiffness";
+  if (!positive(constants.mass)) return "the mass must be positive and finite";
+  if (!positive(constants.stiffness)) return "the stiffness must be positive and finite";
+  return {};
+}
+
+void refuse(Estimate& estimate, std::string reason) {
+  estimate.outcome = {core::OutcomeKind::not_identifiable, reason};
+  estimate.usable = false;
+  estimate.reason = std::move(reason);
+}
+
+namespace {
+
+ParameterSet difference(const ParameterSet& a, const ParameterSet& b) {
+  return {a.zeta - b.zeta, a.c - b.c, a.x_f - b.x_f, a.F0 - b.F0};
+}
+
+}  // namespace
+
+void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
+                          const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read) {
+  const ParameterSet& value = estimate.value;
+  if (!estimate.interval95 || !(value.zeta > 0.0) || !(value.x_f >= 0.0)) return;
+  ParameterSet misread = difference(own, value);
+  const ParameterSet corrected = difference(value, misread);
+  if (corrected.zeta > 0.0 && corrected.x_f >= 0.0) {
+    const std::optional<ParameterSet> there = read(corrected);
+    if (there) misread = difference(*there, corrected);
+  }
+  const auto shift = [](std::array<double, 2>& interval, double by) {
+    if (!std::isfinite(by)) return;
+    for (double& end : interval) end -= by;
+  };
+  shift(estimate.interval95->zeta, misread.zeta);
+  shift(estimate.interval95->c, misread.c);
+  shift(estimate.interval95->x_f, misread.x_f);
+  shift(estimate.interval95->F0, misread.F0);
+}
+
+std::string percent(double fraction) {
+  return (fraction < 0.0 ? "" : "+") + core::format_number(100.0 * fraction, 3) + " %";
+}
+
+namespace {
+
+/// One parameter of `judge_signs`; `name` heads the sentences.
+void judge_sign(double value, double least, const std::optional<ParameterIntervals>& intervals,
+                std::array<double, 2> ParameterIntervals::* interval, const std::string& name,
+                std::vector<std::string>& faults, std::vector<std::string>& warnings) {
+  const bool negative = value < -least;
+  if (!intervals) {
+    if (negative) faults.push_back(name + " came out negative");
+    return;
+  }
+  const auto& [low, high] = (*intervals).*interval;
+  if (negative && high < 0.0) {
+    faults.push_back(name + " came out negative by more than its uncertainty");
+  } else if (low <= 0.0 && high >= 0.0 && high - low > least) {
+    warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");
+  }
+}
+
+}  // namespace
+
+void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults) {
+  constexpr double least_zeta = 1e-9;
+  judge_sign(estimate.value.zeta, least_zeta, estimate.interval95, &ParameterIntervals::zeta, "the damping ratio",
+             faults, estimate.warnings);
+  judge_sign(estimate.value.x_f, least_x_f, estimate.interval95, &ParameterIntervals::x_f, "the Coulomb friction",
+             faults, estimate.warnings);
+}
+
+void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis) {
+  estimate.usable = faults.empty();
+  if (estimate.usable) {
+    estimate.reason = std::move(basis);
+    return;
+  }
+  estimate.reason.clear();
+  for (const std::string& fault : faults) estimate.reason += (estimate.reason.empty() ? "" : "; ") + fault;
+}
+
+}  // namespace dualdamp::identify

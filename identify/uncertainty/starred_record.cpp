@@ -1,0 +1,332 @@
+#include "identify/uncertainty/starred_record.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "identify/models/sampled_oscillator.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+double root_mean_square(const std::vector<double>& signal) {
+  double sum = 0.0;
+  for (const double value : signal) sum += value * value;
+  return signal.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(signal.size()));
+}
+
+/// Deviation of white noise in signals that are smooth but for a few jumps: from fourth differences, those that
+/// noise does not make left out.
+class NoiseMeter {
+ public:
+  void add(const std::vector<double>& signal) {
+    constexpr double gain = 70.0;  // of fourth differences, of the variance
+    for (std::size_t i = 0; i + 4 < signal.size(); ++i)
+      differences_.push_back(
+          std::abs(signal[i] - 4.0 * signal[i + 1] + 6.0 * signal[i + 2] - 4.0 * signal[i + 3] + signal[i + 4]) /
+          std::sqrt(gain));
+  }
+
+  [[nodiscard]] double deviation() {
+    if (differences_.empty()) return 0.0;
+    const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
+    std::ranges::nth_element(differences_, middle);
+    constexpr double to_deviation = 1.4826;  // of a normal variable's median magnitude
+    constexpr double rare = 4.0;             // deviations: one normal variable in 16,000
+    const double limit = rare * to_deviation * *middle;
+    double sum = 0.0;
+    double count = 0.0;
+    for (const double difference : differences_) {
+      if (difference > limit) continue;
+      sum += difference * difference;
+      count += 1.0;
+    }
+    return std::sqrt(sum / count);
+  }
+
+ private:
+  std::vector<double> differences_;
+};
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> result(a.size());
+  std::ranges::transform(a, b, result.begin(), std::minus<>());
+  return result;
+}
+
+std::vector<double> vector_of(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
+
+/// A spring and damper towards the measured motion.
+struct Steering {
+  double stiffness = 0.0;
+  double damping = 0.0;
+  std::vector<double> x, v;  ///< where to
+
+  Steering() = default;
+  Steering(const History& history, double mass) {
+    const double cutoff = cutoffs_for(history, {}).front();
+    const Motion motion = motion_of(history, 0.0);
+    const auto smooth = [&](const std::vector<double>& signal) {
+      return cutoff > 0.0 ? ZeroPhaseFilter(cutoff, history.sample_rate)(signal) : signal;
+    };
+    x = smooth(history.x);
+    v = smooth(history.v.empty() ? central_difference(history.x, history.sample_rate) : history.v);
+    // Alone with the mass, critically damped and as slow as the motion itself.
+    const double omega = root_mean_square(v) / root_mean_square(x);
+    stiffness = mass * omega * omega;
+    damping = 2.0 * mass * omega;
+  }
+};
+
+/// y and force that make `SampledOscillator` steer when its stiffness and damping are the sums of both: its y is
+/// the mean of base and record, weighted by their springs.
+History drive_of(const History& history, const ForceParameters& law, const Steering& steering, double offset) {
+  History drive;
+  drive.sample_rate = history.sample_rate;
+  drive.x = history.x;
+  drive.y = history.y;
+  drive.force = history.force.empty() ? std::vector<double>(history.x.size(), 0.0) : history.force;
+  for (double& force : drive.force) force -= offset;
+  if (steering.stiffness == 0.0) return drive;
+  drive.y.resize(drive.x.size());
+  for (std::size_t i = 0; i < drive.y.size(); ++i) {
+    drive.y[i] = (law.k * drive.y[i] + steering.stiffness * steering.x[i]) / (law.k + steering.stiffness);
+    drive.force[i] += steering.damping * steering.v[i];
+  }
+  return drive;
+}
+
+double sign(double value) { return static_cast<double>((value > 0.0) - (value < 0.0)); }
+
+/// What drives the mass against its friction: k (y - x) + f - offset - c v.
+std::vector<double> pull_of(const History& history, const ForceParameters& law, double offset) {
+  std::vector<double> pull(history.x.size());
+  for (std::size_t i = 0; i < pull.size(); ++i)
+    pull[i] = law.k * ((history.y.empty() ? 0.0 : history.y[i]) - history.x[i]) +
+              (history.force.empty() ? 0.0 : history.force[i]) - offset - law.c * history.v[i];
+  return pull;
+}
+
+/// One history in the starred world.
+class Star {
+ public:
+  Star(const History& measured, const ForceParameters& law, double offset, bool steered)
+      : measured_(measured),
+        law_(law),
+        offset_(offset),
+        steering_(steered ? Steering(measured, law.m) : Steering()),
+        at_{law.m, law.c + steering_.damping, law.k + steering_.stiffness, law.F0, 0.0, 0.0} {}
+
+  /// With all of x, v and a, under the measured drive.
+  [[nodiscard]] std::optional<History> history() {
+    SampledOscillator model(drive_of(measured_, law_, steering_, offset_));
+    Eigen::VectorXd x;
+    Eigen::VectorXd v;
+    if (!meet(model) || !model.run(at_, {}, x, nullptr, &v)) return std::nullopt;
+    History starred = measured_;
+    starred.x = vector_of(x);
+    starred.v = vector_of(v);
+    if (steering_.stiffness > 0.0) {
+      starred.force.resize(starred.x.size());
+      for (std::size_t i = 0; i < starred.x.size(); ++i)
+        starred.force[i] += steering_.stiffness * (steering_.x[i] - starred.x[i]) +
+                            steering_.damping * (steering_.v[i] - starred.v[i]);
+    }
+    const std::vector<double> pull = pull_of(starred, law_, offset_);
+    starred.a.resize(pull.size());
+    for (std::size_t i = 0; i < pull.size(); ++i) {
+      const bool slips = starred.v[i] != 0.0;
+      const double friction = slips ? law_.F0 * sign(starred.v[i]) : std::clamp(pull[i], -law_.F0, law_.F0);
+      starred.a[i] = (pull[i] - friction) / law_.m;
+    }
+    return starred;
+  }
+
+  /// x of the same mass under another drive.
+  [[nodiscard]] std::optional<std::vector<double>> motion_under(const History& drive) const {
+    SampledOscillator model(drive_of(drive, law_, steering_, offset_));
+    Eigen::VectorXd x;
+    if (!model.run(at_, {}, x, nullptr)) return std::nullopt;
+    return vector_of(x);
+  }
+
+ private:
+  /// Sets the initial state that brings the motion closest to the record: Gauss and Newton's method.
+  bool meet(SampledOscillator& model) {
+    using By = SampledOscillator::By;
+    const Eigen::Map<const Eigen::VectorXd> x_measured(measured_.x.data(),
+                                                       static_cast<Eigen::Index>(measured_.x.size()));
+    SampledOscillator::Parameters next = at_;
+    next.x0 = measured_.x.front();
+    next.v0 = measured_.v.empty() ? central_difference(five_point_average(measured_.x), measured_.sample_rate)[2]
+                                  : measured_.v.front();
+    constexpr int steps = 3;
+    double least = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < steps; ++step) {
+      Eigen::VectorXd x;
+      Eigen::MatrixXd derivatives;
+      if (!model.run(next, {By::position, By::velocity}, x, &derivatives)) return false;
+      const Eigen::VectorXd miss = x_measured - x;
+      if (!(miss.squaredNorm() < least)) break;
+      least = miss.squaredNorm();
+      at_ = next;
+      const Eigen::Matrix2d normal = derivatives.transpose() * derivatives;
+      const Eigen::Vector2d move = normal.ldlt().solve(derivatives.transpose() * miss);
+      if (!move.allFinite()) break;
+      next.x0 += move[0];
+      next.v0 += move[1];
+    }
+    return std::isfinite(least);
+  }
+
+  const History& measured_;
+  ForceParameters law_;
+  double offset_;
+  Steering steering_;
+  SampledOscillator::Parameters at_;
+};
+
+bool close(const History& starred, const History& measured) {
+  constexpr double of_the_motion = 0.1;
+  return root_mean_square(difference(measured.x, starred.x)) < of_the_motion * root_mean_square(measured.x);
+}
+
+/// Of a signal that was measured beside a starred motion.
+struct MotionMeter {
+  NoiseMeter beside, own;
+
+  void add(const std::vector<double>& measured, const std::vector<double>& starred) {
+    if (measured.empty()) return;
+    beside.add(difference(measured, starred));
+    own.add(measured);
+  }
+  /// The starred motion has the noise of the drive in it, and the signal its jumps.
+  [[nodiscard]] double deviation() { return std::min(beside.deviation(), own.deviation()); }
+};
+
+/// Meters of all histories: a sensor is the same in each.
+struct Meters {
+  NoiseMeter y, force, balance;
+  MotionMeter x, v, a;
+
+  void add(const History& measured, const History& starred, const ForceParameters& law) {
+    y.add(measured.y);
+    force.add(measured.force);
+    x.add(measured.x, starred.x);
+    v.add(measured.v, starred.v);
+    a.add(measured.a, starred.a);
+    if (measured.y.empty() && measured.force.empty()) return;
+    // Of the forces, what neither inertia nor spring takes up; friction and damping are smooth beside it.
+    const std::vector<double> acceleration =
+        measured.a.empty() ? second_difference(measured.x, measured.sample_rate) : measured.a;
+    std::vector<double> left(measured.x.size());
+    for (std::size_t i = 0; i < left.size(); ++i)
+      left[i] = law.k * ((measured.y.empty() ? 0.0 : measured.y[i]) - measured.x[i]) +
+                (measured.force.empty() ? 0.0 : measured.force[i]) - law.m * acceleration[i];
+    balance.add(left);
+  }
+
+  [[nodiscard]] Sensors sensors(const ForceParameters& law) {
+    const double most = balance.deviation();
+    Sensors sensors;
+    sensors.x.noise = x.deviation();
+    sensors.v.noise = v.deviation();
+    sensors.a.noise = a.deviation();
+    sensors.y.noise = law.k > 0.0 ? std::min(y.deviation(), most / law.k) : 0.0;
+    sensors.force.noise = std::min(force.deviation(), most);
+    return sensors;
+  }
+};
+
+/// The part that lasts from one sample to the next, as a mean square over all histories.
+class LastingPart {
+ public:
+  void add(const std::vector<double>& signal) {
+    for (std::size_t i = 0; i + 1 < signal.size(); ++i) sum_ += signal[i] * signal[i + 1];
+    count_ += static_cast<double>(signal.size() - 1);
+  }
+  /// With what chance may hide of it under white noise.
+  [[nodiscard]] double at_most(double noise) const {
+    return std::max(0.0, sum_ / count_) + 3.0 * noise * noise / std::sqrt(count_);
+  }
+
+ private:
+  double sum_ = 0.0;
+  double count_ = 0.0;
+};
+
+/// A drive that is read with noise moves the starred mass beside the measured one: the noise is no more than that
+/// motion admits, for what looks like noise at high frequency may be a drive indeed.
+void bound_drive_noise(const std::vector<NumberedHistory>& histories, const std::vector<Star>& stars,
+                       const Record& exact, std::uint64_t seed, Sensors& sensors) {
+  if (sensors.y.noise == 0.0 && sensors.force.noise == 0.0) return;
+  Sensors drive;
+  drive.y = sensors.y;
+  drive.force = sensors.force;
+  LastingPart seen;
+  LastingPart expected;
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    const History& measured = *histories[i].history;
+    Record noisy;
+    noisy.histories = {measured};
+    noisy = read(noisy, drive, seed);
+    const std::optional<std::vector<double>> moved = stars[i].motion_under(noisy.histories.front());
+    if (!moved) return;
+    seen.add(difference(measured.x, exact.histories[i].x));
+    expected.add(difference(*moved, exact.histories[i].x));
+  }
+  const double share = std::sqrt(std::min(1.0, seen.at_most(sensors.x.noise) / expected.at_most(0.0)));
+  sensors.y.noise *= share;
+  sensors.force.noise *= share;
+}
+
+}  // namespace
+
+std::uint64_t seed_of(const std::vector<NumberedHistory>& histories) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const NumberedHistory& item : histories)
+    for (const double x : item.history->x) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 1099511628211ULL;
+  return hash;
+}
+
+Record StarredRecord::replica(int number) const {
+  return read(exact, sensors, seed + 1 + static_cast<std::uint64_t>(number));
+}
+
+std::optional<StarredRecord> starred_record(const std::vector<NumberedHistory>& histories, ForceParameters& truth,
+                                            double offset) {
+  if (!(truth.m > 0.0) || !(truth.k >= 0.0)) return std::nullopt;
+  truth.c = std::max(0.0, truth.c);
+  truth.F0 = std::max(0.0, truth.F0);
+  StarredRecord starred;
+  starred.seed = seed_of(histories);
+  std::vector<Star> stars;
+  Meters meters;
+  for (const NumberedHistory& item : histories) {
+    const History& measured = *item.history;
+    std::optional<History> history;
+    for (const bool steered : {false, true}) {
+      if (!steered && truth.k == 0.0) continue;  // it would drift
+      Star star(measured, truth, offset, steered);
+      history = star.history();
+      if (!history || !close(*history, measured)) continue;
+      stars.push_back(std::move(star));
+      break;
+    }
+    if (stars.size() == starred.exact.histories.size()) return std::nullopt;
+    meters.add(measured, *history, truth);
+    if (measured.v.empty()) history->v.clear();
+    if (measured.a.empty()) history->a.clear();
+    starred.exact.histories.push_back(std::move(*history));
+  }
+  starred.sensors = meters.sensors(truth);
+  bound_drive_noise(histories, stars, starred.exact, starred.seed, starred.sensors);
+  return starred;
+}
+
+}  // namespace dualdamp::identify

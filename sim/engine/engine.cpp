@@ -1,0 +1,158 @@
+#include "sim/engine/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/engine/exact_engine.hpp"
+#include "sim/engine/smooth_engine.hpp"
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+Engine::Engine(const Model& model) : model_(model), drive_(model.oscillator, model.excitation) {
+  for (const friction::Law& law : model_.friction) {
+    holds_mass_.push_back(law.holds_mass());
+    modal_.push_back(law.is_modal());
+    can_rest_ = can_rest_ || law.holds_mass();
+    some_modal_ = some_modal_ || law.is_modal();
+    const friction::Memory memory = law.start({.x = model.initial.position, .v = model.initial.velocity});
+    scheduled_ = scheduled_ || std::isfinite(law.next_change(memory));
+  }
+}
+
+Engine::~Engine() = default;
+
+void Engine::start(double x, double v) {
+  local_time_ = 0.0;
+  cycle_ = 0;
+  x_ = x;
+  v_ = v;
+  memories_.clear();
+  for (const friction::Law& law : model_.friction) memories_.push_back(law.start(now()));
+  place();
+}
+
+void Engine::restart(double x, double v) {
+  local_time_ = 0.0;
+  cycle_ = 0;
+  x_ = x;
+  v_ = v;
+  place();
+}
+
+void Engine::restart(const State& state) {
+  local_time_ = 0.0;
+  cycle_ = 0;
+  x_ = state.x;
+  v_ = state.v;
+  direction_ = state.direction;
+  memories_ = state.memories;
+  repeats_ = 0;
+  outcome_ = {};
+  begin_motion();
+  restore_past(state);
+}
+
+void Engine::place() {
+  repeats_ = 0;
+  outcome_ = {};
+  begin_motion();
+  if (v_ != 0.0) {
+    change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
+  } else {
+    settle();
+  }
+}
+
+const Interval* Engine::next(double horizon) {
+  // Only now: the interval handed out last lies in the cell before.
+  if (drive_.is_noise() && drive_.cell() != cycle_) {
+    local_time_ = 0.0;
+    drive_.enter(cycle_);
+  }
+  const double begin = cycle_ == 0 ? 0.0 : static_cast<double>(cycle_) * drive_.period();
+  const double left = (horizon - begin) - local_time_;
+  const double in_cell = drive_.period() - local_time_;
+  if (drive_.is_noise() && left >= in_cell) return step(in_cell, true);
+  return step(std::min(left, drive_.period()), false);
+}
+
+const Interval* Engine::next_in_period() { return step(drive_.period() - local_time_, true); }
+
+State Engine::state() const { return {x_, v_, direction_, memories_}; }
+
+void Engine::track_sensitivity(bool track) {
+  tracking_ = track;
+  if (tracking_) reset_sensitivity();
+}
+
+double Engine::time() const {
+  return cycle_ == 0 ? local_time_ : static_cast<double>(cycle_) * drive_.period() + local_time_;
+}
+
+void Engine::change_direction(Direction direction) {
+  direction_ = direction;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (modal_[i]) jump(i, {});
+  }
+}
+
+void Engine::jump(std::size_t law, friction::Trigger trigger) {
+  if (!tracking_) return model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+  const friction::Memory before = memories_[law];
+  model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+  jumped(law, before, trigger);
+}
+
+EventKind Engine::act(const Owner& owner) {
+  switch (owner.kind) {
+    case Owner::Kind::velocity:
+      settle();
+      return direction_ == Direction::rest ? EventKind::stop : EventKind::reversal;
+    case Owner::Kind::limit:
+      change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
+      return EventKind::release;
+    case Owner::Kind::law:
+      break;
+  }
+  jump(static_cast<std::size_t>(owner.law), {owner.guard});
+  return EventKind::switching;
+}
+
+/// The time at which some law changes its mode whatever the motion does [s].
+double Engine::next_schedule() const {
+  double next = std::numeric_limits<double>::infinity();
+  if (!scheduled_) return next;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i)
+    next = std::min(next, model_.friction[i].next_change(memories_[i]));
+  return next;
+}
+
+/// Every law whose time has come; a mass at rest is then weighed anew.
+void Engine::act_on_schedule(double due) {
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});
+  }
+  if (direction_ == Direction::rest) settle();
+}
+
+bool Engine::comes_to_an_end(bool takes_no_time) {
+  repeats_ = takes_no_time ? repeats_ + 1 : 0;
+  if (repeats_ <= max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) return true;
+  outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
+  return false;
+}
+
+bool is_exact(const Model& model) {
+  return model.oscillator.cubic_stiffness == 0.0 && model.solver.kind == SolverKind::automatic &&
+         std::ranges::all_of(model.friction, [](const friction::Law& law) { return law.is_affine(); });
+}
+
+std::unique_ptr<Engine> make_engine(const Model& model) {
+  if (is_exact(model)) return std::make_unique<ExactEngine>(model);
+  return std::make_unique<SmoothEngine>(model);
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,336 @@
+#include "sim/engine/exact_engine.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "sim/engine/closed_form.hpp"
+
+namespace dualdamp::sim {
+
+using core::Complex;
+using core::ModeFunction;
+using friction::Affine;
+using friction::Direction;
+
+namespace {
+
+/// exp(-gone) of an amplitude has died out.
+constexpr double gone = 45.0;
+
+}  // namespace
+
+std::string_view name(EventKind kind) {
+  switch (kind) {
+    case EventKind::reversal:
+      return "reversal";
+    case EventKind::stop:
+      return "stop";
+    case EventKind::release:
+      return "release";
+    case EventKind::grazing:
+      return "grazing";
+    case EventKind::switching:
+      return "switching";
+  }
+  return "";
+}
+
+/// One phase as an interval. The engine's functions stay in place until its next call; only the drive has moved on,
+/// so it is read backwards from the end of the interval.
+class ExactEngine::PhaseInterval final : public Interval {
+ public:
+  explicit PhaseInterval(const ExactEngine& engine) : engine_(engine) {}
+
+  [[nodiscard]] Sample at(double s) const override {
+    const core::ExponentialBasis& basis = engine_.mode_->basis();
+    core::ExponentialBasis::Values values;
+    basis.evaluate(s, values);
+    const Drive::Value drive = engine_.drive_.at(s - duration);
+    Sample sample{.t = begin + s, .y = drive.y, .y_rate = drive.y_rate, .external = drive.external};
+    sample.x = core::evaluate(basis, engine_.motion_, values);
+    const Oscillator& o = engine_.model_.oscillator;
+    if (direction == Direction::rest) {
+      // Friction balances all else.
+      const double damper = o.damper_to == DamperTo::base ? o.damping * drive.y_rate : 0.0;
+      sample.force = o.stiffness * (drive.y - sample.x) + damper + drive.external;
+      return sample;
+    }
+    sample.v = core::evaluate(basis, engine_.speed(), values) * friction::sign(direction);
+    sample.a = core::evaluate(basis, engine_.speed_rate(), values) * friction::sign(direction);
+    sample.force = force.constant + force.rate * s + force.position * sample.x + force.velocity * sample.v;
+    for (std::size_t i = 0; i < decays.size(); ++i) sample.force += transients[i] * std::exp(-decays[i] * s);
+    return sample;
+  }
+
+  [[nodiscard]] double resolution(double s) const override {
+    const core::ExponentialBasis& basis = engine_.mode_->basis();
+    double square = 0.0;
+    for (int k = 0; k < basis.size(); ++k) {
+      if (-basis.exponent(k).real() * s < gone) square = std::max(square, basis.square(k));
+    }
+    return square > 0.0 ? 1.6 / std::sqrt(square) : duration;
+  }
+
+  [[nodiscard]] const ClosedForm* closed_form() const override {
+    if (!ClosedForm::covers(engine_.mode_->basis())) return nullptr;
+    if (!formed_) form();
+    formed_ = true;
+    return &form_;
+  }
+
+  /// The engine has moved on to another phase.
+  void forget() { formed_ = false; }
+
+  Affine force;  ///< of all laws, without the transients
+  std::vector<double> transients;
+  std::vector<double> decays;
+
+ private:
+  void form() const;
+
+  const ExactEngine& engine_;
+  mutable ClosedForm form_;
+  mutable bool formed_ = false;
+};
+
+void ExactEngine::PhaseInterval::form() const {
+  const LinearMode& mode = *engine_.mode_;
+  const core::ExponentialBasis& basis = mode.basis();
+  const Drive& drive = engine_.drive_;
+  form_.basis = &basis;
+  form_.duration = duration;
+  core::copy(basis, engine_.crossing_.values, form_.end);
+  core::assign(basis, 1.0, engine_.motion_, form_.x);
+  ModeFunction& driven = drive.moves_base() ? form_.y : form_.external;
+  core::clear(basis, drive.moves_base() ? form_.external : form_.y);
+  mode.represent({.constant = drive.offset()}, driven);
+  for (std::size_t j = 0; j < drive.frequencies().size(); ++j) {
+    const auto k = static_cast<std::size_t>(mode.harmonic_element(j));
+    const Complex start = drive.phasor(j) * Complex(form_.end.re[k], -form_.end.im[k]);
+    driven.re[k] += start.real();
+    driven.im[k] += start.imag();
+  }
+  core::differentiate(basis, form_.y, form_.y_rate);
+  core::clear(basis, form_.v);
+  core::clear(basis, form_.a);
+  core::clear(basis, form_.force);
+  if (direction == Direction::rest) return;
+  core::assign(basis, friction::sign(direction), engine_.speed(), form_.v);
+  core::assign(basis, friction::sign(direction), engine_.speed_rate(), form_.a);
+  mode.represent({.constant = force.constant, .transients = transients}, form_.force);
+  core::accumulate(basis, force.position, form_.x, form_.force);
+  core::accumulate(basis, force.velocity, form_.v, form_.force);
+}
+
+ExactEngine::ExactEngine(const Model& model) : Engine(model), interval_(std::make_unique<PhaseInterval>(*this)) {
+  assert(std::ranges::all_of(model_.friction, [](const friction::Law& law) { return law.is_affine(); }));
+  law_guard_counts_.resize(model_.friction.size());
+  forcing_.phasors.resize(drive_.frequencies().size());
+  start(model.initial.position, model.initial.velocity);
+}
+
+ExactEngine::~ExactEngine() = default;
+
+void ExactEngine::begin_motion() {
+  drive_.reset(0.0);
+  instant_scale_ = 0.0;
+  if (tracking_) reset_sensitivity();
+}
+
+/// Decides what happens at v = 0: rest, or slip in the direction of the pull.
+void ExactEngine::settle() {
+  change_direction(Direction::rest);
+  collect(false);
+  const double pull = pull_now();
+  const double level = total_->limit.constant;
+  const double scale = force_scale() + level;
+  Direction direction = pull > 0.0 ? Direction::forward : Direction::backward;
+  if (std::abs(pull) < level - clearly * scale) {
+    direction = Direction::rest;
+  } else if (std::abs(pull) <= level + clearly * scale) {
+    direction = settle_closely(rounding * scale);
+  }
+  if (direction != Direction::rest) change_direction(direction);
+}
+
+/// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
+Direction ExactEngine::settle_closely(double tolerance) {
+  const LinearMode* present = mode_;
+  ModeFunction pull;
+  mode_ = &pull_on_mode(pull);
+  Direction direction = Direction::rest;
+  for (const Direction candidate : {Direction::forward, Direction::backward}) {
+    ModeFunction guard;
+    limit_guard(pull, friction::sign(candidate), guard);
+    if (core::germ(mode_->basis(), guard, tolerance).sign < 0) direction = candidate;
+  }
+  mode_ = present;
+  return direction;
+}
+
+void ExactEngine::jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) {
+  sensitivity_.jump(model_.friction[law], law, before, memories_[law], trigger, now(), direction_);
+}
+
+/// How far x and v may be off at the end of a phase: as the search has it (core/first_crossing.hpp), of amplitudes
+/// that may be far larger than those of the phase to come; and when its guard reached zero.
+void ExactEngine::keep_rounding(double s) {
+  x_rounding_ = v_rounding_ = time_rounding_ = 0.0;
+  const core::ExponentialBasis& basis = mode_->basis();
+  const double part = rounding + std::numeric_limits<double>::epsilon() * basis.turning() * s;
+  if (crossing_.found) {
+    const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
+    keep_time_rounding(part * core::bound(basis, guard.value, crossing_.values, s, 0.0),
+                       core::evaluate(basis, guard.slope, crossing_.values),
+                       core::evaluate(basis, guard.curvature, crossing_.values));
+  }
+  if (direction_ == Direction::rest) return;
+  x_rounding_ = part * core::bound(basis, motion_, crossing_.values, s, 0.0);
+  v_rounding_ = part * core::bound(basis, speed(), crossing_.values, s, 0.0);
+}
+
+/// A guard known to `error` falls through zero: the time that its tangent parabola needs to fall by as much.
+void ExactEngine::keep_time_rounding(double error, double slope, double curvature) {
+  const double fall = std::max(0.0, -slope);
+  const double speed = fall + std::sqrt(fall * fall + 2.0 * std::max(0.0, -curvature) * error);
+  if (speed > 0.0) time_rounding_ = std::max(time_rounding_, 2.0 * error / speed);
+}
+
+/// Ends the phase after s: position, velocity, drive and the laws' own states.
+void ExactEngine::advance(double s, bool to_period_end) {
+  const core::ExponentialBasis& basis = mode_->basis();
+  if (some_modal_ && s > 0.0) keep_rounding(s);
+  const friction::Instant before = now();
+  if (direction_ != Direction::rest && s > 0.0) {
+    x_ = core::evaluate(basis, motion_, crossing_.values);
+    v_ = friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
+  }
+  if (crossing_.found && watches_[static_cast<std::size_t>(crossing_.guard)].owner.kind == Owner::Kind::velocity)
+    v_ = 0.0;
+  local_time_ += s;
+  if (to_period_end || local_time_ >= drive_.period()) {
+    local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
+    ++cycle_;
+    drive_.end_period(local_time_);
+  } else {
+    for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) {
+      const auto k = static_cast<std::size_t>(mode_->harmonic_element(j));
+      drive_.turn(j, {crossing_.values.re[k], crossing_.values.im[k]});
+    }
+    drive_.pass(s);
+  }
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (modal_[i]) model_.friction[i].advance(memories_[i], before, now(), s, direction_);
+  }
+}
+
+double ExactEngine::start_acceleration() const {
+  if (direction_ == Direction::rest) return 0.0;
+  return friction::sign(direction_) * core::at_start(mode_->basis(), speed_rate());
+}
+
+/// Once the phase is laid: perturbations left at a crossing come back to the common time, unless the next event
+/// follows at once.
+void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
+  if (!at_once) sensitivity_.leave(start_acceleration(), model_.friction, memories_, begin, direction_);
+  sensitivity_.lay(model_.friction, memories_, begin, direction_, holds_mass_, total_->decays);
+  if (sensitivity_.has_states()) memories_before_ = memories_;
+}
+
+/// Over the phase, `s` long: motion and guard, while the memories are still those of its begin.
+void ExactEngine::track_motion(const friction::Instant& begin, double s) {
+  if (direction_ == Direction::rest) {
+    sensitivity_.rest();
+  } else {
+    responses_.clear();
+    for (std::size_t j = 0; sensitivity_.has_states() && j <= total_->decays.size(); ++j)
+      responses_.push_back(mode_->response(j, crossing_.values));
+    sensitivity_.slip(mode_->propagator(crossing_.values), responses_);
+  }
+  if (!crossing_.found || sensitivity_.at_crossing()) return;
+  const Owner& owner = watches_[static_cast<std::size_t>(crossing_.guard)].owner;
+  if (owner.kind == Owner::Kind::limit) sensitivity_.perturb_limit(-owner.law, total_->decays, s);
+  if (owner.kind == Owner::Kind::law) {
+    sensitivity_.perturb_guard(model_.friction, memories_, begin, direction_, static_cast<std::size_t>(owner.law),
+                               static_cast<std::size_t>(owner.guard), s);
+  }
+}
+
+/// Behind the phase: states of the laws, and at an event the way to the crossing.
+void ExactEngine::track_states(const friction::Instant& begin, double s, bool event) {
+  for (std::size_t i = 0; i < model_.friction.size() && sensitivity_.has_states(); ++i) {
+    const friction::Law& law = model_.friction[i];
+    if (modal_[i] && law.advances())
+      sensitivity_.advance(law, i, memories_before_[i], memories_[i], begin, now(), s, direction_);
+  }
+  if (!event || sensitivity_.at_crossing()) return;
+  Sensitivity::Event crossing{
+      .velocity = v_,
+      .acceleration =
+          direction_ == Direction::rest
+              ? 0.0
+              : friction::sign(direction_) * core::evaluate(mode_->basis(), speed_rate(), crossing_.values)};
+  if (crossing_.found) {
+    const Watch& watch = watches_[static_cast<std::size_t>(crossing_.guard)];
+    const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
+    crossing.by_position = watch.by_position;
+    crossing.by_velocity = watch.by_velocity;
+    // A guard that was violated from the start was not crossed: no perturbation delays it.
+    const bool forced =
+        crossing_.s == 0.0 && core::at_start(mode_->basis(), guard.value) < -clearly * guard.amplitude;
+    crossing.slope = forced ? 0.0 : core::evaluate(mode_->basis(), guard.slope, crossing_.values);
+  }
+  sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);
+}
+
+const Interval* ExactEngine::step(double left, bool to_period_end) {
+  if (!outcome_.ok() || !(left > 0.0)) return nullptr;
+  const friction::Instant begin = now();
+  const double due = next_schedule();
+  const bool by_schedule = due - begin.t < left;
+  if (by_schedule) left = std::max(0.0, due - begin.t);
+  lay_phase();
+  grazings_.clear();
+  const bool at_once = find_violated();
+  if (tracking_) track_begin(begin, at_once);
+  if (!at_once) {
+    core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, left, crossing_, grazings_, count_);
+  }
+  const core::Crossing& end = crossing_;
+  instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
+  if (!comes_to_an_end(at_once || left == 0.0)) return nullptr;
+  describe_phase(begin.t);
+  const bool ends = end.found || by_schedule;
+  if (tracking_) track_motion(begin, end.s);
+  advance(end.s, to_period_end && !ends);
+  if (tracking_) track_states(begin, end.s, ends);
+  if (!std::isfinite(x_) || !std::isfinite(v_)) {
+    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+    return nullptr;
+  }
+  if (end.found) {
+    interval_->ending = act(watches_[static_cast<std::size_t>(end.guard)].owner);
+  } else if (by_schedule) {
+    act_on_schedule(due);
+    interval_->ending = EventKind::switching;
+  }
+  return interval_.get();
+}
+
+/// What the interval tells of the phase laid last.
+void ExactEngine::describe_phase(double begin) {
+  interval_->forget();
+  interval_->begin = begin;
+  interval_->duration = crossing_.s;
+  interval_->direction = direction_;
+  interval_->force = total_->force;
+  if (!total_->decays.empty() || !interval_->decays.empty()) {
+    interval_->transients = total_->transients;
+    interval_->decays = total_->decays;
+  }
+  interval_->ending.reset();
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,136 @@
+#pragma once
+/// The exact engine: walks from event to event for laws that are affine in every mode.
+///
+/// Between events the motion is closed-form (`sim/engine/linear_mode.hpp`); the next event is found by the
+/// certified search (`core/first_crossing.hpp`). The driver knows no law by name.
+///
+/// Cost: for Coulomb friction about one exp, two sincos and a few dozen multiplications an event; no allocation
+/// after the first period.
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/first_crossing.hpp"
+#include "sim/engine/engine.hpp"
+#include "sim/engine/interval.hpp"
+#include "sim/engine/linear_mode.hpp"
+#include "sim/engine/sensitivity.hpp"
+
+namespace dualdamp::sim {
+
+class ExactEngine final : public Engine {
+ public:
+  /// Every law of the model must be affine, the spring linear.
+  explicit ExactEngine(const Model& model);
+  ~ExactEngine() override;
+
+  [[nodiscard]] double accuracy() const override { return 0.0; }
+  [[nodiscard]] bool has_past() const override { return false; }
+
+  void reset_sensitivity() override { sensitivity_.begin(memories_, some_modal_); }
+  [[nodiscard]] Eigen::MatrixXd sensitivity() const override { return sensitivity_.matrix(); }
+
+ private:
+  /// By what one mode differs from another.
+  struct ModeKey {
+    double damping = 0.0;
+    double stiffness = 0.0;
+    bool ramped = false;
+    std::vector<double> decays;
+
+    friend auto operator<=>(const ModeKey&, const ModeKey&) = default;
+  };
+  /// Relative rounding of a sum of parts.
+  static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  /// Values farther than this (relative) from a limit are decided by their sign; closer ones by their Taylor germ.
+  static constexpr double clearly = 1e-9;
+  /// Up to this angle of its fastest element a guard is its tangent parabola, well enough for its rounding.
+  static constexpr double parabolic = 0.1;
+
+  /// A guard of the present phase: what it belongs to, and how it depends on the motion.
+  struct Watch {
+    Owner owner;
+    double by_position = 0.0;  ///< dg/dx
+    double by_velocity = 0.0;  ///< dg/dv
+    double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
+  };
+  /// All laws together, affine in the phase.
+  struct Total {
+    friction::Affine force;  ///< without its transient
+    friction::Affine limit;  ///< of static friction, at rest only
+    bool lasting = false;    ///< need not be asked for again
+    bool ramped = false;     ///< something grows with time: modes without that element are cheaper
+    std::vector<double> transients;
+    std::vector<double> decays;
+  };
+  class PhaseInterval;
+
+  /// Speed and its rate in a slip, as the first guard has them: velocity and acceleration times the direction.
+  [[nodiscard]] const core::ModeFunction& speed() const { return guards_.front().value; }
+  [[nodiscard]] const core::ModeFunction& speed_rate() const { return guards_.front().slope; }
+  [[nodiscard]] double start_acceleration() const;
+  void collect(bool with_guards);
+  void add_force(const friction::Affine& part);
+  void add_limit(const friction::Affine& part);
+  void add_transient(double size, double decay);
+  const LinearMode& mode_for(double damping, double stiffness);
+  void load_forcing(double extra_constant);
+  const LinearMode& pull_on_mode(core::ModeFunction& pull);
+  void limit_guard(const core::ModeFunction& pull, double direction, core::ModeFunction& guard) const;
+  void lay_phase();
+  void lay_rest();
+  void lay_slip();
+  void add_law_guards();
+  core::Guard& new_guard(const Watch& watch);
+  [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
+  [[nodiscard]] bool rises_in_time(const core::Guard& guard, double tolerance) const;
+  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, const Owner& owner, double tolerance) const;
+  bool find_violated();
+  void drop_guard(std::size_t i);
+  void settle() override;
+  friction::Direction settle_closely(double tolerance);
+  [[nodiscard]] double pull_now() const;
+  void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
+  void track_begin(const friction::Instant& begin, bool at_once);
+  void track_motion(const friction::Instant& begin, double s);
+  void track_states(const friction::Instant& begin, double s, bool event);
+  void describe_phase(double begin);
+  void begin_motion() override;
+  [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
+  void keep_rounding(double s);
+  void keep_time_rounding(double error, double slope, double curvature);
+  void advance(double s, bool to_period_end);
+  [[nodiscard]] double force_scale() const;
+  [[nodiscard]] double force_rounding() const;
+  [[nodiscard]] double velocity_rounding() const;
+
+  double x_rounding_ = 0.0;  ///< of x_ and v_ from the phase before
+  double v_rounding_ = 0.0;
+  double time_rounding_ = 0.0;  ///< of the events at this instant [s]
+  std::map<ModeKey, LinearMode> modes_;
+  ModeKey key_;
+  const LinearMode* mode_ = nullptr;  ///< of the present phase
+  ModeForcing forcing_;
+  std::array<Total, 3> totals_;    ///< by direction
+  Total* total_ = totals_.data();  ///< of the present phase
+  double force_scale_ = 0.0;
+  double instant_scale_ = 0.0;  ///< the largest of the phases that met at this instant, the one before it included
+  core::ModeFunction motion_;
+  std::vector<core::Guard> guards_;
+  std::vector<Watch> watches_;
+  std::size_t guard_count_ = 0;
+  std::vector<friction::Affine> law_guards_;   ///< of all laws
+  std::vector<std::size_t> law_guard_counts_;  ///< of each law
+  core::Crossing crossing_;
+
+  Sensitivity sensitivity_;
+  std::vector<friction::Memory> memories_before_;  ///< at the begin of the phase, while tracking
+  std::vector<Eigen::Vector2d> responses_;
+  std::unique_ptr<PhaseInterval> interval_;
+};
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,297 @@
+// Laying a phase: what the laws do in it, its mode, its motion and its guards. What the engine does with it is in
+// exact_engine.cpp.
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "sim/engine/exact_engine.hpp"
+
+namespace dualdamp::sim {
+
+using core::ModeFunction;
+using friction::Affine;
+using friction::Direction;
+
+/// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold
+/// the mass and the forces of the others; and the guards.
+void ExactEngine::collect(bool with_guards) {
+  const int index = static_cast<int>(direction_) + 1;
+  total_ = &totals_[static_cast<std::size_t>(index)];
+  // Laws without modes do the same each time in one direction.
+  if (total_->lasting) return;
+  total_->lasting = !some_modal_;
+  const friction::Instant at = now();
+  const bool resting = direction_ == Direction::rest;
+  total_->force = total_->limit = {};
+  total_->ramped = drive_.ramped();
+  total_->transients.clear();
+  total_->decays.clear();
+  law_guards_.clear();
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    const friction::Law& law = model_.friction[i];
+    if (resting && holds_mass_[i]) {
+      add_limit(law.affine_limit(memories_[i], at));
+    } else {
+      add_force(law.affine_force(memories_[i], at, direction_));
+    }
+    if (!with_guards || !modal_[i]) continue;
+    const std::size_t before = law_guards_.size();
+    law.affine_guards(memories_[i], at, direction_, law_guards_);
+    law_guard_counts_[i] = law_guards_.size() - before;
+  }
+  for (const Affine& guard : law_guards_) {
+    total_->ramped = total_->ramped || guard.rate != 0.0;
+    if (guard.transient != 0.0) add_transient(0.0, guard.decay);
+  }
+}
+
+void ExactEngine::add_force(const Affine& part) {
+  total_->force.constant += part.constant;
+  total_->force.rate += part.rate;
+  total_->force.position += part.position;
+  total_->force.velocity += part.velocity;
+  total_->ramped = total_->ramped || part.rate != 0.0;
+  if (part.transient != 0.0) add_transient(part.transient, part.decay);
+}
+
+void ExactEngine::add_limit(const Affine& part) {
+  assert(part.transient == 0.0);
+  total_->limit.constant += part.constant + part.position * x_;
+  total_->limit.rate += part.rate;
+  total_->ramped = total_->ramped || part.rate != 0.0;
+}
+
+void ExactEngine::add_transient(double size, double decay) {
+  const auto known = std::find(total_->decays.begin(), total_->decays.end(), decay);
+  if (known != total_->decays.end()) {
+    total_->transients[static_cast<std::size_t>(known - total_->decays.begin())] += size;
+    return;
+  }
+  total_->transients.push_back(size);
+  total_->decays.push_back(decay);
+}
+
+const LinearMode& ExactEngine::mode_for(double damping, double stiffness) {
+  const auto fits = [&](const LinearMode& mode) {
+    return mode.damping() == damping && mode.stiffness() == stiffness && mode.ramped() == total_->ramped &&
+           mode.decays() == total_->decays;
+  };
+  if (mode_ != nullptr && fits(*mode_)) return *mode_;
+  key_.damping = damping;
+  key_.stiffness = stiffness;
+  key_.ramped = total_->ramped;
+  key_.decays = total_->decays;
+  const auto known = modes_.find(key_);
+  if (known != modes_.end()) return known->second;
+  // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
+  if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& entry) { return &entry.second != mode_; });
+  return modes_
+      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_->ramped,
+                   total_->decays)
+      .first->second;
+}
+
+/// forcing_ = drive + extra - the laws' parts that do not move with the mass.
+void ExactEngine::load_forcing(double extra_constant) {
+  forcing_.constant = drive_.force_constant() - total_->force.constant + extra_constant;
+  forcing_.ramp = drive_.force_ramp() - total_->force.rate;
+  for (std::size_t j = 0; j < forcing_.phasors.size(); ++j) forcing_.phasors[j] = drive_.force_phasor(j);
+  forcing_.transients.resize(total_->transients.size());
+  for (std::size_t j = 0; j < total_->transients.size(); ++j) forcing_.transients[j] = -total_->transients[j];
+}
+
+double ExactEngine::force_scale() const {
+  return drive_.force_scale() + std::abs(total_->force.constant) +
+         (model_.oscillator.stiffness + std::abs(total_->force.position)) * std::abs(x_);
+}
+
+/// All forces on the mass at rest here, except those of laws that hold it, as a function of time.
+const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
+  const Oscillator& o = model_.oscillator;
+  const double stiffness = o.stiffness + total_->force.position;
+  const LinearMode& mode = mode_for(o.damping + total_->force.velocity, stiffness);
+  load_forcing(-stiffness * x_);
+  mode.represent(forcing_, pull);
+  return mode;
+}
+
+/// limit - direction * pull
+void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFunction& guard) const {
+  const core::ExponentialBasis& basis = mode_->basis();
+  ModeFunction level;
+  mode_->represent({.constant = total_->limit.constant, .ramp = total_->limit.rate}, level);
+  core::assign(basis, -direction, pull, guard);
+  core::accumulate(basis, 1.0, level, guard);
+}
+
+/// The pull at this instant; total_ holds the laws that do not hold the mass.
+double ExactEngine::pull_now() const {
+  double pull = drive_.force_constant() - total_->force.constant -
+                (model_.oscillator.stiffness + total_->force.position) * x_;
+  for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) pull += drive_.force_phasor(j).real();
+  for (const double transient : total_->transients) pull -= transient;
+  return pull;
+}
+
+core::Guard& ExactEngine::new_guard(const Watch& watch) {
+  if (guard_count_ == guards_.size()) {
+    guards_.emplace_back();
+    watches_.emplace_back();
+  }
+  watches_[guard_count_] = watch;
+  guards_[guard_count_].known_zeros = 0;
+  return guards_[guard_count_++];
+}
+
+void ExactEngine::lay_rest() {
+  ModeFunction pull;
+  mode_ = &pull_on_mode(pull);
+  const core::ExponentialBasis& basis = mode_->basis();
+  core::clear(basis, motion_);
+  mode_->represent({.constant = x_}, motion_);
+  force_scale_ = force_scale();
+  if (!can_rest_) return;
+  const double stiffness = model_.oscillator.stiffness + total_->force.position;
+  for (const int direction : {1, -1}) {
+    core::Guard& guard = new_guard({.owner = {.kind = Owner::Kind::limit, .law = direction},
+                                    .by_position = direction * stiffness,
+                                    .tolerance = rounding * force_scale_});
+    limit_guard(pull, direction, guard.value);
+    core::prepare(basis, guard);
+  }
+}
+
+/// Of all phases that met at this instant: a law that lets go takes its large forces away, but not their rounding.
+double ExactEngine::force_rounding() const { return rounding * std::max(force_scale_, instant_scale_); }
+
+/// In a slip. Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
+double ExactEngine::velocity_rounding() const {
+  return force_rounding() / model_.oscillator.mass / mode_->basis().fastest();
+}
+
+void ExactEngine::lay_slip() {
+  const Oscillator& o = model_.oscillator;
+  mode_ = &mode_for(o.damping + total_->force.velocity, o.stiffness + total_->force.position);
+  load_forcing(0.0);
+  const core::ExponentialBasis& basis = mode_->basis();
+  mode_->solve(forcing_, x_, v_, motion_);
+  force_scale_ = force_scale();
+  const double sign = friction::sign(direction_);
+  core::Guard& guard =
+      new_guard({.owner = {.kind = Owner::Kind::velocity}, .by_velocity = sign, .tolerance = velocity_rounding()});
+  core::differentiate(basis, motion_, guard.value);
+  if (sign < 0.0) core::assign(basis, -1.0, guard.value, guard.value);
+  core::differentiate(basis, guard.value, guard.slope);
+  core::prepare_with_slope(basis, guard);
+}
+
+void ExactEngine::add_law_guards() {
+  const core::ExponentialBasis& basis = mode_->basis();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    for (std::size_t j = 0; j < law_guard_counts_[i]; ++j) {
+      const Affine& g = law_guards_[next++];
+      core::Guard& guard =
+          new_guard({.owner = {.kind = Owner::Kind::law, .law = static_cast<int>(i), .guard = static_cast<int>(j)},
+                     .by_position = g.position,
+                     .by_velocity = g.velocity,
+                     .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
+                                              std::abs(g.velocity * v_) + g.cancelled)});
+      if (direction_ != Direction::rest) {
+        watches_[guard_count_ - 1].tolerance +=
+            velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
+      }
+      ModeForcing own{
+          .constant = g.constant, .ramp = g.rate, .transients = std::vector<double>(mode_->decays().size())};
+      for (std::size_t d = 0; d < mode_->decays().size(); ++d) {
+        if (mode_->decays()[d] == g.decay) own.transients[d] = g.transient;
+      }
+      mode_->represent(own, guard.value);
+      core::accumulate(basis, g.position, motion_, guard.value);
+      if (direction_ != Direction::rest)
+        core::accumulate(basis, g.velocity * friction::sign(direction_), speed(), guard.value);
+      core::prepare(basis, guard);
+    }
+  }
+}
+
+void ExactEngine::lay_phase() {
+  guard_count_ = 0;
+  collect(true);
+  if (direction_ == Direction::rest) {
+    lay_rest();
+  } else {
+    lay_slip();
+  }
+  add_law_guards();
+}
+
+/// The germ of the velocity in a slip that begins at v = 0. Rest or slip was decided by the sum of forces, known to
+/// `rounding` of its parts; the acceleration is that sum again, and may not overrule the decision within rounding.
+core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) const {
+  const double push = friction::sign(direction_) * pull_now();
+  const double error = force_rounding();
+  if (push > 0.5 * error) return {1, 1};
+  if (push < -4.0 * error) return {-1, 1};
+  return core::germ(mode_->basis(), guard, tolerance, 2);
+}
+
+/// Whether a guard below zero rises above it before the events of this instant are over for sure.
+bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) const {
+  const core::ExponentialBasis& basis = mode_->basis();
+  const double value = core::at_start(basis, guard.value);
+  const double slope = core::at_start(basis, guard.slope);
+  const double late = std::min(time_rounding_, parabolic / basis.fastest());
+  const double rise = late * (slope + 0.5 * late * core::at_start(basis, guard.curvature));
+  return value > -clearly * guard.amplitude - tolerance && value + tolerance + rise > 0.0;
+}
+
+/// Two modes of a law may have the same zero by different formulas, each with its own rounding, and both could then
+/// send the law to the other one. The event is known to a time: what rises through zero within it begins at zero.
+core::Germ ExactEngine::start_germ(const core::Guard& guard, const Owner& owner, double tolerance) const {
+  if (owner.kind == Owner::Kind::velocity && v_ == 0.0) return slip_germ(guard, tolerance);
+  const core::Germ germ = core::germ(mode_->basis(), guard, tolerance);
+  if (germ.sign >= 0 || germ.zeros > 0 || !rises_in_time(guard, tolerance)) return germ;
+  const core::Germ from_zero = core::germ(mode_->basis(), guard, tolerance, 1);
+  return from_zero.sign > 0 ? from_zero : germ;
+}
+
+/// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
+bool ExactEngine::find_violated() {
+  const core::ExponentialBasis& basis = mode_->basis();
+  std::size_t i = 0;
+  while (i < guard_count_) {
+    core::Guard& guard = guards_[i];
+    const Watch& watch = watches_[i++];
+    const double tolerance =
+        watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
+    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
+    const core::Germ germ = start_germ(guard, watch.owner, tolerance);
+    if (germ.sign < 0) {
+      if (germ.zeros > 0) {
+        keep_time_rounding(tolerance + std::abs(core::at_start(basis, guard.value)),
+                           core::at_start(basis, guard.slope), core::at_start(basis, guard.curvature));
+      }
+      crossing_.found = true;
+      crossing_.guard = static_cast<int>(i) - 1;
+      crossing_.s = 0.0;
+      basis.evaluate(0.0, crossing_.values);
+      return true;
+    }
+    guard.known_zeros = std::min(germ.zeros, 3);
+    if (germ.sign == 0 && direction_ == Direction::rest) drop_guard(--i);
+  }
+  return false;
+}
+
+/// Beside a mass at rest a guard that is zero to every order stays zero; a search would take its rounding for
+/// crossings.
+void ExactEngine::drop_guard(std::size_t i) {
+  --guard_count_;
+  std::swap(guards_[i], guards_[guard_count_]);
+  std::swap(watches_[i], watches_[guard_count_]);
+}
+
+}  // namespace dualdamp::sim

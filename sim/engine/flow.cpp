@@ -1,0 +1,184 @@
+#include "sim/engine/flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+using friction::Instant;
+using friction::Memory;
+
+namespace {
+
+/// Relative increment at which truncation and rounding of a central difference balance.
+constexpr double increment = 6e-6;
+
+/// Speeds matter down to this part of the largest one: the scale of Stribeck curves.
+constexpr double slow = 0.01;
+
+}  // namespace
+
+Flow::Flow(const Model& model, const Drive& drive, const VelocityHistory& past)
+    : model_(model), drive_(drive), past_(past) {
+  for (const friction::Law& law : model_.friction) silent_.push_back(law.holds_mass());
+  first_.resize(silent_.size());
+  count_.resize(silent_.size());
+  scales_.assign(2, 1.0);
+}
+
+void Flow::freeze(const std::vector<Memory>& memories, Direction direction, double offset) {
+  memories_ = memories;
+  direction_ = direction;
+  offset_ = offset;
+  size_ = 2;
+  for (std::size_t i = 0; i < memories.size(); ++i) {
+    first_[i] = size_;
+    count_[i] = memories[i].state.size();
+    size_ += count_[i];
+  }
+  own_scales_.assign(size_, 0.0);
+  for (std::size_t i = 0; i < memories.size(); ++i)
+    model_.friction[i].scales(memories[i], std::span(own_scales_).subspan(first_[i], count_[i]));
+  set_scales(scales_[0], scales_[1]);
+}
+
+void Flow::set_scales(double x, double v) {
+  scales_.resize(size_);
+  scales_[0] = x;
+  scales_[1] = v;
+  for (std::size_t k = 2; k < size_; ++k) scales_[k] = own_scales_[k] > 0.0 ? own_scales_[k] : x;
+}
+
+void Flow::gather(double x, double v, const std::vector<Memory>& memories, std::vector<double>& X) const {
+  X.resize(size_);
+  X[0] = x;
+  X[1] = v;
+  for (std::size_t i = 0; i < memories.size(); ++i)
+    std::ranges::copy(memories[i].state, X.begin() + static_cast<std::ptrdiff_t>(first_[i]));
+}
+
+void Flow::scatter(std::span<const double> X, std::vector<Memory>& memories) const {
+  for (std::size_t i = 0; i < memories.size(); ++i)
+    std::ranges::copy(X.subspan(first_[i], count_[i]), memories[i].state.begin());
+}
+
+const Memory& Flow::memory(std::size_t i, std::span<const double> X) const {
+  std::ranges::copy(X.subspan(first_[i], count_[i]), memories_[i].state.begin());
+  return memories_[i];
+}
+
+Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const {
+  Instant now{.t = offset_ + t, .x = X[0], .v = X[1]};
+  const double delay = model_.friction[i].delay();
+  if (delay > 0.0) now.past_velocity = past_.at(t - delay);
+  return now;
+}
+
+double Flow::respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const {
+  return model_.friction[i].respond(memory(i, X), instant(i, X, t), direction_, rates);
+}
+
+const Drive::Value& Flow::drive(double t) const {
+  for (const KnownDrive& known : known_drives_) {
+    if (known.t == t && known.cell == drive_.cell()) return known.value;
+  }
+  KnownDrive& next = known_drives_[oldest_drive_];
+  oldest_drive_ = (oldest_drive_ + 1) % known_drives_.size();
+  next = {t, drive_.cell(), drive_.at(t)};
+  return next.value;
+}
+
+/// Spring, damper and external force on the mass.
+double Flow::driving(double x, double v, const Drive::Value& drive) const {
+  const Oscillator& o = model_.oscillator;
+  const double stretch = drive.y - x;
+  const double damper_speed = o.damper_to == DamperTo::base ? drive.y_rate - v : -v;
+  return (o.stiffness + o.cubic_stiffness * stretch * stretch) * stretch + o.damping * damper_speed +
+         drive.external;
+}
+
+void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates) const {
+  double force = 0.0;
+  for (std::size_t i = 0; i < first_.size(); ++i) force += respond(i, X, t, rates.subspan(first_[i], count_[i]));
+  if (direction_ == Direction::rest) {
+    rates[0] = rates[1] = 0.0;
+    return;
+  }
+  rates[0] = X[1];
+  rates[1] = (driving(X[0], X[1], drive(t)) - force) / model_.oscillator.mass;
+}
+
+/// One column of the Jacobian as far as law i makes it.
+void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t,
+                             std::span<double> columns) const {
+  const double smallest = column == 1 ? slow * scales_[1] : scales_[column];
+  const double step = increment * (std::abs(X[column]) + smallest);
+  above_.assign(count_[i], 0.0);
+  below_.assign(count_[i], 0.0);
+  displaced_.assign(X.begin(), X.end());
+  displaced_[column] = X[column] + step;
+  const double upper = respond(i, displaced_, t, above_);
+  displaced_[column] = X[column] - step;
+  const double lower = respond(i, displaced_, t, below_);
+  const std::span<double> target = columns.subspan(column * size_, size_);
+  if (direction_ != Direction::rest) target[1] -= (upper - lower) / (2.0 * step) / model_.oscillator.mass;
+  for (std::size_t k = 0; k < count_[i]; ++k) target[first_[i] + k] = (above_[k] - below_[k]) / (2.0 * step);
+}
+
+void Flow::jacobian(std::span<const double> X, double t, std::span<double> columns) const {
+  const Oscillator& o = model_.oscillator;
+  std::ranges::fill(columns, 0.0);
+  if (direction_ != Direction::rest) {
+    const double stretch = drive(t).y - X[0];
+    columns[1] = -(o.stiffness + 3.0 * o.cubic_stiffness * stretch * stretch) / o.mass;
+    columns[size_] = 1.0;
+    columns[size_ + 1] = -o.damping / o.mass;
+  }
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    for (const std::size_t column : {std::size_t{0}, std::size_t{1}}) differentiate_law(i, column, X, t, columns);
+    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, columns);
+  }
+}
+
+/// Sum of the laws' forces; at rest, of those that do not hold the mass.
+double Flow::resisting(std::span<const double> X, double t) const {
+  double force = 0.0;
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    if (direction_ == Direction::rest && silent_[i]) continue;
+    force += model_.friction[i].force(memory(i, X), instant(i, X, t), direction_);
+  }
+  return force;
+}
+
+double Flow::pull(std::span<const double> X, double t) const {
+  return driving(X[0], 0.0, drive(t)) - resisting(X, t);
+}
+
+double Flow::limit(std::span<const double> X, double t) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    if (silent_[i]) sum += model_.friction[i].static_limit(memory(i, X), instant(i, X, t));
+  }
+  return sum;
+}
+
+void Flow::guards(std::size_t i, std::span<const double> X, double t, std::vector<double>& values) const {
+  model_.friction[i].guards(memory(i, X), instant(i, X, t), direction_, values);
+}
+
+Sample Flow::sample(std::span<const double> X, double t) const {
+  const Drive::Value& now = drive(t);
+  Sample sample{.t = offset_ + t, .y = now.y, .y_rate = now.y_rate, .x = X[0], .external = now.external};
+  if (direction_ == Direction::rest) {
+    // Friction balances all else.
+    sample.force = driving(X[0], 0.0, now);
+    return sample;
+  }
+  sample.v = X[1];
+  sample.force = resisting(X, t);
+  sample.a = (driving(X[0], X[1], now) - sample.force) / model_.oscillator.mass;
+  return sample;
+}
+
+}  // namespace dualdamp::sim

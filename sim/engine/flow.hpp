@@ -1,0 +1,94 @@
+#pragma once
+/// The equation of motion as a first-order system X' = f(X, t) with one branch frozen.
+///
+///   X = (x, v, states of the first law, of the second, ...)        x [m], v [m/s]
+///   x' = v
+///   v' = (k (y - x) + k3 (y - x)^3 + c (y' - v, or -v) + f(t) - F) / m
+///   states by their rates
+///
+/// At rest x' = v' = 0. The direction of slip and the modes of the laws are those given to freeze(), whatever X:
+/// the field is analytic beyond the event that ends the phase. Time runs within the forcing period.
+///
+/// The Jacobian is that of the known part exactly and of the laws by central differences, relative error about
+/// 1e-10: enough for Newton iterations and multipliers, and the same for every law (decision 017).
+
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "sim/engine/drive.hpp"
+#include "sim/engine/interval.hpp"
+#include "sim/engine/stepper.hpp"
+#include "sim/engine/velocity_history.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+class Flow final : public VectorField {
+ public:
+  /// `drive` counts time from the start of a period and stays there; of a noise it is in the present cell. `past`:
+  /// asked for the velocity of old where a law sees it.
+  Flow(const Model& model, const Drive& drive, const VelocityHistory& past);
+
+  /// Fixes modes and direction. `offset`: absolute time at which the local time is 0 [s].
+  void freeze(const std::vector<friction::Memory>& memories, friction::Direction direction, double offset);
+  /// The size of x [m] and v [m/s], against which increments are small.
+  void set_scales(double x, double v);
+
+  [[nodiscard]] std::size_t size() const override { return size_; }
+  void evaluate(std::span<const double> X, double t, std::span<double> rates) const override;
+  void jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
+
+  /// Size of every component: those set, and what the laws say of their states.
+  [[nodiscard]] std::span<const double> scales() const { return scales_; }
+
+  /// X from the mass and the memories, and back; modes stay.
+  void gather(double x, double v, const std::vector<friction::Memory>& memories, std::vector<double>& X) const;
+  void scatter(std::span<const double> X, std::vector<friction::Memory>& memories) const;
+
+  /// At rest: all forces on the mass but those of laws that hold it, and how much those hold [N].
+  [[nodiscard]] double pull(std::span<const double> X, double t) const;
+  [[nodiscard]] double limit(std::span<const double> X, double t) const;
+  /// Guards of law i, appended.
+  void guards(std::size_t i, std::span<const double> X, double t, std::vector<double>& values) const;
+  /// All that is said of the motion; time absolute.
+  [[nodiscard]] Sample sample(std::span<const double> X, double t) const;
+
+ private:
+  [[nodiscard]] friction::Instant instant(std::size_t i, std::span<const double> X, double t) const;
+  const friction::Memory& memory(std::size_t i, std::span<const double> X) const;
+  double respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const;
+  [[nodiscard]] double resisting(std::span<const double> X, double t) const;
+  [[nodiscard]] const Drive::Value& drive(double t) const;
+  [[nodiscard]] double driving(double x, double v, const Drive::Value& drive) const;
+  void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t,
+                         std::span<double> columns) const;
+
+  Model model_;
+  const Drive& drive_;
+  const VelocityHistory& past_;
+  friction::Direction direction_ = friction::Direction::rest;
+  double offset_ = 0.0;
+  std::size_t size_ = 2;
+  std::vector<std::size_t> first_;  ///< of each law: index of its first state in X
+  std::vector<std::size_t> count_;  ///< of each law
+  std::vector<char> silent_;        ///< laws that hold the mass
+  std::vector<double> own_scales_;  ///< 0 for positions
+  std::vector<double> scales_;
+  // Scratch: laws take their memories as they are kept, with the states of X put in.
+  mutable std::vector<friction::Memory> memories_;
+  mutable std::vector<double> displaced_;
+  mutable std::vector<double> above_;
+  mutable std::vector<double> below_;
+  /// The drive of late: iterations and displaced steps ask for the times of a step's stages again and again.
+  struct KnownDrive {
+    double t = std::numeric_limits<double>::quiet_NaN();
+    long cell = 0;  ///< of a noise
+    Drive::Value value{};
+  };
+  mutable std::array<KnownDrive, 8> known_drives_;
+  mutable std::size_t oldest_drive_ = 0;
+};
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,65 @@
+#pragma once
+/// An interval: the motion between two events, as a function of time.
+///
+/// Both engines hand out a stream of intervals; sampling, extremes, energy and event logs are observers of that
+/// stream (`sim/motion/observers.hpp`). Within an interval the velocity keeps one sign or the mass rests, so
+/// extremes of x lie at interval ends only.
+
+#include <optional>
+#include <string_view>
+
+#include "friction_models/law.hpp"
+
+namespace dualdamp::sim {
+
+struct ClosedForm;
+
+enum class EventKind {
+  reversal,   ///< the velocity changes sign and the mass moves on
+  stop,       ///< the mass comes to rest and stays
+  release,    ///< the mass leaves rest
+  grazing,    ///< a guard is touched within rounding and not crossed
+  switching,  ///< a law changes its mode, the mass moving on
+};
+
+/// "reversal", "stop", "release", "grazing", "switching".
+[[nodiscard]] std::string_view name(EventKind kind);
+
+/// All quantities of the motion at one time.
+struct Sample {
+  double t = 0.0;         ///< s
+  double y = 0.0;         ///< base position [m]; 0 for a force-driven oscillator
+  double y_rate = 0.0;    ///< base velocity [m/s]
+  double x = 0.0;         ///< m
+  double v = 0.0;         ///< m/s
+  double a = 0.0;         ///< m/s^2
+  double force = 0.0;     ///< friction force on the mass, F > 0 opposing v > 0 [N]
+  double external = 0.0;  ///< external force f(t) [N]
+};
+
+class Interval {
+ public:
+  Interval() = default;
+  Interval(const Interval&) = delete;
+  Interval& operator=(const Interval&) = delete;
+  virtual ~Interval() = default;
+
+  double begin = 0.0;     ///< s
+  double duration = 0.0;  ///< s
+  friction::Direction direction = friction::Direction::rest;
+  std::optional<EventKind> ending;  ///< none: it ends at a period boundary, a noise's node or the horizon
+
+  /// The motion at `begin + s`, 0 <= s <= duration.
+  [[nodiscard]] virtual Sample at(double s) const = 0;
+  /// The width [s] of a panel from `begin + s` on over which the motion is well resolved by a polynomial of low
+  /// degree; it grows where fast transients have died out.
+  [[nodiscard]] virtual double resolution(double s) const = 0;
+  /// The motion as functions that can be integrated (`sim/engine/closed_form.hpp`), where the engine knows them;
+  /// else a null pointer, and there is at(). Valid as long as the interval.
+  [[nodiscard]] virtual const ClosedForm* closed_form() const { return nullptr; }
+
+  [[nodiscard]] double end() const { return begin + duration; }
+  [[nodiscard]] Sample state_at(double t) const { return at(t - begin); }
+};
+
+}  // namespace dualdamp::sim

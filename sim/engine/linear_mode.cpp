@@ -1,0 +1,191 @@
+#include "sim/engine/linear_mode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dualdamp::sim {
+
+using core::Complex;
+using core::ExponentialBasis;
+using core::ModeFunction;
+
+namespace {
+
+/// Relative distance of exponents below which divided differences take over; naive forms lose at most this factor.
+constexpr double closeness = 1e-2;
+/// A stiffness vanishes when the mass cannot feel it within the time that matters: own exponents below this part of
+/// the drive's frequency, or (without a drive) the smaller one below that part of the larger one. A ramp loses the
+/// square.
+constexpr double slow_beside_drive = 1e-2;
+constexpr double slow_beside_decay = 1e-8;
+constexpr double ramp_slow_beside_decay = 1e-4;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+double modulus(Complex z) { return core::modulus_bound(z.real(), z.imag()); }
+
+void add(ModeFunction& f, int k, Complex coefficient) {
+  f.re[at(k)] += coefficient.real();
+  f.im[at(k)] += coefficient.imag();
+}
+
+}  // namespace
+
+LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies,
+                       bool ramped, std::span<const double> decays)
+    : mass_(mass),
+      damping_(damping),
+      stiffness_(stiffness),
+      decays_(decays.begin(), decays.end()),
+      ramped_(ramped) {
+  for (const double frequency : frequencies) fastest_drive_ = std::max(fastest_drive_, frequency);
+  lay_own_motion();
+  constant_ = drive(0.0, basis_.add(0.0), slow_beside_decay);
+  if (ramped) ramp_ = drive(0.0, basis_.add(0.0, constant_.source), ramp_slow_beside_decay);
+  for (const double frequency : frequencies) {
+    const Complex z(0.0, frequency);
+    harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
+  }
+  for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), slow_beside_decay));
+  basis_.finish(expected_turn(frequencies));
+}
+
+/// A periodic motion mostly turns twice a forcing period, a free one twice a period of its own.
+double LinearMode::expected_turn(std::span<const double> frequencies) const {
+  if (!frequencies.empty()) return std::numbers::pi / frequencies.front();
+  return own_form_ == OwnForm::oscillating ? std::numbers::pi * inverse_gap_ : 0.0;
+}
+
+/// Exponents of m z^2 + C z + K. The small root of a real pair comes from the product K/m, free of cancellation.
+void LinearMode::lay_own_motion() {
+  const double half = damping_ / (2.0 * mass_);
+  const double discriminant = stiffness_ / mass_ - half * half;
+  const double beat = std::sqrt(std::abs(discriminant));
+  if (discriminant > 0.0) {
+    first_ = {-half, beat};
+    second_ = {-half, -beat};
+  } else {
+    const double large = half >= 0.0 ? -half - beat : -half + beat;
+    second_ = large;
+    first_ = large != 0.0 ? stiffness_ / mass_ / large : 0.0;
+  }
+  own_first_ = basis_.add(first_);
+  const bool slow = discriminant <= 0.0 && beat <= slow_beside_drive * fastest_drive_;
+  if (slow || !(beat > closeness * std::abs(half))) {
+    own_form_ = OwnForm::chain;
+    own_second_ = basis_.add(second_, own_first_);
+  } else if (discriminant > 0.0) {
+    own_form_ = OwnForm::oscillating;
+    inverse_gap_ = 1.0 / beat;
+  } else {
+    own_form_ = OwnForm::decaying;
+    own_second_ = basis_.add(second_);
+    inverse_gap_ = 1.0 / (first_.real() - second_.real());
+  }
+}
+
+bool LinearMode::close_to_own(Complex z, double slow) const {
+  const Complex own = modulus(z - first_) <= modulus(z - second_) ? first_ : second_;
+  const double distance = modulus(z - own);
+  return distance <= closeness * std::max(modulus(z), modulus(own)) ||
+         distance <= slow_beside_drive * fastest_drive_ || distance <= slow * modulus(second_);
+}
+
+/// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z.
+LinearMode::Driven LinearMode::drive(Complex z, int source, double slow) {
+  if (!close_to_own(z, slow)) return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_))};
+  const int target = basis_.add(second_, basis_.add(first_, source));
+  return {source, target, 1.0 / mass_};
+}
+
+void LinearMode::represent(const ModeForcing& forcing, ModeFunction& f) const {
+  core::clear(basis_, f);
+  add(f, constant_.source, forcing.constant);
+  if (ramped_) add(f, ramp_.source, forcing.ramp);
+  for (std::size_t j = 0; j < forcing.phasors.size(); ++j) add(f, harmonics_[j].source, forcing.phasors[j]);
+  for (std::size_t j = 0; j < forcing.transients.size(); ++j) add(f, transients_[j].source, forcing.transients[j]);
+}
+
+void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFunction& x) const {
+  core::clear(basis_, x);
+  // Value and slope at s = 0 of the particular solution: elements on a chain start from zero, and the slope of
+  // the top of a chain of three starts from zero too.
+  double start = 0.0;
+  double slope = 0.0;
+  const auto apply = [&](const Driven& driven, Complex amplitude) {
+    const Complex coefficient = amplitude * driven.gain;
+    add(x, driven.target, coefficient);
+    if (driven.target != driven.source) return;
+    start += coefficient.real();
+    slope += (coefficient * basis_.exponent(driven.source)).real();
+  };
+  apply(constant_, forcing.constant);
+  if (ramped_) {
+    const double coefficient = forcing.ramp * ramp_.gain.real();
+    add(x, ramp_.target, coefficient);
+    if (ramp_.target == ramp_.source) {
+      // s/K lags behind by C/K^2: K (s/K - C/K^2) + C/K = s.
+      const double lag = coefficient * damping_ * ramp_.gain.real();
+      add(x, constant_.source, -lag);
+      start -= lag;
+      slope += coefficient;
+    }
+  }
+  for (std::size_t j = 0; j < forcing.phasors.size(); ++j) apply(harmonics_[j], forcing.phasors[j]);
+  for (std::size_t j = 0; j < forcing.transients.size(); ++j) apply(transients_[j], forcing.transients[j]);
+
+  const double own = x0 - start;
+  const double own_slope = v0 - slope - first_.real() * own;
+  switch (own_form_) {
+    case OwnForm::oscillating:
+      add(x, own_first_, Complex(own, -own_slope * inverse_gap_));
+      break;
+    case OwnForm::decaying:
+      add(x, own_first_, own + own_slope * inverse_gap_);
+      add(x, own_second_, -own_slope * inverse_gap_);
+      break;
+    case OwnForm::chain:
+      add(x, own_first_, own);
+      add(x, own_second_, own_slope);
+      break;
+  }
+}
+
+Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) const {
+  // x = own E1 + own_slope D with D the divided difference of exp(first s) and exp(second s), x' accordingly.
+  const Complex e1(values.re[at(own_first_)], values.im[at(own_first_)]);
+  double difference = 0.0;
+  if (own_form_ == OwnForm::oscillating) {
+    difference = e1.imag() * inverse_gap_;
+  } else {
+    const double e2 = values.re[at(own_second_)];
+    difference = own_form_ == OwnForm::chain ? e2 : (e1.real() - e2) * inverse_gap_;
+  }
+  Eigen::Matrix2d result;
+  for (int column = 0; column < 2; ++column) {
+    const double own = column == 0 ? 1.0 : 0.0;
+    const double own_slope = (column == 0 ? 0.0 : 1.0) - first_.real() * own;
+    result(0, column) = own * e1.real() + own_slope * difference;
+    // E1' = first E1 and D' = second D + E1; of complex ones the real part.
+    result(1, column) = own * (first_ * e1).real() + own_slope * (second_.real() * difference + e1.real());
+  }
+  return result;
+}
+
+Eigen::Vector2d LinearMode::response(std::size_t source, const ExponentialBasis::Values& values) const {
+  ModeForcing forcing;
+  if (source == 0) {
+    forcing.constant = 1.0;
+  } else {
+    forcing.transients.assign(decays_.size(), 0.0);
+    forcing.transients[source - 1] = 1.0;
+  }
+  ModeFunction x;
+  ModeFunction v;
+  solve(forcing, 0.0, 0.0, x);
+  core::differentiate(basis_, x, v);
+  return {core::evaluate(basis_, x, values), core::evaluate(basis_, v, values)};
+}
+
+}  // namespace dualdamp::sim

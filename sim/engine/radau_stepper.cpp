@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "sim/engine/lu_factors.hpp"
+#include "sim/engine/radau_collocation.hpp"
+#include "sim/engine/stepper.hpp"
+
+namespace dualdamp::sim {
+namespace {
+
+using Complex = std::complex<double>;
+using Vector = std::vector<double>;
+using Row = RadauCollocation::Row;
+using Matrix = RadauCollocation::Matrix;
+constexpr std::size_t stages = RadauCollocation::stages;
+constexpr std::size_t pairs = RadauCollocation::pairs;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+const RadauCollocation& radau() {
+  static const RadauCollocation once;
+  return once;
+}
+
+/// NaN where one of them is.
+double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
+
+/// The method for states of N components, or of any number. A set of s states is stored one after the other.
+template <std::size_t N>
+class RadauStepper final : public Stepper {
+ public:
+  explicit RadauStepper(std::size_t n)
+      : n_(extent<N>(n)),
+        start_(n),
+        end_(n),
+        polynomial_(n * stages),
+        z_(n * stages),
+        rates_(n * stages),
+        correction_(n * stages),
+        state_(n),
+        pair_(n),
+        jacobian_(n * n),
+        factored_jacobian_(n * n),
+        real_factors_(n),
+        pair_factors_(make_pair_factors(n, std::make_index_sequence<pairs>{})) {}
+
+  [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
+                          std::span<const double> allowed, std::span<double> end,
+                          std::span<double> error) override {
+    const bool predicted = predict(t, h);
+    if (!(predicted && solve(field, x, t, h, allowed))) {
+      std::ranges::fill(z_, 0.0);
+      if (!solve(field, x, t, h, allowed)) return false;
+    }
+    if (!estimate(field, x, t, h, error)) return false;
+    for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[(stages - 1) * n_() + k];
+    std::ranges::copy(x, start_.begin());
+    std::ranges::copy(end, end_.begin());
+    std::swap(polynomial_, z_);
+    t_ = t;
+    h_ = h;
+    return true;
+  }
+
+  void at(double part, std::span<double> x) const override {
+    if (part == 1.0) {
+      std::ranges::copy(end_, x.begin());
+      return;
+    }
+    const Row basis = radau_.basis(part);
+    for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_, k);
+  }
+
+  [[nodiscard]] int order() const override { return stages; }
+  [[nodiscard]] double stiffness() const override { return 0.0; }
+
+ private:
+  template <std::size_t... k>
+  static std::array<LuFactors<Complex, N>, pairs> make_pair_factors(std::size_t n, std::index_sequence<k...>) {
+    return {((void)k, LuFactors<Complex, N>(n))...};
+  }
+
+  /// sum_j weights_j states_j, component k.
+  [[nodiscard]] double combine(const Row& weights, const Vector& states, std::size_t k) const {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < stages; ++j) sum += weights[j] * states[j * n_() + k];
+    return sum;
+  }
+
+  /// z from the last step's polynomial, also beyond its end; false where that says nothing about this step.
+  bool predict(double t, double h) {
+    constexpr double farthest = 4.0;
+    const double from = (t - t_) / h_;
+    const double length = h / h_;
+    if (!(from >= 0.0 && from <= 1.0 && length > 0.0 && from + length <= farthest)) return false;
+    const Row here = radau_.basis(from);
+    for (std::size_t i = 0; i < stages; ++i) {
+      Row basis = radau_.basis(from + length * radau_.nodes[i]);
+      for (std::size_t j = 0; j < stages; ++j) basis[j] -= here[j];
+      for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = combine(basis, polynomial_, k);
+    }
+    return true;
+  }
+
+  /// Newton's method on z with one Jacobian, taken in the middle of the step as far as z tells it.
+  bool solve(const VectorField& field, std::span<const double> x, double t, double h,
+             std::span<const double> allowed) {
+    constexpr int most_iterations = 20;
+    factorise(field, x, t, h);
+    double before = 0.0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      correct(field, x, t, h);
+      const double size = correction_size(x, allowed);
+      if (!std::isfinite(size)) return false;
+      if (iteration > 0) {
+        const double contraction = size / before;
+        if (contraction >= 1.0) return size <= 1.0;
+        // Hopeless at this pace: most steps that fail do so after three iterations. A quick one has time left.
+        if (contraction > 0.1 && size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0) return false;
+        if (size * std::min(1.0, contraction / (1.0 - contraction)) <= 1.0) return true;
+      }
+      before = size;
+    }
+    return false;
+  }
+
+  void factorise(const VectorField& field, std::span<const double> x, double t, double h) {
+    constexpr std::size_t middle = stages / 2;
+    for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[middle * n_() + k];
+    field.jacobian(state_, t + radau_.nodes[middle] * h, jacobian_);
+    const auto close = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); };
+    if (h == factored_h_ && std::ranges::equal(jacobian_, factored_jacobian_, close)) return;
+    factored_h_ = h;
+    std::swap(factored_jacobian_, jacobian_);
+    real_factors_.compute(radau_.real_eigenvalue / h, factored_jacobian_);
+    for (std::size_t p = 0; p < pairs; ++p) pair_factors_[p].compute(radau_.eigenvalues[p] / h, factored_jacobian_);
+  }
+
+  /// One iteration: z += correction.
+  void correct(const VectorField& field, std::span<const double> x, double t, double h) {
+    for (std::size_t i = 0; i < stages; ++i) {
+      for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
+      field.evaluate(state_, t + radau_.nodes[i] * h, std::span(rates_).subspan(i * n_(), n_()));
+    }
+    for (std::size_t i = 0; i < stages; ++i)
+      for (std::size_t k = 0; k < n_(); ++k) rates_[i * n_() + k] -= combine(radau_.slopes[i], z_, k) / h;
+    transform(radau_.from_stages, rates_, correction_);
+    real_factors_.solve(correction_.data());
+    for (std::size_t p = 0; p < pairs; ++p) solve_pair(p, correction_.data() + (1 + 2 * p) * n_());
+    std::swap(rates_, correction_);
+    transform(radau_.to_stages, rates_, correction_);
+    for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += correction_[k];
+  }
+
+  void transform(const Matrix& matrix, const Vector& from, Vector& to) const {
+    for (std::size_t i = 0; i < stages; ++i)
+      for (std::size_t k = 0; k < n_(); ++k) to[i * n_() + k] = combine(matrix[i], from, k);
+  }
+
+  void solve_pair(std::size_t p, double* parts) {
+    for (std::size_t k = 0; k < n_(); ++k) pair_[k] = {parts[k], parts[n_() + k]};
+    pair_factors_[p].solve(pair_.data());
+    for (std::size_t k = 0; k < n_(); ++k) {
+      parts[k] = pair_[k].real();
+      parts[n_() + k] = pair_[k].imag();
+    }
+  }
+
+  /// The largest part of the correction in units of what may be left of it: a thousandth of `allowed`, or
+  /// round-off.
+  [[nodiscard]] double correction_size(std::span<const double> x, std::span<const double> allowed) const {
+    double size = 0.0;
+    for (std::size_t k = 0; k < n_(); ++k) {
+      double change = 0.0;
+      double reach = 0.0;
+      for (std::size_t i = 0; i < stages; ++i) {
+        change = larger(change, std::abs(correction_[i * n_() + k]));
+        reach = std::max(reach, std::abs(z_[i * n_() + k]));
+      }
+      const double left = std::max(1e-3 * allowed[k], 16.0 * epsilon * (std::abs(x[k]) + reach));
+      size = larger(size, change / left);
+    }
+    return size;
+  }
+
+  /// The defect of the polynomial at the start of the step, f(x, t) - u'(0)/h, seen through (gamma/h - J)^-1, which
+  /// takes from a fast component what it would lose within the step (hairer1996, IV.8).
+  bool estimate(const VectorField& field, std::span<const double> x, double t, double h, std::span<double> error) {
+    field.evaluate(x, t, error);
+    for (std::size_t k = 0; k < n_(); ++k) error[k] -= combine(radau_.start_slope, z_, k) / h;
+    real_factors_.solve(error.data());
+    return std::ranges::all_of(error, [](double value) { return std::isfinite(value); });
+  }
+
+  const RadauCollocation& radau_ = radau();
+  Extent<N> n_;
+  // The last step that succeeded.
+  double t_ = 0.0;
+  double h_ = 0.0;
+  Vector start_;
+  Vector end_;
+  Vector polynomial_;
+  // The iteration.
+  Vector z_;
+  Vector rates_;
+  Vector correction_;
+  Vector state_;
+  std::vector<Complex> pair_;
+  double factored_h_ = 0.0;
+  Vector jacobian_;
+  Vector factored_jacobian_;
+  LuFactors<double, N> real_factors_;
+  std::array<LuFactors<Complex, N>, pairs> pair_factors_;
+};
+
+class ImplicitStepper final : public Stepper {
+ public:
+  [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
+                          std::span<const double> allowed, std::span<double> end,
+                          std::span<double> error) override {
+    if (size_ != x.size()) resize(x.size());
+    return method_->step(field, x, t, h, allowed, end, error);
+  }
+
+  void at(double part, std::span<double> x) const override { method_->at(part, x); }
+  [[nodiscard]] int order() const override { return stages; }
+  [[nodiscard]] double stiffness() const override { return 0.0; }
+
+ private:
+  void resize(std::size_t size) {
+    size_ = size;
+    switch (size) {
+      case 2:
+        method_ = std::make_unique<RadauStepper<2>>(size);
+        break;
+      case 3:
+        method_ = std::make_unique<RadauStepper<3>>(size);
+        break;
+      case 4:
+        method_ = std::make_unique<RadauStepper<4>>(size);
+        break;
+      default:
+        method_ = std::make_unique<RadauStepper<any_size>>(size);
+    }
+  }
+
+  std::size_t size_ = 0;
+  std::unique_ptr<Stepper> method_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_implicit_stepper() { return std::make_unique<ImplicitStepper>(); }
+
+}  // namespace dualdamp::sim

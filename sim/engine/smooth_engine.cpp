@@ -1,0 +1,365 @@
+#include "sim/engine/smooth_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Errors of a step change by at most these factors.
+constexpr double largest_growth = 5.0;
+constexpr double largest_cut = 0.1;
+constexpr double safety = 0.9;
+
+/// So many steps of dopri5 with h |lambda| (Hairer's test) beyond this make a stiff problem. It is far below 3.25,
+/// the boundary of stability: an implicit step costs seven explicit ones and is as much longer at the default
+/// tolerance, stiff or not, so that little is lost by an early change.
+constexpr double stiff = 0.5;
+constexpr int stiff_enough = 15;
+
+/// A step is at most this part of the shortest period, so that five points show every turn of a guard.
+constexpr double part_of_period = 0.125;
+
+/// Part of force/stiffness that counts as the size of a motion that has none yet.
+constexpr double small_motion = 1e-3;
+
+constexpr int max_rejections = 200;
+
+/// In one of the shortest periods: beyond that friction changes too fast to be integrated in reasonable time.
+constexpr long max_steps = 300'000;
+
+/// Kinks of a delayed velocity pass on this often, each time one derivative higher.
+constexpr int echoes = 4;
+
+}  // namespace
+
+/// One step as an interval: the dense output of the stepper.
+class SmoothEngine::StepInterval final : public Interval {
+ public:
+  explicit StepInterval(const SmoothEngine& engine) : engine_(engine) {}
+
+  [[nodiscard]] Sample at(double s) const override {
+    state.resize(engine_.end_.size());
+    if (duration > 0.0) {
+      engine_.stepper_->at(std::clamp(s / duration, 0.0, 1.0), state);
+    } else {
+      state = engine_.end_;
+    }
+    Sample sample = engine_.flow_.sample(state, local_begin + s);
+    sample.t = begin + s;
+    return sample;
+  }
+  [[nodiscard]] double resolution(double) const override { return duration; }
+
+  double local_begin = 0.0;           ///< within the forcing period [s]
+  mutable std::vector<double> state;  ///< scratch
+
+ private:
+  const SmoothEngine& engine_;
+};
+
+SmoothEngine::SmoothEngine(const Model& model)
+    : Engine(model),
+      flow_(model, drive_, past_),
+      judge_(model, drive_, past_),
+      interval_(std::make_unique<StepInterval>(*this)) {
+  for (const friction::Law& law : model_.friction) reach_ = std::max(reach_, law.delay());
+  is_implicit_ = model.solver.kind == SolverKind::implicit_steps;
+  stepper_ = is_implicit_ ? make_implicit_stepper() : make_explicit_stepper();
+  displaced_stepper_ = is_implicit_ ? make_implicit_stepper() : make_explicit_stepper();
+  start(model.initial.position, model.initial.velocity);
+}
+
+SmoothEngine::~SmoothEngine() = default;
+
+State SmoothEngine::state() const {
+  State state = Engine::state();
+  if (has_past()) state.past = std::make_shared<const VelocityHistory>(past_);
+  return state;
+}
+
+void SmoothEngine::begin_motion() {
+  drive_.reset(0.0);
+  past_.clear(v_, reach_);
+  breaks_.clear();
+  is_laid_ = false;
+  h_ = 0.0;
+  x_scale_ = 0.0;
+  counted_to_ = 0.0;
+  if (tracking_) reset_sensitivity();
+}
+
+void SmoothEngine::restore_past(const State& state) {
+  if (state.past != nullptr) past_ = *state.past;
+}
+
+/// The motion's size: the largest |x| met, at first from velocity and forces.
+void SmoothEngine::set_scales() {
+  const double wn = natural_frequency(model_.oscillator);
+  if (x_scale_ == 0.0) {
+    double force = drive_.force_scale();
+    for (std::size_t i = 0; i < memories_.size(); ++i)
+      force += std::abs(model_.friction[i].force(memories_[i], now(), Direction::forward));
+    x_scale_ = std::max(std::abs(v_) / wn, small_motion * force / model_.oscillator.stiffness);
+    if (x_scale_ == 0.0) x_scale_ = std::abs(x_) > 0.0 ? std::abs(x_) : 1.0;
+  }
+  x_scale_ = std::max(x_scale_, std::abs(x_));
+  flow_.set_scales(x_scale_, wn * x_scale_);
+  judge_.set_scales(x_scale_, wn * x_scale_);
+}
+
+void SmoothEngine::lay_phase() {
+  if (is_laid_) return;
+  is_laid_ = true;
+  flow_.freeze(memories_, direction_, time() - local_time_);
+  set_scales();
+  flow_.gather(x_, v_, memories_, X_);
+  end_.resize(X_.size());
+  error_.resize(X_.size());
+  rates_.resize(X_.size());
+  lay_watches();
+}
+
+/// Local errors allowed in each component.
+void SmoothEngine::allow() {
+  allowed_.resize(X_.size());
+  for (std::size_t k = 0; k < X_.size(); ++k)
+    allowed_[k] = model_.solver.tolerance * (std::abs(X_[k]) + flow_.scales()[k]);
+}
+
+/// Largest error of the last step over what is allowed.
+double SmoothEngine::excess_error() const {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < error_.size(); ++k) largest = std::max(largest, std::abs(error_[k]) / allowed_[k]);
+  return std::isfinite(largest) ? largest : infinity;
+}
+
+/// Of the oscillator and its drive [s].
+double SmoothEngine::shortest_period() const {
+  double fastest = natural_frequency(model_.oscillator);
+  for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
+  return 2.0 * std::numbers::pi / fastest;
+}
+
+double SmoothEngine::longest_step() const {
+  double longest = part_of_period * shortest_period();
+  for (const friction::Law& law : model_.friction) {
+    if (law.delay() > 0.0) longest = std::min(longest, law.delay());
+  }
+  for (const double kink : breaks_) {
+    // Shorter than rounding of time: passed.
+    const double ahead = kink - local_time_;
+    if (ahead > 1e-12 * longest) longest = std::min(longest, ahead);
+  }
+  return longest;
+}
+
+/// A step whose second-order term is a hundredth of what is allowed at the method's order (hairer1993, II.4).
+double SmoothEngine::first_step() {
+  flow_.evaluate(X_, local_time_, rates_);
+  const auto norm = [&](const std::vector<double>& values) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      largest = std::max(largest, std::abs(values[k]) / flow_.scales()[k]);
+    return largest;
+  };
+  const double first = norm(rates_);
+  const double trial = first > 0.0 ? 1e-4 / first : 1e-4 * longest_step();
+  probe_ = X_;
+  for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += trial * rates_[k];
+  std::vector<double> later(rates_.size());
+  flow_.evaluate(probe_, local_time_ + trial, later);
+  for (std::size_t k = 0; k < later.size(); ++k) later[k] = (later[k] - rates_[k]) / trial;
+  const double rate = std::max(first, std::sqrt(norm(later)));
+  const double exponent = 1.0 / (stepper_->order() + 1);
+  return rate > 0.0 ? std::pow(0.01 * model_.solver.tolerance, exponent) / rate : longest_step();
+}
+
+bool SmoothEngine::use_implicit_steps() {
+  if (is_implicit_ || model_.solver.kind != SolverKind::automatic) return false;
+  is_implicit_ = true;
+  stepper_ = make_implicit_stepper();
+  displaced_stepper_ = make_implicit_stepper();
+  return true;
+}
+
+/// Counts steps that stability limits. The dense output of the present step is needed still: the change comes with
+/// the next one.
+void SmoothEngine::notice_stiffness() {
+  if (is_implicit_) return;
+  stiff_steps_ = stepper_->stiffness() > stiff ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
+}
+
+/// False, with an outcome, when the motion takes more steps than anybody waits for.
+bool SmoothEngine::makes_headway() {
+  if (time() >= counted_to_) {
+    counted_to_ = time() + shortest_period();
+    steps_ = 0;
+  }
+  if (++steps_ <= max_steps) return true;
+  outcome_ = {core::OutcomeKind::event_limit, "more than " + std::to_string(max_steps) +
+                                                  " steps in one period before t = " + std::to_string(time()) +
+                                                  " s: friction changes too fast there to be integrated"};
+  return false;
+}
+
+/// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
+bool SmoothEngine::advance(double left) {
+  if (!makes_headway()) return false;
+  if (stiff_steps_ > stiff_enough && use_implicit_steps()) h_ = 0.0;
+  if (h_ == 0.0) h_ = first_step();
+  allow();
+  const double longest = longest_step();
+  bool rejected = false;
+  for (int i = 0; i < max_rejections; ++i) {
+    double h = std::min(h_, longest);
+    // No tiny step is left over at the end.
+    if (1.01 * h >= left) {
+      h = left;
+    } else if (2.0 * h > left) {
+      h = 0.5 * left;
+    }
+    const bool solved = stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_);
+    const double excess = solved ? excess_error() : infinity;
+    const double ideal = excess > 0.0 ? safety * std::pow(excess, -1.0 / (stepper_->order() + 1)) : largest_growth;
+    if (excess <= 1.0) {
+      taken_ = h;
+      const double next = h * std::clamp(ideal, largest_cut, rejected ? 1.0 : largest_growth);
+      h_ = h < h_ ? std::max(h_, next) : next;
+      notice_stiffness();
+      return true;
+    }
+    rejected = true;
+    h_ = h * std::clamp(ideal, largest_cut, 0.7);
+    if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
+    if (h_ < 1e-18 * longest) break;
+  }
+  outcome_ = {core::OutcomeKind::not_finite, "the equation of motion could not be integrated at t = " +
+                                                 std::to_string(time()) + " s: steps became too small"};
+  return false;
+}
+
+/// One step that ends at an event or before it.
+bool SmoothEngine::move(double left, Hit& hit, bool& found) {
+  for (int i = 0; i < max_rejections; ++i) {
+    if (!advance(left)) return false;
+    ++count_.searches;
+    count_.panels += static_cast<long>(points) - 1;
+    const double whole = taken_;
+    grazings_.clear();
+    found = find_hit(hit);
+    if (!found || land(hit)) {
+      // Beyond the event nothing was touched.
+      std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });
+      count_.grazings += static_cast<long>(grazings_.size());
+      return true;
+    }
+    h_ = 0.5 * hit.part * whole;
+  }
+  outcome_ = {core::OutcomeKind::not_finite,
+              "an event at t = " + std::to_string(time()) + " s could not be located"};
+  return false;
+}
+
+const Interval* SmoothEngine::step(double left, bool to_period_end) {
+  if (!outcome_.ok() || !(left > 0.0)) return nullptr;
+  const double due = next_schedule();
+  const bool by_schedule = due - time() < left;
+  if (by_schedule) left = std::max(0.0, due - time());
+  grazings_.clear();
+  changes_.clear();
+  lay_phase();
+  Hit hit;
+  const bool at_once = find_violated(hit);
+  bool found = at_once;
+  taken_ = 0.0;
+  end_ = X_;
+  if (!at_once && left > 0.0) {
+    if (!move(left, hit, found)) return nullptr;
+  }
+  if (!comes_to_an_end(taken_ == 0.0)) return nullptr;
+  const bool is_over = !found && taken_ == left;
+  describe_step();
+  if (tracking_) {
+    track_step();
+    if (found && !at_once) carry_to_event(hit.watch);
+    if (is_over && by_schedule) delay_of_event_.setZero(columns_.cols());
+  }
+  const Owner owner = found ? watches_[hit.watch].owner : Owner{};
+  take_over(found ? &owner : nullptr);
+  pass_time(to_period_end && is_over && !by_schedule);
+  if (!std::isfinite(x_) || !std::isfinite(v_)) {
+    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+    return nullptr;
+  }
+  if (!found && !(is_over && by_schedule)) {
+    // A guard that the next phase finds violated was not crossed at an event: nothing delays it.
+    delay_of_event_.setZero();
+    return interval_.get();
+  }
+  if (found) {
+    interval_->ending = act(owner);
+  } else {
+    act_on_schedule(due);
+    interval_->ending = EventKind::switching;
+  }
+  if (tracking_) carry_from_event();
+  is_laid_ = false;
+  h_ = 0.0;
+  return interval_.get();
+}
+
+/// What the interval tells of the step.
+void SmoothEngine::describe_step() {
+  interval_->begin = time();
+  interval_->local_begin = local_time_;
+  interval_->duration = taken_;
+  interval_->direction = direction_;
+  interval_->ending.reset();
+}
+
+/// The step's end becomes the present; `owner`: of the guard that ended it.
+void SmoothEngine::take_over(const Owner* owner) {
+  if (reach_ > 0.0 && taken_ > 0.0) {
+    VelocityHistory::Values values{};
+    interval_->state.resize(end_.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      stepper_->at(0.25 * static_cast<double>(k), interval_->state);
+      values[k] = interval_->state[1];
+    }
+    past_.add(local_time_, taken_, values);
+  }
+  X_ = end_;
+  if (owner != nullptr && owner->kind == Owner::Kind::velocity) {
+    X_[1] = 0.0;
+    for (const friction::Law& law : model_.friction) {
+      for (int j = 1; j <= echoes && law.delay() > 0.0; ++j)
+        breaks_.push_back(local_time_ + taken_ + j * law.delay());
+    }
+  }
+  x_ = X_[0];
+  v_ = X_[1];
+  flow_.scatter(X_, memories_);
+  x_scale_ = std::max(x_scale_, std::abs(x_));
+}
+
+void SmoothEngine::pass_time(bool to_period_end) {
+  local_time_ += taken_;
+  if (!to_period_end && local_time_ < drive_.period()) return;
+  local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
+  ++cycle_;
+  past_.shift(drive_.period());
+  for (double& kink : breaks_) kink -= drive_.period();
+  std::erase_if(breaks_, [&](double kink) { return kink < local_time_; });
+  // Time is counted anew.
+  is_laid_ = false;
+}
+
+}  // namespace dualdamp::sim

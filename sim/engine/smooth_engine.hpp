@@ -1,0 +1,141 @@
+#pragma once
+/// The smooth engine: walks from event to event for laws that are not affine, and with a cubic spring.
+///
+/// Between events the motion is integrated with the branch frozen (`flow.hpp`), so that the field is analytic on
+/// every step and a step may overrun the event that ends it. Steps are those of Boost.Odeint's dopri5; once these
+/// are limited by stability instead of accuracy, of Radau IIA for the rest of the motion (`stepper.hpp`).
+///
+/// Events. Guards are watched on the dense output of each step: at four points and where a parabola through them
+///   dips to zero. Sides are frozen as in the exact engine. The step is then repeated so that it ends at the event,
+///   which is so known to the accuracy of a step's end. Nothing proves here that a guard did not cross twice
+///   between two of those points; where every law is affine the exact engine does.
+/// Rounding. A velocity within `resolution` of zero has not changed its sign: bristles that ring down to rounding
+///   make no events.
+/// Derivatives. A step is a smooth function of its begin; central differences of the step itself, with the same
+///   step size, give its derivative along every column (bock1981); events add the saltation matrix. The derivative
+///   is that of the motion as computed, whatever the law; over a period it agrees with the exact engine's to 1e-7.
+///
+/// Cost: for a law with one state about 1 us a step of Radau IIA, 0.15 us one of dopri5, and the watch of the
+/// guards.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/engine/engine.hpp"
+#include "sim/engine/flow.hpp"
+#include "sim/engine/stepper.hpp"
+#include "sim/engine/velocity_history.hpp"
+
+namespace dualdamp::sim {
+
+class SmoothEngine final : public Engine {
+ public:
+  explicit SmoothEngine(const Model& model);
+  ~SmoothEngine() override;
+
+  [[nodiscard]] double accuracy() const override { return 10.0 * model_.solver.tolerance; }
+  [[nodiscard]] bool has_past() const override { return reach_ > 0.0; }
+  [[nodiscard]] State state() const override;
+
+  void reset_sensitivity() override;
+  [[nodiscard]] Eigen::MatrixXd sensitivity() const override { return columns_; }
+
+ private:
+  class StepInterval;
+  static constexpr std::size_t points = 5;
+  /// A guard of the present phase, and its values at 0, 1/4, ..., 1 of the step taken last.
+  struct Watch {
+    Owner owner;
+    std::array<double, points> values{};
+    double scale = 0.0;  ///< its size, to judge rounding by
+  };
+  /// A guard that has crossed, and at which part of the step.
+  struct Hit {
+    std::size_t watch = 0;
+    double part = 1.0;
+  };
+  /// A mode change, for its derivative.
+  struct Change {
+    std::size_t law;
+    friction::Memory before;
+    friction::Trigger trigger;
+    friction::Direction direction;
+  };
+
+  [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
+  void settle() override;
+  void begin_motion() override;
+  void restore_past(const State& state) override;
+  void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
+
+  // The step.
+  void lay_phase();
+  void set_scales();
+  void allow();
+  [[nodiscard]] double first_step();
+  [[nodiscard]] double shortest_period() const;
+  [[nodiscard]] double longest_step() const;
+  [[nodiscard]] double excess_error() const;
+  [[nodiscard]] bool makes_headway();
+  [[nodiscard]] bool advance(double left);
+  void notice_stiffness();
+  [[nodiscard]] bool use_implicit_steps();
+  void describe_step();
+  void take_over(const Owner* owner);
+  void pass_time(bool to_period_end);
+
+  // Events.
+  void lay_watches();
+  void size_up_guards();
+  void evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const;
+  [[nodiscard]] double guard(std::size_t watch, double part) const;
+  [[nodiscard]] double guard_rate(std::size_t watch, std::span<const double> X, double t) const;
+  [[nodiscard]] bool goes_negative(std::size_t watch) const;
+  [[nodiscard]] bool find_violated(Hit& hit) const;
+  [[nodiscard]] bool find_hit(Hit& hit);
+  [[nodiscard]] double first_negative(std::size_t watch);
+  [[nodiscard]] double dip(std::size_t watch, std::size_t point);
+  [[nodiscard]] double crossing(std::size_t watch, double before, double negative) const;
+  [[nodiscard]] bool land(const Hit& hit);
+  [[nodiscard]] bool move(double left, Hit& hit, bool& found);
+
+  // Derivatives.
+  void track_step();
+  void carry_to_event(std::size_t watch);
+  void carry_from_event();
+  [[nodiscard]] Eigen::MatrixXd through(const Change& change, const Eigen::MatrixXd& states) const;
+  [[nodiscard]] Eigen::MatrixXd jump_derivative() const;
+
+  VelocityHistory past_;
+  Flow flow_;   ///< of the present phase
+  Flow judge_;  ///< of the instant of an event
+  std::unique_ptr<Stepper> stepper_;
+  std::unique_ptr<Stepper> displaced_stepper_;  ///< for derivatives: the dense output stays
+  bool is_implicit_ = false;
+  int stiff_steps_ = 0;
+  double reach_ = 0.0;       ///< longest delay of a law [s]
+  double x_scale_ = 0.0;     ///< m
+  bool is_laid_ = false;     ///< flow_ and watches_ are those of the present phase
+  double h_ = 0.0;           ///< proposed next step [s]; 0: none
+  double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
+  long steps_ = 0;
+  double taken_ = 0.0;          ///< length of the step taken last [s]
+  std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]
+  std::vector<double> X_;
+  std::vector<double> end_;
+  std::vector<double> error_;
+  std::vector<double> allowed_;
+  std::vector<Watch> watches_;
+  mutable std::vector<double> guard_values_;
+  mutable std::vector<double> probe_;
+  mutable std::vector<double> rates_;
+
+  Eigen::MatrixXd columns_;
+  std::vector<Change> changes_;
+  Eigen::RowVectorXd delay_of_event_;  ///< of each column [s]
+  std::unique_ptr<StepInterval> interval_;
+};
+
+}  // namespace dualdamp::sim

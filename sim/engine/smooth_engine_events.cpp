@@ -1,0 +1,283 @@
+// Events of the smooth engine: guards watched on the dense output, landing on a crossing, what follows at v = 0.
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+
+#include "friction_models/law_fault.hpp"
+#include "sim/engine/smooth_engine.hpp"
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+namespace {
+
+/// Guards this close to zero, relative to their size, are zero: steps end at a crossing to within this.
+constexpr double resolution = 1e-13;
+/// Crossings within this part of the longest step are at the begin of the phase.
+constexpr double shortest_part = 1e-15;
+/// Sums of forces within this part of their parts' sizes are equal.
+constexpr double equal = 1e-12;
+
+}  // namespace
+
+void SmoothEngine::lay_watches() {
+  watches_.clear();
+  if (direction_ != Direction::rest) {
+    watches_.push_back({.owner = {.kind = Owner::Kind::velocity}, .scale = flow_.scales()[1]});
+  } else if (can_rest_) {
+    const double scale = drive_.force_scale() + flow_.limit(X_, local_time_);
+    for (const int direction : {1, -1})
+      watches_.push_back({.owner = {.kind = Owner::Kind::limit, .law = direction}, .scale = scale});
+  }
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (!modal_[i]) continue;
+    guard_values_.clear();
+    flow_.guards(i, X_, local_time_, guard_values_);
+    for (std::size_t j = 0; j < guard_values_.size(); ++j) {
+      watches_.push_back(
+          {.owner = {.kind = Owner::Kind::law, .law = static_cast<int>(i), .guard = static_cast<int>(j)}});
+    }
+  }
+  size_up_guards();
+}
+
+/// The size of a law's guard: its value and what the sizes of x, v and the states make of it.
+void SmoothEngine::size_up_guards() {
+  constexpr double part = 1e-3;
+  if (!some_modal_) return;
+  std::vector<double> here;
+  evaluate_guards(X_, local_time_, here);
+  const auto add = [&](const std::vector<double>& values, double factor) {
+    for (std::size_t w = 0; w < watches_.size(); ++w) {
+      if (watches_[w].owner.kind == Owner::Kind::law) watches_[w].scale += factor * std::abs(values[w]);
+    }
+  };
+  add(here, 1.0);
+  probe_ = X_;
+  for (std::size_t k = 0; k < X_.size(); ++k) {
+    probe_[k] = X_[k] + part * flow_.scales()[k];
+    evaluate_guards(probe_, local_time_, guard_values_);
+    for (std::size_t w = 0; w < here.size(); ++w) guard_values_[w] -= here[w];
+    add(guard_values_, 1.0 / part);
+    probe_[k] = X_[k];
+  }
+}
+
+/// Values of all guards, in the order of watches_.
+void SmoothEngine::evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const {
+  values.clear();
+  if (direction_ != Direction::rest) {
+    values.push_back(friction::sign(direction_) * X[1]);
+  } else if (can_rest_) {
+    const double pull = flow_.pull(X, t);
+    const double limit = flow_.limit(X, t);
+    values.push_back(limit - pull);
+    values.push_back(limit + pull);
+  }
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    if (modal_[i]) flow_.guards(i, X, t, values);
+  }
+}
+
+/// On the dense output of the step taken last.
+double SmoothEngine::guard(std::size_t watch, double part) const {
+  probe_.resize(end_.size());
+  stepper_->at(part, probe_);
+  evaluate_guards(probe_, local_time_ + part * taken_, guard_values_);
+  return guard_values_[watch];
+}
+
+/// Its rate along the motion, by a central difference along the flow.
+double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, double t) const {
+  flow_.evaluate(X, t, rates_);
+  if (watches_[watch].owner.kind == Owner::Kind::velocity) return friction::sign(direction_) * rates_[1];
+  const double step = 1e-5 * (taken_ > 0.0 ? taken_ : longest_step());
+  const auto value_after = [&](double s) {
+    probe_.assign(X.begin(), X.end());
+    for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += s * rates_[k];
+    evaluate_guards(probe_, t + s, guard_values_);
+    return guard_values_[watch];
+  };
+  const double above = value_after(step);
+  return (above - value_after(-step)) / (2.0 * step);
+}
+
+/// Whether a guard that is zero at the begin of the phase goes negative: by where a step of the midpoint rule
+/// leads, a longer one where the first leaves it within rounding.
+bool SmoothEngine::goes_negative(std::size_t watch) const {
+  for (const double part : {1e-6, 1e-4, 1e-2}) {
+    const double s = part * longest_step();
+    flow_.evaluate(X_, local_time_, rates_);
+    probe_ = X_;
+    for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += 0.5 * s * rates_[k];
+    flow_.evaluate(probe_, local_time_ + 0.5 * s, rates_);
+    for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] = X_[k] + s * rates_[k];
+    evaluate_guards(probe_, local_time_ + s, guard_values_);
+    const double later = guard_values_[watch];
+    if (std::abs(later) > equal * watches_[watch].scale) return later < 0.0;
+  }
+  return false;
+}
+
+/// A guard that is negative at the begin of the phase, or zero and going to be.
+bool SmoothEngine::find_violated(Hit& hit) const {
+  evaluate_guards(X_, local_time_, guard_values_);
+  const std::vector<double> values = guard_values_;
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    const Owner::Kind kind = watches_[w].owner.kind;
+    // The direction of a slip was decided by the forces.
+    if (kind == Owner::Kind::velocity) continue;
+    const double level = equal * watches_[w].scale;
+    if (values[w] > level) continue;
+    if (values[w] >= -level && (kind == Owner::Kind::limit || !goes_negative(w))) continue;
+    hit = {w, 0.0};
+    return true;
+  }
+  return false;
+}
+
+/// The first crossing on the step taken last.
+bool SmoothEngine::find_hit(Hit& hit) {
+  probe_.resize(end_.size());
+  for (std::size_t k = 0; k < points; ++k) {
+    const double part = static_cast<double>(k) / (points - 1);
+    stepper_->at(part, probe_);
+    evaluate_guards(probe_, local_time_ + part * taken_, guard_values_);
+    for (std::size_t w = 0; w < watches_.size(); ++w) {
+      watches_[w].values[k] = guard_values_[w];
+      watches_[w].scale = std::max(watches_[w].scale, std::abs(guard_values_[w]));
+    }
+  }
+  bool found = false;
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    const double part = first_negative(w);
+    if (part < 0.0 || (found && part >= hit.part)) continue;
+    hit = {w, part};
+    found = true;
+  }
+  return found;
+}
+
+/// Where a guard crosses first, as a part of the step; below zero: nowhere.
+double SmoothEngine::first_negative(std::size_t watch) {
+  const Watch& w = watches_[watch];
+  const double floor = -resolution * w.scale;
+  for (std::size_t k = 1; k < points; ++k) {
+    const double part = static_cast<double>(k) / (points - 1);
+    const double before = static_cast<double>(k - 1) / (points - 1);
+    if (w.values[k] < floor) return crossing(watch, before, part);
+    if (k + 1 == points || w.values[k] > w.values[k - 1] || w.values[k] > w.values[k + 1]) continue;
+    const double lowest = dip(watch, k);
+    if (lowest >= 0.0) return crossing(watch, before, lowest);
+  }
+  return -1.0;
+}
+
+/// Whether a minimum near this point goes below zero: where; below zero when not. One that just touches is a
+/// grazing.
+double SmoothEngine::dip(std::size_t watch, std::size_t point) {
+  const Watch& w = watches_[watch];
+  std::array<double, 3> at = {static_cast<double>(point) - 1.0, static_cast<double>(point),
+                              static_cast<double>(point) + 1.0};
+  std::array<double, 3> value = {w.values[point - 1], w.values[point], w.values[point + 1]};
+  for (int i = 0; i < 3; ++i) {
+    const double left = (value[1] - value[0]) / (at[1] - at[0]);
+    const double right = (value[2] - value[1]) / (at[2] - at[1]);
+    const double bend = (right - left) / (at[2] - at[0]);
+    const double lowest = 0.5 * (at[0] + at[1]) - 0.5 * left / bend;
+    // Nearer than rounding lets a parabola tell.
+    if (!(bend > 0.0 && lowest > at[0] && lowest < at[2]) || std::abs(lowest - at[1]) < 1e-9) break;
+    const double there = guard(watch, lowest / (points - 1));
+    if (there < -resolution * w.scale) return lowest / (points - 1);
+    const std::size_t replaced = lowest < at[1] ? 2 : 0;
+    at[replaced] = at[1];
+    value[replaced] = value[1];
+    at[1] = lowest;
+    value[1] = there;
+  }
+  const double touch = 100.0 * model_.solver.tolerance * w.scale;
+  if (value[1] < touch && w.values[point - 1] > touch && w.values[point + 1] > touch) {
+    grazings_.push_back({static_cast<int>(watch), at[1] / (points - 1) * taken_});
+  }
+  return -1.0;
+}
+
+/// The root between a point where the guard counts as positive and one where it is negative. At the begin of a
+/// phase a guard may be zero: it is positive just after.
+double SmoothEngine::crossing(std::size_t watch, double before, double negative) const {
+  double low = before;
+  double value_low = guard(watch, low);
+  if (value_low <= 0.0 && before > 0.0) return before;
+  for (double part = 0.5 * negative; value_low <= 0.0; part *= 0.5) {
+    if (part < 1e-12) return 0.0;
+    if (low > 0.0) negative = low;
+    low = part;
+    value_low = guard(watch, low);
+  }
+  const double value_negative = guard(watch, negative);
+  if (value_negative > 0.0) {
+    throw friction::LawFault(
+        "a guard of a friction law has another sign when it is asked again for the same instant, t = " +
+        std::to_string(time() + negative * taken_) + " s");
+  }
+  std::uintmax_t iterations = 60;
+  const auto [left, right] =
+      boost::math::tools::toms748_solve([&](double part) { return guard(watch, part); }, low, negative, value_low,
+                                        value_negative, boost::math::tools::eps_tolerance<double>(48), iterations);
+  return 0.5 * (left + right);
+}
+
+/// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
+/// step is not accurate; an implicit step that overran the crossing may have followed what only lies beyond it.
+bool SmoothEngine::land(const Hit& hit) {
+  const double whole = taken_;
+  double h = hit.part * whole;
+  if (h < shortest_part * longest_step()) {
+    taken_ = 0.0;
+    end_ = X_;
+    return true;
+  }
+  for (int i = 0; i < 5; ++i) {
+    if (!stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_) || excess_error() > 1.0) return false;
+    taken_ = h;
+    evaluate_guards(end_, local_time_ + h, guard_values_);
+    const double value = guard_values_[hit.watch];
+    if (std::abs(value) <= 0.1 * resolution * watches_[hit.watch].scale) break;
+    const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h);
+    if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) < 1e-16 * whole) break;
+    h += correction;
+  }
+  return true;
+}
+
+/// Decides what happens at v = 0. Where the pull equals the limit within rounding, what both do next decides.
+void SmoothEngine::settle() {
+  change_direction(Direction::rest);
+  judge_.freeze(memories_, Direction::rest, time() - local_time_);
+  std::vector<double> X;
+  judge_.gather(x_, 0.0, memories_, X);
+  std::vector<double> rates(X.size());
+  judge_.evaluate(X, local_time_, rates);
+  const double pull = judge_.pull(X, local_time_);
+  const double limit = judge_.limit(X, local_time_);
+  const double parts = drive_.force_scale() + limit + model_.oscillator.stiffness * std::abs(x_);
+  double excess = std::abs(pull) - limit;
+  double sign = pull;
+  for (const double part : {1e-6, 1e-4, 1e-2}) {
+    if (std::abs(excess) > equal * parts) break;
+    const double later = part * longest_step();
+    probe_ = X;
+    for (std::size_t k = 2; k < probe_.size(); ++k) probe_[k] += later * rates[k];
+    sign = judge_.pull(probe_, local_time_ + later);
+    excess = std::abs(sign) - judge_.limit(probe_, local_time_ + later);
+  }
+  // Without a law that holds it a mass that nothing moves slips, at no speed.
+  if (can_rest_ && excess <= equal * parts) return;
+  change_direction(sign < 0.0 ? Direction::backward : Direction::forward);
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,249 @@
+#include "sim/motion/observers.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "sim/engine/closed_form.hpp"
+
+namespace dualdamp::sim {
+
+namespace {
+
+/// Calls visit(begin, width) for panels that cover the interval, each resolved by a polynomial of low degree.
+template <class Visit>
+void for_panels(const Interval& interval, const Visit& visit) {
+  double s = 0.0;
+  while (s < interval.duration) {
+    const double width = std::min(interval.resolution(s), interval.duration - s);
+    visit(s, width);
+    s += width;
+  }
+}
+
+/// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval.
+template <class Visit>
+void quadrature(const Interval& interval, const Visit& visit) {
+  using Rule = boost::math::quadrature::gauss<double, 15>;
+  for_panels(interval, [&](double begin, double width) {
+    const double half = 0.5 * width;
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+      const double offset = half * Rule::abscissa()[i];
+      const double weight = half * Rule::weights()[i];
+      visit(interval.at(begin + half + offset), weight);
+      if (offset != 0.0) visit(interval.at(begin + half - offset), weight);
+    }
+  });
+}
+
+/// The speed is largest where the acceleration changes sign; so many cells a panel bracket that.
+constexpr int cells = 8;
+
+/// Where the acceleration changes sign between low and high, by bisection; `sign` is its sign at low.
+double speed_extreme(const Interval& interval, double low, double high, double sign) {
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (interval.at(middle).a * sign > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The largest |v| at sign changes of the acceleration; 0 without any.
+double largest_inner_speed(const Interval& interval) {
+  double largest = 0.0;
+  double left = 0.0;
+  double left_a = interval.at(0.0).a;
+  for_panels(interval, [&](double from, double width) {
+    for (int cell = 1; cell <= cells; ++cell) {
+      const double right = from + width * cell / cells;
+      const double right_a = interval.at(right).a;
+      if (left_a * right_a < 0.0) {
+        const double at = speed_extreme(interval, left, right, left_a);
+        largest = std::max(largest, std::abs(interval.at(at).v));
+      }
+      left = right;
+      left_a = right_a;
+    }
+  });
+  return largest;
+}
+
+/// |v| where the acceleration vanishes near s: Newton's method. An error of s enters the speed by its square.
+double speed_near(const ClosedForm& form, const core::ModeFunction& jerk, double s) {
+  const core::ExponentialBasis& basis = *form.basis;
+  core::ExponentialBasis::Values values;
+  basis.evaluate(s, values);
+  for (int i = 0; i < 4; ++i) {
+    const double step = -core::evaluate(basis, form.a, values) / core::evaluate(basis, jerk, values);
+    if (!(std::abs(step) * basis.fastest() < 1.0)) break;
+    s += step;
+    if (!basis.shift(step, values)) basis.evaluate(s, values);
+    if (std::abs(step) * basis.fastest() < 1e-6) break;
+  }
+  return std::abs(core::evaluate(basis, form.v, values));
+}
+
+/// E_k(s + delta) from E_k(s) and by = E_k(delta).
+void turn_by(const core::ExponentialBasis& basis, const core::ExponentialBasis::Values& by,
+             core::ExponentialBasis::Values& values) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    const core::Complex value = core::Complex(values.re[k], values.im[k]) * core::Complex(by.re[k], by.im[k]);
+    values.re[k] = value.real();
+    values.im[k] = value.imag();
+  }
+}
+
+/// The same on the closed form: from cell to cell by one product for each element.
+double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
+  const core::ExponentialBasis& basis = *form.basis;
+  core::ModeFunction jerk;
+  core::differentiate(basis, form.a, jerk);
+  core::ExponentialBasis::Values here;
+  core::ExponentialBasis::Values turn;
+  std::fill_n(here.re.begin(), basis.size(), 1.0);
+  std::fill_n(here.im.begin(), basis.size(), 0.0);
+  double turned = 0.0;
+  double largest = 0.0;
+  double left_a = core::at_start(basis, form.a);
+  for_panels(interval, [&](double from, double width) {
+    const double step = width / cells;
+    if (step != turned) basis.evaluate(step, turn);
+    turned = step;
+    for (int cell = 0; cell < cells; ++cell) {
+      turn_by(basis, turn, here);
+      const double right_a = core::evaluate(basis, form.a, here);
+      if (left_a * right_a < 0.0) {
+        const double crossing = from + step * (cell + left_a / (left_a - right_a));
+        largest = std::max(largest, speed_near(form, jerk, crossing));
+      }
+      left_a = right_a;
+    }
+  });
+  return largest;
+}
+
+/// The motion at both ends of an interval.
+struct Ends {
+  Sample begin;
+  Sample end;
+
+  explicit Ends(const Interval& interval) {
+    const ClosedForm* form = interval.closed_form();
+    if (form == nullptr) {
+      begin = interval.at(0.0);
+      end = interval.at(interval.duration);
+      return;
+    }
+    const core::ExponentialBasis& basis = *form->basis;
+    begin = {.y = core::at_start(basis, form->y),
+             .x = core::at_start(basis, form->x),
+             .v = core::at_start(basis, form->v)};
+    end = {.y = form->at_end(form->y), .x = form->at_end(form->x), .v = form->at_end(form->v)};
+  }
+};
+
+}  // namespace
+
+void Sampler::observe(const Interval& interval) {
+  if (rate_ <= 0.0) return;
+  for (;;) {
+    const double t = static_cast<double>(samples_.size()) / rate_;
+    if (t >= interval.end()) return;
+    Sample sample = interval.state_at(std::max(t, interval.begin));
+    sample.t = t;
+    samples_.push_back(sample);
+  }
+}
+
+void Sampler::finish(const Sample& final) {
+  if (rate_ <= 0.0) return;
+  const double t = static_cast<double>(samples_.size()) / rate_;
+  if (std::abs(t - final.t) > 1e-9 / rate_) return;
+  samples_.push_back(final);
+  samples_.back().t = t;
+}
+
+void Extremes::observe(const Interval& interval) {
+  const auto [begin, end] = Ends(interval);
+  if (!seen_) peak_ = trough_ = begin.x;
+  seen_ = true;
+  peak_ = std::max({peak_, begin.x, end.x});
+  trough_ = std::min({trough_, begin.x, end.x});
+  max_speed_ = std::max({max_speed_, std::abs(begin.v), std::abs(end.v)});
+  if (interval.direction == friction::Direction::rest || interval.duration <= 0.0) return;
+  const ClosedForm* form = interval.closed_form();
+  const double inside = form == nullptr ? largest_inner_speed(interval) : largest_inner_speed(interval, *form);
+  max_speed_ = std::max(max_speed_, inside);
+}
+
+double EnergyAudit::stored(const Sample& sample) const {
+  const double stretch = sample.y - sample.x;
+  const double hardening = 0.5 * oscillator_.cubic_stiffness * stretch * stretch;
+  return 0.5 * (oscillator_.mass * sample.v * sample.v + (oscillator_.stiffness + hardening) * stretch * stretch);
+}
+
+void EnergyAudit::observe(const Interval& interval) {
+  const auto [begin, end] = Ends(interval);
+  if (!started_) first_ = stored(begin);
+  started_ = true;
+  last_ = stored(end);
+  if (const ClosedForm* form = interval.closed_form()) {
+    add_in_closed_form(*form);
+  } else {
+    add_by_quadrature(interval);
+  }
+}
+
+void EnergyAudit::add_by_quadrature(const Interval& interval) {
+  const bool damper_moves = oscillator_.damper_to == DamperTo::base;
+  quadrature(interval, [&](const Sample& s, double weight) {
+    const double damper_speed = damper_moves ? s.v - s.y_rate : s.v;
+    const double stretch = s.y - s.x;
+    const double base_force = (oscillator_.stiffness + oscillator_.cubic_stiffness * stretch * stretch) * stretch -
+                              (damper_moves ? oscillator_.damping * damper_speed : 0.0);
+    input_.add(weight * (base_force * s.y_rate + s.external * s.v));
+    friction_.add(weight * s.force * s.v);
+    viscous_.add(weight * oscillator_.damping * damper_speed * damper_speed);
+    square_speed_.add(weight * s.v * s.v);
+  });
+}
+
+void EnergyAudit::add_in_closed_form(const ClosedForm& form) {
+  const core::ExponentialBasis& basis = *form.basis;
+  const bool damper_moves = oscillator_.damper_to == DamperTo::base;
+  core::ModeFunction damper_speed;
+  core::assign(basis, 1.0, form.v, damper_speed);
+  if (damper_moves) core::accumulate(basis, -1.0, form.y_rate, damper_speed);
+  core::ModeFunction base_force;
+  core::assign(basis, oscillator_.stiffness, form.y, base_force);
+  core::accumulate(basis, -oscillator_.stiffness, form.x, base_force);
+  if (damper_moves) core::accumulate(basis, -oscillator_.damping, damper_speed, base_force);
+  const ClosedIntegrals integrals(form);
+  input_.add(integrals.product(base_force, form.y_rate));
+  input_.add(integrals.product(form.external, form.v));
+  friction_.add(integrals.product(form.force, form.v));
+  const double square = integrals.product(damper_speed, damper_speed);
+  viscous_.add(oscillator_.damping * square);
+  square_speed_.add(damper_moves ? integrals.product(form.v, form.v) : square);
+}
+
+Energy EnergyAudit::account() const {
+  Energy result{.input = input_.value(), .friction = friction_.value(), .viscous = viscous_.value()};
+  result.stored = last_ - first_;
+  result.defect = result.input - result.friction - result.viscous - result.stored;
+  return result;
+}
+
+void Fundamental::observe(const Interval& interval) {
+  if (const ClosedForm* form = interval.closed_form()) {
+    sum_ += std::polar(1.0, -omega_ * interval.begin) * integral_against_turn(*form, form->x, omega_);
+    return;
+  }
+  quadrature(interval,
+             [&](const Sample& s, double weight) { sum_ += weight * s.x * std::polar(1.0, -omega_ * s.t); });
+}
+
+std::complex<double> Fundamental::coefficient() const { return sum_ * (omega_ / std::numbers::pi); }
+
+}  // namespace dualdamp::sim

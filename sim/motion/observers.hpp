@@ -1,0 +1,103 @@
+#pragma once
+/// Observers of a stream of intervals: written once, for both engines.
+
+#include <complex>
+#include <vector>
+
+#include "sim/engine/interval.hpp"
+#include "sim/motion/energy.hpp"
+#include "sim/oscillator.hpp"
+
+namespace dualdamp::sim {
+
+/// Samples at 0, 1/rate, 2/rate, ... [s].
+class Sampler {
+ public:
+  /// rate in Hz; 0 takes none.
+  explicit Sampler(double rate) : rate_(rate) {}
+
+  void observe(const Interval& interval);
+  /// Takes the sample that falls on the very end of the last interval, if one does.
+  void finish(const Sample& final);
+  [[nodiscard]] std::vector<Sample>& samples() { return samples_; }
+
+ private:
+  double rate_;
+  std::vector<Sample> samples_;
+};
+
+/// Largest and smallest x [m], and the largest speed [m/s].
+class Extremes {
+ public:
+  void observe(const Interval& interval);
+
+  [[nodiscard]] double peak() const { return peak_; }
+  [[nodiscard]] double trough() const { return trough_; }
+  [[nodiscard]] double max_speed() const { return max_speed_; }
+
+ private:
+  bool seen_ = false;
+  double peak_ = 0.0;
+  double trough_ = 0.0;
+  double max_speed_ = 0.0;
+};
+
+/// A sum that carries its own rounding error along (Neumaier): equal periods would otherwise add up a systematic
+/// one.
+class CompensatedSum {
+ public:
+  void add(double term) {
+    const double sum = sum_ + term;
+    const bool larger = (sum_ < 0.0 ? -sum_ : sum_) >= (term < 0.0 ? -term : term);
+    lost_ += larger ? (sum_ - sum) + term : (term - sum) + sum_;
+    sum_ = sum;
+  }
+  [[nodiscard]] double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0.0;
+  double lost_ = 0.0;
+};
+
+/// Energy account: from the interval's closed form, or else by Gauss-Legendre quadrature; the integrands are
+/// analytic inside an interval, so that either is exact to rounding. Forces come from the laws, not from the
+/// equation of motion: the defect is a real check.
+class EnergyAudit {
+ public:
+  explicit EnergyAudit(const Oscillator& oscillator) : oscillator_(oscillator) {}
+
+  void observe(const Interval& interval);
+  /// Account of all intervals so far.
+  [[nodiscard]] Energy account() const;
+  /// int v^2 dt [m^2/s].
+  [[nodiscard]] double square_speed() const { return square_speed_.value(); }
+
+ private:
+  [[nodiscard]] double stored(const Sample& sample) const;
+  void add_by_quadrature(const Interval& interval);
+  void add_in_closed_form(const ClosedForm& form);
+
+  Oscillator oscillator_;
+  bool started_ = false;
+  CompensatedSum input_;
+  CompensatedSum friction_;
+  CompensatedSum viscous_;
+  CompensatedSum square_speed_;
+  double first_ = 0.0;
+  double last_ = 0.0;
+};
+
+/// Fourier coefficient (2/T) int x exp(-i w t) dt over the intervals of one period [m].
+class Fundamental {
+ public:
+  explicit Fundamental(double omega) : omega_(omega) {}
+
+  void observe(const Interval& interval);
+  [[nodiscard]] std::complex<double> coefficient() const;
+
+ private:
+  double omega_;
+  std::complex<double> sum_ = 0.0;
+};
+
+}  // namespace dualdamp::sim

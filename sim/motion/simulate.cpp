@@ -1,0 +1,69 @@
+#include "sim/motion/simulate.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/engine/engine.hpp"
+#include "sim/motion/observers.hpp"
+
+namespace dualdamp::sim {
+
+History simulate(const Model& model, const SimulateOptions& options) {
+  History history;
+  const std::unique_ptr<Engine> owned = make_engine(model);
+  Engine& engine = *owned;
+  Sampler sampler(options.sample_rate);
+  EnergyAudit energy(model.oscillator);
+  while (const Interval* interval = engine.next(options.duration)) {
+    sampler.observe(*interval);
+    energy.observe(*interval);
+    for (const core::Grazing& grazing : engine.grazings()) {
+      const Sample touch = interval->at(grazing.s);
+      history.events.push_back({touch.t, EventKind::grazing, touch.x, touch.v});
+    }
+    history.final = interval->at(interval->duration);
+    if (!interval->ending) continue;
+    history.final.v = engine.velocity();
+    history.events.push_back({interval->end(), *interval->ending, engine.position(), engine.velocity()});
+    if (static_cast<long>(history.events.size()) >= options.max_events) {
+      history.outcome = {core::OutcomeKind::event_limit,
+                         "more than " + std::to_string(options.max_events) + " events before the end"};
+      break;
+    }
+  }
+  if (history.outcome.ok()) history.outcome = engine.outcome();
+  sampler.finish(history.final);
+  history.samples = std::move(sampler.samples());
+  history.energy = energy.account();
+  history.certificate = engine.count();
+  return history;
+}
+
+FreeDecay free_decay(const Model& model, int peaks) {
+  FreeDecay decay;
+  const std::unique_ptr<Engine> owned = make_engine(model);
+  Engine& engine = *owned;
+  if (engine.velocity() == 0.0) decay.peaks.push_back({0.0, engine.position()});
+  // A motion that creeps without turning (strong damping, friction that never quite holds) has no further extreme.
+  // With damping so near the critical that a swing lasts a hundred natural periods, it ends at exp(-628) of its
+  // start.
+  const double patience = 100.0 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
+  double deadline = patience;
+  while (static_cast<int>(decay.peaks.size()) < peaks) {
+    if (engine.direction() == friction::Direction::rest) {
+      decay.came_to_rest = true;
+      break;
+    }
+    const Interval* interval = engine.next(deadline);
+    if (interval == nullptr) break;
+    if (!interval->ending) continue;
+    deadline = interval->end() + patience;
+    if (interval->ending == EventKind::reversal || interval->ending == EventKind::stop) {
+      decay.peaks.push_back({interval->end(), engine.position()});
+    }
+  }
+  decay.outcome = engine.outcome();
+  return decay;
+}
+
+}  // namespace dualdamp::sim

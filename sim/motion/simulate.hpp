@@ -1,0 +1,53 @@
+#pragma once
+/// Time histories: a motion from its initial state, with its events, samples and energy account.
+
+#include <vector>
+
+#include "core/first_crossing.hpp"
+#include "core/outcome.hpp"
+#include "sim/engine/interval.hpp"
+#include "sim/model.hpp"
+#include "sim/motion/energy.hpp"
+
+namespace dualdamp::sim {
+
+struct Event {
+  double t = 0.0;  ///< s
+  EventKind kind = EventKind::reversal;
+  double x = 0.0;  ///< m
+  double v = 0.0;  ///< m/s
+};
+
+struct History {
+  core::Outcome outcome;
+  std::vector<Event> events;
+  std::vector<Sample> samples;  ///< at 0, 1/sample_rate, ...; empty when sample_rate is 0
+  Sample final;
+  Energy energy;
+  core::SearchCount certificate;  ///< of the searches for events
+};
+
+struct SimulateOptions {
+  double duration = 0.0;     ///< s
+  double sample_rate = 0.0;  ///< Hz; 0: no samples
+  long max_events = 10'000'000;
+};
+
+[[nodiscard]] History simulate(const Model& model, const SimulateOptions& options);
+
+/// An extreme of a free vibration: a turning point of x.
+struct Extreme {
+  double t = 0.0;  ///< s
+  double x = 0.0;  ///< m, signed
+};
+
+struct FreeDecay {
+  core::Outcome outcome;
+  std::vector<Extreme> peaks;  ///< the initial position first when released from rest
+  bool came_to_rest = false;   ///< fewer than the requested peaks because the mass stuck
+};
+
+/// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.
+[[nodiscard]] FreeDecay free_decay(const Model& model, int peaks);
+
+}  // namespace dualdamp::sim

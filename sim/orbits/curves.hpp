@@ -1,0 +1,62 @@
+#pragma once
+/// Many steady states of one model: output amplitude over input amplitude, over frequency, and over both.
+///
+/// Points are computed in parallel; each starts anew from the model's initial state and depends on its own numbers
+/// only, so that results are the same for every number of threads. Points of a model that batches know
+/// (`sim/batch/batch.hpp`) are tried in packs first: those that do not stick cost about 0.1 us there, and differ
+/// from `steady_state` by rounding. Every other point is one `steady_state`. Memory: 48 bytes a point.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/batch/batch.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::sim {
+
+/// One steady state. Where there is none only `omega` and `Y` mean something.
+struct CurvePoint {
+  double omega = 0.0;  ///< rad/s
+  double Y = 0.0;      ///< m (base) or N (force)
+  double x = 0.0;      ///< output amplitude (peak - trough)/2 [m]
+  double phase = 0.0;  ///< lag of x's fundamental [rad], in [0, 2 pi); of a frequency response only
+  int stops = 0;       ///< instants per period at which the mass comes to rest and stays
+  int sticks = 0;      ///< rests per period
+  bool stable = false;
+  std::uint32_t reason = 0;  ///< 0: there is a steady state; else why not, an index into `Curve::reasons`
+
+  [[nodiscard]] bool ok() const { return reason == 0; }
+};
+
+/// What was said about some of the points.
+struct Remark {
+  std::string text;
+  std::size_t first = 0;  ///< index of the first point
+  std::size_t count = 0;
+};
+
+struct Curve {
+  std::vector<CurvePoint> points;
+  std::vector<std::string> reasons = {""};  ///< distinct reasons for points without numbers; the first is none
+  std::vector<Remark> remarks;              ///< reasons and warnings by first appearance
+  core::SearchCount certificate;            ///< of all points together
+
+  [[nodiscard]] const std::string& reason(const CurvePoint& point) const { return reasons[point.reason]; }
+};
+
+/// The model's excitation amplitude is replaced by each of `amplitudes` [m or N] in turn.
+[[nodiscard]] Curve xy_curve(const Model& model, const std::vector<double>& amplitudes,
+                             const SteadyStateOptions& options = {}, const BatchOptions& batch = {});
+
+/// The model's excitation frequency is replaced by each of `frequencies` [rad/s] in turn.
+[[nodiscard]] Curve frequency_response(const Model& model, const std::vector<double>& frequencies,
+                                       const SteadyStateOptions& options = {}, const BatchOptions& batch = {});
+
+/// Both are replaced: all amplitudes at the first frequency, then at the next.
+[[nodiscard]] Curve regime_map(const Model& model, const std::vector<double>& frequencies,
+                               const std::vector<double>& amplitudes, const SteadyStateOptions& options = {},
+                               const BatchOptions& batch = {});
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,82 @@
+#include "sim/orbits/orbit_account.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+OrbitAccount::OrbitAccount(const Model& model, bool full)
+    : full_(full),
+      drive_phase_(model.excitation.phase),
+      energy_(model.oscillator),
+      fundamental_(model.excitation.frequency) {}
+
+void OrbitAccount::begin(const State& start) {
+  peak_ = trough_ = start.x;
+  rests_at_start_ = start.direction == Direction::rest;
+}
+
+void OrbitAccount::observe(const Interval& interval, double x) {
+  // The velocity keeps its sign within an interval.
+  peak_ = std::max(peak_, x);
+  trough_ = std::min(trough_, x);
+  if (full_) {
+    extremes_.observe(interval);
+    energy_.observe(interval);
+    fundamental_.observe(interval);
+  }
+  const bool rest = interval.direction == Direction::rest;
+  if (rest) collect_stick(interval, x);
+  resting_ = rest;
+  if (interval.ending == EventKind::stop) ++stops_;
+  if (interval.ending) sequence_.push_back(*interval.ending);
+}
+
+/// Merges rest intervals into sticks.
+void OrbitAccount::collect_stick(const Interval& interval, double x) {
+  if (resting_ && !sticks_.empty()) {
+    sticks_.back().duration += interval.duration;
+  } else {
+    sticks_.push_back({interval.begin, interval.duration, x});
+  }
+}
+
+/// A stick that crosses the period boundary counts once and starts in the period before.
+void OrbitAccount::join_stick_across_boundary() {
+  if (!resting_ || !rests_at_start_ || sticks_.size() < 2) return;
+  sticks_.back().duration += sticks_.front().duration;
+  sticks_.erase(sticks_.begin());
+}
+
+void OrbitAccount::write(SteadyState& result) {
+  join_stick_across_boundary();
+  result.peak = peak_;
+  result.trough = trough_;
+  result.amplitude = 0.5 * (peak_ - trough_);
+  result.stops_per_cycle = stops_;
+  result.sticks = std::move(sticks_);
+  result.sequence = std::move(sequence_);
+  if (result.sticks.size() == 1 && stops_ == 0) {
+    result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
+  }
+  if (!full_) return;
+  result.max_speed = extremes_.max_speed();
+  result.energy = energy_.account();
+  result.mean_square_speed = energy_.square_speed() / result.period;
+  result.fundamental = std::abs(fundamental_.coefficient());
+  const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
+  constexpr double turn = 2.0 * std::numbers::pi;
+  result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;
+}
+
+void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result) {
+  OrbitAccount account(model, full);
+  (void)map.from(result.start, Derivative::without, &account);
+  account.write(result);
+}
+
+}  // namespace dualdamp::sim

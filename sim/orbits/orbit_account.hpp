@@ -1,0 +1,43 @@
+#pragma once
+/// All that a steady state reports of its orbit, collected along one period.
+
+#include "sim/motion/observers.hpp"
+#include "sim/orbits/period_map.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::sim {
+
+/// Watches a period from its begin: the map hands it every interval.
+class OrbitAccount final : public PeriodObserver {
+ public:
+  /// `full`: phase, largest speed and energy too.
+  OrbitAccount(const Model& model, bool full);
+
+  void begin(const State& start) override;
+  void observe(const Interval& interval, double x) override;
+
+  /// Fills the numbers of `result`, once a period has passed.
+  void write(SteadyState& result);
+
+ private:
+  void collect_stick(const Interval& interval, double x);
+  void join_stick_across_boundary();
+
+  bool full_;
+  double drive_phase_;
+  Extremes extremes_;
+  EnergyAudit energy_;
+  Fundamental fundamental_;
+  double peak_ = 0.0;
+  double trough_ = 0.0;
+  int stops_ = 0;
+  std::vector<Stick> sticks_;
+  std::vector<EventKind> sequence_;
+  bool rests_at_start_ = false;
+  bool resting_ = false;  ///< at the end of the last interval
+};
+
+/// Walks along the orbit that begins at `result.start` and fills the other numbers of `result`.
+void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result);
+
+}  // namespace dualdamp::sim

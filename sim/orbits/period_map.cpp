@@ -1,0 +1,127 @@
+#include "sim/orbits/period_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+double Passage::closure(double omega) const {
+  const double scale = std::max(size, std::abs(begin.v) / omega);
+  if (!same_mode(begin, end)) return std::numeric_limits<double>::infinity();
+  const double x_gap = (end.x - begin.x) / scale;
+  const double v_gap = (end.v - begin.v) / omega / scale;
+  double result = scale > 0.0 ? std::sqrt(x_gap * x_gap + v_gap * v_gap) : 0.0;
+  for (std::size_t i = 0; i < begin.memories.size(); ++i) {
+    const std::vector<double>& before = begin.memories[i].state;
+    const std::vector<double>& after = end.memories[i].state;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      // A state near zero is one of the motion's size that happens to pass there.
+      const double own = std::max({std::abs(before[k]), std::abs(after[k]), scale});
+      if (own > 0.0) result = std::max(result, std::abs(after[k] - before[k]) / own);
+    }
+  }
+  return result;
+}
+
+std::vector<std::complex<double>> Passage::multipliers() const {
+  if (derivative.rows() == 2 && derivative.cols() == 2) {
+    // Without law states there are two: a quadratic equation, without the cost of a general solver.
+    const double half_trace = 0.5 * (derivative(0, 0) + derivative(1, 1));
+    const double half_gap = 0.5 * (derivative(0, 0) - derivative(1, 1));
+    const std::complex<double> root =
+        std::sqrt(std::complex<double>(half_gap * half_gap + derivative(0, 1) * derivative(1, 0)));
+    return {half_trace + root, half_trace - root};
+  }
+  const Eigen::VectorXcd values = derivative.eigenvalues();
+  return {values.begin(), values.end()};
+}
+
+double Passage::radius() const {
+  double largest = 0.0;
+  for (const std::complex<double>& value : multipliers()) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+bool Passage::holds(Eigen::Index row) const {
+  if (row < 2 || derivative.rows() != derivative.cols()) return false;
+  return derivative(row, row) == 1.0 && (derivative.row(row).array() != 0.0).count() == 1;
+}
+
+double Passage::free_radius() const {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index row = 0; row < derivative.rows(); ++row) {
+    if (!holds(row)) free.push_back(row);
+  }
+  return derivative(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
+}
+
+Passage PeriodMap::pass(Derivative derivative, PeriodObserver* observer) {
+  Passage passage;
+  passage.begin = engine_->state();
+  passage.size = std::abs(engine_->position());
+  engine_->track_sensitivity(derivative == Derivative::with);
+  if (observer != nullptr) observer->begin(passage.begin);
+  const long cycle = engine_->cycle();
+  while (engine_->cycle() == cycle) {
+    const Interval* interval = engine_->next_in_period();
+    if (interval == nullptr) break;
+    passage.moves = passage.moves || interval->direction != Direction::rest;
+    passage.size = std::max(passage.size, std::abs(engine_->position()));
+    if (observer != nullptr) observer->observe(*interval, engine_->position());
+  }
+  passage.end = engine_->state();
+  if (derivative == Derivative::with) passage.derivative = engine_->sensitivity();
+  return passage;
+}
+
+Passage PeriodMap::from_start(double x, double v, Derivative derivative) {
+  engine_->start(x, v);
+  return pass(derivative);
+}
+
+Passage PeriodMap::from(const State& state, Derivative derivative, PeriodObserver* observer) {
+  engine_->restart(state);
+  return pass(derivative, observer);
+}
+
+Passage PeriodMap::next(Derivative derivative) { return pass(derivative); }
+
+Eigen::VectorXd coordinates(const State& state) {
+  std::vector<double> list{state.x, state.v};
+  for (const friction::Memory& memory : state.memories)
+    list.insert(list.end(), memory.state.begin(), memory.state.end());
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
+State displaced(const State& state, const Eigen::VectorXd& change) {
+  State result = state;
+  result.x += change[0];
+  if (state.direction != Direction::rest) result.v += change[1];
+  Eigen::Index next = 2;
+  for (friction::Memory& memory : result.memories) {
+    for (double& value : memory.state) value += change[next++];
+  }
+  return result;
+}
+
+Eigen::VectorXd newton_step(const Passage& passage) {
+  if (!same_mode(passage.begin, passage.end)) return {};
+  const Eigen::VectorXd gap = coordinates(passage.end) - coordinates(passage.begin);
+  const Eigen::Index n = gap.size();
+  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - passage.derivative;
+  for (Eigen::Index row = 2; row < n; ++row) {
+    if (gap[row] == 0.0 && passage.holds(row)) system(row, row) = 1.0;
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(system);
+  if (!lu.isInvertible()) return {};
+  Eigen::VectorXd step = lu.solve(gap);
+  if (!step.allFinite()) return {};
+  return step;
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,79 @@
+#pragma once
+/// The period map: the state one forcing period later, and its derivative.
+///
+/// Coordinates of a state are x, v and the states of every law, in this order. A mass at rest at a period boundary
+/// and a law in a mode whose state does not act make the derivative singular: their multipliers are zero.
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "sim/engine/engine.hpp"
+#include "sim/engine/state.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+/// One forcing period: where it starts, where it ends, how the end depends on the start.
+struct Passage {
+  State begin;
+  State end;
+  Eigen::MatrixXd derivative;  ///< of the end's coordinates by the begin's; empty unless asked for
+  double size = 0.0;           ///< largest |x| met [m]
+  bool moves = false;
+
+  /// Distance of end and begin relative to the size of the motion, velocities scaled by omega [rad/s]; law states
+  /// relative to their own size. Infinite when a law ends in another mode than it began in.
+  [[nodiscard]] double closure(double omega) const;
+  /// Floquet multipliers.
+  [[nodiscard]] std::vector<std::complex<double>> multipliers() const;
+  /// The largest modulus of them.
+  [[nodiscard]] double radius() const;
+  /// The same without the coordinates that a period leaves as they are, whatever the others do: sliders that never
+  /// slip. Their multipliers are 1.
+  [[nodiscard]] double free_radius() const;
+  /// Whether the period leaves law state `row` (2, 3, ...) as it is.
+  [[nodiscard]] bool holds(Eigen::Index row) const;
+};
+
+enum class Derivative { without, with };
+
+/// Is told of the period on the way.
+class PeriodObserver {
+ public:
+  virtual ~PeriodObserver() = default;
+  virtual void begin(const State& start) = 0;
+  /// `x`: where the interval ends [m].
+  virtual void observe(const Interval& interval, double x) = 0;
+};
+
+class PeriodMap {
+ public:
+  explicit PeriodMap(const Model& model) : engine_(make_engine(model)) {}
+
+  /// From the model's initial state, laws at their start.
+  [[nodiscard]] Passage from_start(double x, double v, Derivative derivative);
+  [[nodiscard]] Passage from(const State& state, Derivative derivative, PeriodObserver* observer = nullptr);
+  /// From where the last one ended.
+  [[nodiscard]] Passage next(Derivative derivative);
+
+  [[nodiscard]] const core::Outcome& outcome() const { return engine_->outcome(); }
+  [[nodiscard]] Engine& engine() { return *engine_; }
+
+ private:
+  Passage pass(Derivative derivative, PeriodObserver* observer = nullptr);
+
+  std::unique_ptr<Engine> engine_;
+};
+
+[[nodiscard]] Eigen::VectorXd coordinates(const State& state);
+/// `state` with its coordinates changed by `change`; a mass at rest stays at rest.
+[[nodiscard]] State displaced(const State& state, const Eigen::VectorXd& change);
+
+/// The change of begin that Newton's method takes to make end = begin, or an empty vector where it has none:
+/// the passage ends in another mode, or the derivative is singular. A coordinate that the period does not change
+/// and that depends on itself alone (a slider that never slips) stays as it is.
+[[nodiscard]] Eigen::VectorXd newton_step(const Passage& passage);
+
+}  // namespace dualdamp::sim

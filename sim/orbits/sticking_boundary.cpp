@@ -1,0 +1,88 @@
+#include "sim/orbits/sticking_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/analytic/den_hartog.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::sim {
+
+using friction::Direction;
+
+namespace {
+
+constexpr double precision = 1e-12;
+constexpr int max_doublings = 60;
+
+/// Friction levels of the laws together at the start [N].
+struct Levels {
+  double kinetic = 0.0;
+  double holding = 0.0;
+  bool rigid = true;  ///< no law remembers anything
+};
+
+Levels levels_of(const Model& model) {
+  Levels levels;
+  for (const friction::Law& law : model.friction) {
+    const friction::Memory memory = law.start({});
+    levels.kinetic += law.force(memory, {}, Direction::forward);
+    levels.holding += law.static_limit(memory, {});
+    levels.rigid = levels.rigid && !law.is_modal();
+  }
+  return levels;
+}
+
+std::optional<double> den_hartogs(const Model& model, const Levels& levels) {
+  const Oscillator& o = model.oscillator;
+  const bool his = levels.rigid && levels.kinetic == levels.holding && o.damper_to == DamperTo::ground &&
+                   model.excitation.type == ExcitationType::base_harmonic && model.excitation.harmonics.empty();
+  if (!his) return std::nullopt;
+  const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
+  const double r = model.excitation.frequency / std::sqrt(o.stiffness / o.mass);
+  return levels.kinetic / o.stiffness / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
+}
+
+SteadyState at(Model& model, double amplitude) {
+  model.excitation.amplitude = amplitude;
+  return steady_state(model, {.full_account = false});
+}
+
+BoundaryPoint find(Model model, const Levels& levels, double omega) {
+  model.excitation.frequency = omega;
+  BoundaryPoint point{.omega = omega};
+  const bool base = model.excitation.type == ExcitationType::base_harmonic;
+  // A drive this weak cannot move the mass.
+  double low = levels.holding / (base ? model.oscillator.stiffness : 1.0);
+  double high = 2.0 * low;
+  SteadyState state = at(model, high);
+  for (int i = 0; i < max_doublings && state.outcome.ok() && !state.sticks.empty(); ++i) {
+    low = high;
+    high *= 2.0;
+    state = at(model, high);
+  }
+  while (state.outcome.ok() && high - low > precision * high) {
+    const double middle = 0.5 * (low + high);
+    SteadyState trial = at(model, middle);
+    (trial.outcome.ok() && trial.sticks.empty() ? high : low) = middle;
+    if (!trial.outcome.ok() || trial.sticks.empty()) state = std::move(trial);
+  }
+  point.outcome = state.outcome;
+  if (point.outcome.ok() && !state.sticks.empty())
+    point.outcome = {core::OutcomeKind::no_steady_state, "the mass sticks at every amplitude"};
+  point.amplitude = high;
+  point.x = state.amplitude;
+  if (point.outcome.ok()) point.closed_form = den_hartogs(model, levels);
+  return point;
+}
+
+}  // namespace
+
+std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies) {
+  const Levels levels = levels_of(model);
+  std::vector<BoundaryPoint> boundary;
+  for (const double omega : frequencies) boundary.push_back(find(model, levels, omega));
+  return boundary;
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,92 @@
+#pragma once
+/// Systems with Coulomb friction for the tests of the exact engine, their events, and the linear motion in 50
+/// digits.
+
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "friction_models/coulomb.hpp"
+#include "sim/engine/exact_engine.hpp"
+#include "tests/support/oracle.hpp"
+
+namespace dualdamp::test {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+inline constexpr double pi = std::numbers::pi;
+
+inline friction::Law coulomb(double kinetic, double static_level) {
+  return friction::Law(friction::Coulomb(kinetic, static_level));
+}
+
+struct Event {
+  double t = 0.0;
+  sim::EventKind kind = sim::EventKind::reversal;
+  double x = 0.0;
+};
+
+/// Events until `duration`, at most `count` of them.
+inline std::vector<Event> events_of(sim::ExactEngine& engine, double duration, std::size_t count = 1'000'000) {
+  std::vector<Event> events;
+  while (events.size() < count) {
+    const sim::Interval* interval = engine.next(duration);
+    if (interval == nullptr) break;
+    if (interval->ending) events.push_back({interval->end(), *interval->ending, engine.position()});
+  }
+  return events;
+}
+
+inline std::vector<Event> events_of(const sim::Model& model, double duration, std::size_t count = 1'000'000) {
+  sim::ExactEngine engine(model);
+  return events_of(engine, duration, count);
+}
+
+inline sim::Model base_driven(double m, double k, double c, double amplitude, double w, double phase = 0.0) {
+  sim::Model model;
+  model.oscillator = {m, k, c, sim::DamperTo::ground};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = w, .phase = phase};
+  return model;
+}
+
+inline sim::Model ramped(double m, double k, double c, sim::ExcitationType type, double slope) {
+  sim::Model model;
+  model.oscillator = {m, k, c, sim::DamperTo::ground};
+  model.excitation = {.type = type, .slope = slope};
+  return model;
+}
+
+/// The seed system of the paper: m = 1 kg, k = 100 N/m, c = 4 N.s/m, w = 10 rad/s, Y = 0.1 m, F = 2 N.
+inline sim::Model standard(double kinetic = 2.0, double static_level = 2.0) {
+  sim::Model model = base_driven(1.0, 100.0, 4.0, 0.1, 10.0);
+  model.friction.push_back(coulomb(kinetic, static_level));
+  return model;
+}
+
+/// x and v of the linear oscillator in 50 digits.
+inline oracle::State linear(const sim::Model& model, double t) {
+  const sim::Oscillator& o = model.oscillator;
+  oracle::LinearProblem problem{.mass = o.mass,
+                                .damping = o.damping,
+                                .stiffness = o.stiffness,
+                                .x0 = model.initial.position,
+                                .v0 = model.initial.velocity};
+  const sim::Excitation& e = model.excitation;
+  const double c = o.damper_to == sim::DamperTo::base ? o.damping : 0.0;
+  const bool base = e.type == sim::ExcitationType::base_harmonic;
+  const auto add = [&](int order, double amplitude, double phase) {
+    const double w = order * e.frequency;
+    const oracle::Complex gain = base ? oracle::Complex(o.stiffness, c * w) : oracle::Complex(1.0);
+    problem.harmonics.push_back({w, gain * std::polar(amplitude, phase)});
+  };
+  if (e.is_harmonic()) {
+    add(1, e.amplitude, e.phase);
+    for (const sim::Harmonic& h : e.harmonics) add(h.order, h.amplitude, h.phase);
+  }
+  if (e.type == sim::ExcitationType::force_harmonic) problem.constant = e.offset;
+  return oracle::solve(problem, t);
+}
+
+}  // namespace dualdamp::test

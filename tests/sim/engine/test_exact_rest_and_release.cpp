@@ -1,0 +1,225 @@
+#include "sim/engine/exact_engine.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "friction_models/contact_compliance.hpp"
+#include "tests/sim/engine/exact_motions.hpp"
+#include "tests/support/random.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::sim;
+using namespace dualdamp::test;
+using friction::Direction;
+
+TEST_CASE("A start exactly at the limit stays while the pull falls and slips while it grows", "[exact]") {
+  // k x0 = -5 N and static = 5 N, all exact in binary: |pull| = static to the last bit.
+  for (const double side : {1.0, -1.0}) {
+    for (const double static_level : {5.0, 5.5}) {
+      Model model = ramped(1.0, 100.0, 0.5, ExcitationType::force_ramp, side * 2.0);
+      model.friction.push_back(coulomb(5.0, static_level));
+      model.initial.position = -side * static_level / 100.0;
+      CAPTURE(side, static_level);
+      const ExactEngine growing(model);
+      CHECK(growing.direction() == (side > 0.0 ? Direction::forward : Direction::backward));
+
+      model.excitation.slope = -side * 2.0;
+      ExactEngine falling(model);
+      CHECK(falling.direction() == Direction::rest);
+      // Released on the other side, when the pull has come down by twice the limit.
+      const auto events = events_of(falling, 10.0, 1);
+      REQUIRE(events.size() == 1);
+      CHECK(events[0].kind == EventKind::release);
+      CHECK(events[0].t == Approx(static_level).epsilon(4 * epsilon));
+      CHECK(falling.direction() == (side > 0.0 ? Direction::backward : Direction::forward));
+    }
+  }
+  // A constant pull at the limit holds.
+  Model still = ramped(1.0, 100.0, 0.5, ExcitationType::none, 0.0);
+  still.friction.push_back(coulomb(5.0, 5.0));
+  still.initial.position = 0.05;
+  ExactEngine engine(still);
+  CHECK(engine.direction() == Direction::rest);
+  CHECK(events_of(engine, 1e6).empty());
+}
+
+TEST_CASE("Beside a mass at rest a contact at its limit neither breaks away nor holds on again", "[exact]") {
+  // The contact was dragged along until the mass stopped: it stands stretched to its limit, within rounding.
+  Random random(27);
+  int stretched = 0;
+  for (int i = 0; i < 200; ++i) {
+    Model model = ramped(1.0, 100.0, 1.0, ExcitationType::none, 0.0);
+    const double limit = random.uniform(0.1, 2.0);
+    model.friction = {coulomb(4.0, 5.0),
+                      friction::Law(friction::ContactCompliance(limit, limit, random.uniform(100.0, 1e4), 0.0))};
+    model.initial = {random.uniform(-0.01, 0.01), random.sign() * random.uniform(0.5, 2.0)};
+    const auto events = events_of(model, 1e3);
+    const auto stop = std::find_if(events.begin(), events.end(),
+                                   [](const Event& event) { return event.kind == EventKind::stop; });
+    CAPTURE(i);
+    REQUIRE(stop != events.end());
+    CHECK(stop + 1 == events.end());
+    stretched += stop != events.begin() && (stop - 1)->kind == EventKind::switching ? 1 : 0;
+  }
+  CHECK(stretched > 100);
+}
+
+TEST_CASE("A release is not taken back by the rounding of a contact that lets go with it", "[exact]") {
+  // The contact still stands at its limit on the side to which the mass is released: it lets go at once, and with
+  // it goes a force k x a thousand times those that decide between slip and rest. With static = kinetic the slip
+  // then begins without acceleration.
+  Random random(28);
+  int together = 0;
+  for (int i = 0; i < 300; ++i) {
+    Model model = base_driven(1.0, 100.0, random.uniform(0.0, 5.0), 0.1, random.uniform(1.0, 8.0), random.angle());
+    const double level = random.uniform(1.0, 5.0);
+    const double limit = random.uniform(0.01, 2.0);
+    model.friction = {coulomb(level, level),
+                      friction::Law(friction::ContactCompliance(limit, limit, random.logarithmic(1e4, 1e7), 0.0))};
+    model.initial.velocity = 0.3;
+    const double period = 2.0 * pi / model.excitation.frequency;
+    const auto events = events_of(model, 10.0 * period);
+    CAPTURE(i);
+    for (std::size_t j = 0; j + 2 < events.size(); ++j) {
+      if (events[j].kind != EventKind::release || events[j + 1].t != events[j].t) continue;
+      ++together;
+      CHECK(events[j + 1].kind == EventKind::switching);
+      CHECK(events[j + 2].t - events[j].t > 1e-6 * period);
+    }
+  }
+  CHECK(together > 100);
+}
+
+TEST_CASE("A harmonic pull at the limit at the start: growing, falling and at its turning point", "[exact]") {
+  // pull = 10 cos(w t + phi) + 5 N with phi = -+90 degrees: 5 N with the rate +-100 N/s; cos(pi/2) = 6e-17 in
+  // double.
+  for (const double rate : {1.0, -1.0}) {
+    Model model = base_driven(1.0, 100.0, 4.0, 0.1, 10.0, -rate * pi / 2.0);
+    model.friction.push_back(coulomb(5.0, 5.0));
+    model.initial.position = -0.05;
+    const ExactEngine engine(model);
+    CHECK(engine.direction() == (rate > 0.0 ? Direction::forward : Direction::rest));
+  }
+  // At the crest, pull = static = 10 N: equality holds and the pull falls on both sides.
+  Model crest = base_driven(1.0, 100.0, 4.0, 0.1, 10.0);
+  crest.friction.push_back(coulomb(10.0, 10.0));
+  ExactEngine engine(crest);
+  CHECK(engine.direction() == Direction::rest);
+  // And it comes back to the crest, once a period, without ever crossing.
+  CHECK(events_of(engine, 10.0).empty());
+}
+
+TEST_CASE("Release is where the pull reaches the limit: one arc cosine", "[exact]") {
+  Random random(21);
+  for (int i = 0; i < 200; ++i) {
+    const double static_level = random.uniform(0.5, 9.5);
+    const double phase = random.angle();
+    Model model = base_driven(random.logarithmic(0.1, 10.0), 100.0, random.uniform(0.0, 20.0), 0.1,
+                              random.logarithmic(0.1, 100.0), phase);
+    model.friction.push_back(coulomb(static_level * random.uniform(0.2, 1.0), static_level));
+    model.initial.position = random.uniform(-1.0, 1.0) * static_level / 100.0 + 0.1 * std::cos(phase);
+    // cos(w t + phi) = (x0 +- static/k)/Y: the earliest of up to four candidates.
+    double expected = std::numeric_limits<double>::infinity();
+    double slope = 0.0;
+    for (const double side : {1.0, -1.0}) {
+      const double level = (model.initial.position + side * static_level / 100.0) / 0.1;
+      if (std::abs(level) > 0.9999) continue;
+      // Growing outwards: -side sin(angle) > 0.
+      const double angle = -side * std::acos(level);
+      double t = std::fmod(angle - phase, 2.0 * pi);
+      if (t < 0.0) t += 2.0 * pi;
+      if (t / model.excitation.frequency < expected) slope = std::sqrt(1.0 - level * level);
+      expected = std::min(expected, t / model.excitation.frequency);
+    }
+    if (!std::isfinite(expected)) continue;
+    const auto events = events_of(model, 2.0 * expected + 1.0, 1);
+    REQUIRE(events.size() == 1);
+    CHECK(events[0].kind == EventKind::release);
+    CHECK(std::abs(events[0].t - expected) <= 32 * epsilon / slope / model.excitation.frequency);
+  }
+}
+
+TEST_CASE("Release under a ramp with static = kinetic: a double root at the start of slip", "[exact]") {
+  // f = R t; after release at F/R without damping x = (R/k)(s - sin(w s)/w), v = (R/k)(1 - cos w s): v touches zero
+  // once a period without crossing it, and the mass goes on.
+  Model model = ramped(2.0, 50.0, 0.0, ExcitationType::force_ramp, 3.0);
+  model.friction.push_back(coulomb(1.5, 1.5));
+  const double w = 5.0;
+  ExactEngine engine(model);
+  std::vector<Event> events;
+  long grazings = 0;
+  while (const Interval* interval = engine.next(10.0)) {
+    grazings += static_cast<long>(engine.grazings().size());
+    if (interval->ending) events.push_back({interval->end(), *interval->ending, engine.position()});
+    const double end = interval->end();
+    if (interval->begin < 0.5) continue;
+    for (int i = 0; i <= 20; ++i) {
+      const double t = interval->begin + (end - interval->begin) * i / 20.0;
+      const double s = t - 0.5;
+      CHECK(std::abs(interval->state_at(t).x - 0.06 * (s - std::sin(w * s) / w)) <= 1e-13);
+      CHECK(std::abs(interval->state_at(t).v - 0.06 * (1.0 - std::cos(w * s))) <= 1e-13);
+    }
+  }
+  REQUIRE(events.size() == 1);
+  CHECK(events[0].kind == EventKind::release);
+  CHECK(events[0].t == Approx(0.5).epsilon(4 * epsilon));
+  // 9.5 s hold seven periods of 1.2566 s.
+  CHECK(grazings == 7);
+  CHECK(engine.time() == Approx(10.0).epsilon(4 * epsilon));
+}
+
+TEST_CASE("Release under a ramp with damping never comes to rest again", "[exact]") {
+  for (const ExcitationType type : {ExcitationType::force_ramp, ExcitationType::base_ramp}) {
+    Model model = ramped(2.0, 50.0, 1.0, type, type == ExcitationType::force_ramp ? -3.0 : -0.06);
+    model.friction.push_back(coulomb(1.5, 1.5));
+    ExactEngine engine(model);
+    const auto events = events_of(engine, 200.0);
+    REQUIRE(events.size() == 1);
+    CHECK(events[0].t == Approx(0.5).epsilon(4 * epsilon));
+    // The own motion has fallen by exp(-200/4): x = (f - F_friction - c v)/k with v = -0.06.
+    CHECK(engine.velocity() == Approx(-0.06).epsilon(1e-12));
+    CHECK(engine.position() == Approx((-600.0 + 1.5 + 0.06) / 50.0).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and stick in closed form", "[exact]") {
+  // No damping. In the frame of the moving base the slip is an arc of a circle: v = V (1 - cos s) + D/(m w) sin s
+  // with D = static - kinetic. It ends at w s = 2 (pi - atan(D w/(k V))) with the spring D below kinetic, as far as
+  // it began above: x moves by V s + 2 D/k, and rest lasts 2 D/(k V).
+  const double m = 0.5;
+  const double k = 200.0;
+  const double speed = 0.03;
+  const double kinetic = 1.0;
+  for (const double static_level : {1.0 + 1e-6, 1.01, 1.5, 4.0}) {
+    for (const double side : {1.0, -1.0}) {
+      Model model = ramped(m, k, 0.0, ExcitationType::base_ramp, side * speed);
+      model.friction.push_back(coulomb(kinetic, static_level));
+      const double w = std::sqrt(k / m);
+      const double excess = static_level - kinetic;
+      const double slip = 2.0 * (pi - std::atan(excess * w / (k * speed))) / w;
+      const double stick = 2.0 * excess / (k * speed);
+      const double first = static_level / (k * speed);
+      CAPTURE(static_level, side);
+      const auto events = events_of(model, first + 20.5 * (slip + stick) + slip);
+      REQUIRE(events.size() >= 40);
+      for (int n = 0; n < 20; ++n) {
+        const double begin = first + n * (slip + stick);
+        const Event& release = events[static_cast<std::size_t>(2 * n)];
+        const Event& stop = events[static_cast<std::size_t>(2 * n + 1)];
+        CHECK(release.kind == EventKind::release);
+        CHECK(stop.kind == EventKind::stop);
+        // Pull and speed are known to a few eps of static and of static/(m w): as times, over their rates k V and
+        // D/m; the errors of all cycles add up.
+        const double allowed =
+            64 * epsilon * (n + 1) * (begin + static_level / (k * speed) + static_level / (excess * w));
+        CHECK(std::abs(release.t - begin) <= allowed);
+        CHECK(std::abs(stop.t - begin - slip) <= allowed);
+        CHECK(std::abs(stop.x - side * (n + 1) * (speed * slip + 2.0 * excess / k)) <=
+              allowed * speed + 64 * epsilon * stop.t * speed);
+      }
+    }
+  }
+}

@@ -1,0 +1,137 @@
+// Branches of steady states: against steady states found one by one, Den Hartog's sticking boundary, and a bilinear
+// spring, whose response folds.
+
+#include "sim/orbits/continuation.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "friction_models/coulomb.hpp"
+#include "sim/analytic/den_hartog.hpp"
+
+using namespace dualdamp;
+using sim::BranchParameter;
+using sim::ChangeKind;
+
+namespace {
+
+/// A second spring of stiffness `k` beyond x = gap, as a law: the bilinear oscillator.
+struct Stop {
+  double k;
+  double gap;
+
+  [[nodiscard]] friction::Memory start(const friction::Instant& now) const { return {.mode = now.x > gap ? 1 : 0}; }
+  [[nodiscard]] friction::Affine affine_force(const friction::Memory& m, const friction::Instant&,
+                                              friction::Direction) const {
+    return m.mode == 0 ? friction::Affine{} : friction::Affine{.constant = -k * gap, .position = k};
+  }
+  void affine_guards(const friction::Memory& m, const friction::Instant&, friction::Direction,
+                     std::vector<friction::Affine>& guards) const {
+    const double side = m.mode == 0 ? 1.0 : -1.0;
+    guards.push_back({.constant = side * gap, .position = -side});
+  }
+  void jump(friction::Memory& m, friction::Trigger trigger, const friction::Instant&, friction::Direction) const {
+    if (trigger.cause == 0) m.mode = 1 - m.mode;
+  }
+};
+
+sim::Model coulomb_driven(double damping, double friction, double amplitude, double frequency) {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = damping};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = frequency};
+  model.friction.emplace_back(friction::Coulomb(friction, friction));
+  return model;
+}
+
+long count(const sim::Branch& branch, ChangeKind kind) {
+  return std::count_if(branch.changes.begin(), branch.changes.end(),
+                       [&](const sim::BranchChange& change) { return change.kind == kind; });
+}
+
+}  // namespace
+
+TEST_CASE("a branch in amplitude passes through the steady states found one by one") {
+  sim::Model model = coulomb_driven(0.1, 1.0, 1.0, 0.5);
+  const sim::Branch branch = follow_branch(model, BranchParameter::amplitude, 4.0, 1.05);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.points.back().parameter == 1.05);
+  CHECK(branch.points.size() > 40);
+  double worst = 0.0;
+  for (const sim::BranchPoint& point : branch.points) {
+    model.excitation.amplitude = point.parameter;
+    const sim::SteadyState state = sim::steady_state(model);
+    worst = std::max(worst, std::abs(point.state.peak - state.peak) / state.peak);
+    CHECK(point.state.stops_per_cycle == state.stops_per_cycle);
+    CHECK(point.state.stable());
+  }
+  // Both close to 1e-13, and the slowest multiplier is about 0.5.
+  CHECK(worst < 1e-11);
+  // Each orbit is walked at least twice, to close it and to describe it: two reversals and the end of the period.
+  CHECK(branch.certificate.searches >= 6 * static_cast<long>(branch.points.size()));
+  CHECK(branch.certificate.panels >= branch.certificate.searches);
+}
+
+TEST_CASE("sticking sets in where Den Hartog's boundary says") {
+  for (const double ratio : {0.4, 0.7, 1.3}) {
+    CAPTURE(ratio);
+    const double zeta = 0.05;
+    const double boundary = 1.0 / sim::analytic::non_sticking_boundary(sim::analytic::den_hartog(zeta, ratio));
+    const sim::Branch branch = follow_branch(coulomb_driven(2.0 * zeta, 1.0, 1.0, ratio),
+                                             BranchParameter::amplitude, 1.6 * boundary, 0.9 * boundary);
+    REQUIRE(branch.outcome.ok());
+    REQUIRE(count(branch, ChangeKind::sticking) == 1);
+    const auto onset =
+        std::find_if(branch.changes.begin(), branch.changes.end(),
+                     [](const sim::BranchChange& change) { return change.kind == ChangeKind::sticking; });
+    // A stick just born lasts as long as the root of the distance: known to 1e-9 of the range by bisection.
+    CHECK(onset->parameter == Approx(boundary).epsilon(1e-8));
+    CHECK(onset->stops_before == 0);
+    CHECK(onset->stops_after == 2);
+  }
+}
+
+TEST_CASE("the number of stops grows as the frequency falls, and every change is reported") {
+  const sim::Branch branch =
+      follow_branch(coulomb_driven(0.1, 0.2, 1.0, 0.5), BranchParameter::frequency, 0.5, 0.1);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.points.back().parameter == 0.1);
+  CHECK(branch.points.front().state.stops_per_cycle < branch.points.back().state.stops_per_cycle);
+  int stops = branch.points.front().state.stops_per_cycle;
+  for (const sim::BranchChange& change : branch.changes) {
+    CHECK(change.stops_before == stops);
+    stops = change.stops_after;
+  }
+  CHECK(stops == branch.points.back().state.stops_per_cycle);
+}
+
+TEST_CASE("the response of a bilinear spring folds; the branch between is unstable") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.06};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.12, .frequency = 1.0};
+  model.friction.emplace_back(Stop{.k = 3.0, .gap = 1.0});
+  const sim::Branch branch = follow_branch(model, BranchParameter::frequency, 0.9, 1.5);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.points.back().parameter == 1.5);
+  std::vector<sim::BranchChange> folds;
+  for (const sim::BranchChange& change : branch.changes) {
+    if (change.kind == ChangeKind::fold) folds.push_back(change);
+  }
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0].parameter > folds[1].parameter);
+  // Between the folds three orbits live at one frequency: two attract, the middle one does not.
+  const double middle = 0.5 * (folds[0].parameter + folds[1].parameter);
+  int passes = 0;
+  int stable = 0;
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    const double before = branch.points[i - 1].parameter - middle;
+    const double after = branch.points[i].parameter - middle;
+    if (before * after >= 0.0) continue;
+    ++passes;
+    stable += branch.points[i].state.stable() ? 1 : 0;
+  }
+  CHECK(passes == 3);
+  CHECK(stable == 2);
+  CHECK(count(branch, ChangeKind::stability) == 2);
+}

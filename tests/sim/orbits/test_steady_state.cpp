@@ -1,0 +1,292 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include "friction_models/coulomb.hpp"
+#include "friction_models/viscous_saturating.hpp"
+#include "sim/analytic/den_hartog.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/curves.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace {
+
+using namespace dualdamp;
+
+/// m x'' + c x' + k x + coulomb = k Y cos(w t + phase)
+sim::Model base_driven(double m, double k, double c, double kinetic, double static_level, double Y, double w,
+                       double phase = 0.0) {
+  sim::Model model;
+  model.oscillator = {.mass = m, .stiffness = k, .damping = c};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = Y, .frequency = w, .phase = phase};
+  model.friction.emplace_back(friction::Coulomb(kinetic, static_level));
+  return model;
+}
+
+/// The stick-slip case: m = 1, k = 1, c = 0, 0.6 N, force 1 N cos(0.5 t).
+sim::Model stick_slip() {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.0};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 1.0, .frequency = 0.5};
+  model.friction.emplace_back(friction::Coulomb(0.6, 0.6));
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("the standard case agrees with Den Hartog to the last digits") {
+  const sim::SteadyState state = sim::steady_state(base_driven(1.0, 100.0, 4.0, 2.0, 2.0, 0.1, 10.0));
+  REQUIRE(state.outcome.ok());
+  // Eq (3) with exact G and H, to 21 digits.
+  CHECK(std::abs(state.peak - 0.186078097956786198557) < 2e-14);
+  CHECK(std::abs(state.trough + 0.186078097956786198557) < 2e-14);
+  CHECK(std::abs(state.amplitude - 0.186078097956786198557) < 2e-14);
+  CHECK(state.stops_per_cycle == 0);
+  CHECK(state.sticks.empty());
+  CHECK(state.stable());
+  CHECK(state.warnings.empty());
+  // Friction takes 4 F x0 a period from any orbit that turns twice; the base gives what both take.
+  CHECK(state.energy.friction == Approx(4.0 * 2.0 * state.peak).epsilon(1e-13));
+  CHECK(std::abs(state.energy.defect) < 1e-13 * state.energy.input);
+  // Only the fundamental of x meets the harmonic base: pi k Y X1 sin(phase) = 4 F x0 + c int v^2.
+  const double input = std::numbers::pi * 100.0 * 0.1 * state.fundamental * std::sin(state.phase);
+  const double dissipated = 4.0 * 2.0 * state.peak + 4.0 * state.mean_square_speed * state.period;
+  CHECK(std::abs(input - dissipated) < 1e-13 * input);
+  CHECK(std::abs(state.energy.viscous - 4.0 * state.mean_square_speed * state.period) < 1e-14 * input);
+}
+
+TEST_CASE("200 random orbits that do not stick agree with Den Hartog") {
+  std::mt19937_64 random(20261121);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  double worst = 0.0;
+  double worst_phase = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double m = std::exp(uniform(-2.0, 2.0));
+    const double k = std::exp(uniform(0.0, 9.0));
+    const double zeta = std::exp(uniform(-5.0, 0.7));
+    const double r = std::exp(uniform(-1.5, 1.0));
+    const double force = std::exp(uniform(-3.0, 3.0));
+    const auto functions = sim::analytic::den_hartog(zeta, r);
+    const double x_f = force / k;
+    const double Y = x_f / sim::analytic::non_sticking_boundary(functions) * std::exp(uniform(0.02, 3.0));
+    const auto expected = sim::analytic::non_sticking_state(functions, Y, x_f);
+    REQUIRE(expected);
+    const sim::SteadyState state = sim::steady_state(
+        base_driven(m, k, 2.0 * zeta * std::sqrt(m * k), force, force, Y, r * std::sqrt(k / m), uniform(0.0, 6.0)));
+    REQUIRE(state.outcome.ok());
+    worst = std::max(worst, std::abs(state.amplitude / expected->amplitude - 1.0));
+    worst_phase =
+        std::max(worst_phase, std::abs(std::remainder(state.phase - expected->phase, 2.0 * std::numbers::pi)));
+  }
+  CHECK(worst < 1e-12);
+  CHECK(worst_phase < 1e-11);
+}
+
+TEST_CASE("the stick-slip case has its published peak and sticks") {
+  const sim::SteadyState state = sim::steady_state(stick_slip());
+  REQUIRE(state.outcome.ok());
+  CHECK(std::abs(state.peak - 1.2515943400339361) < 1e-12);
+  CHECK(state.stops_per_cycle == 2);
+  REQUIRE(state.sticks.size() == 2);
+  for (const sim::Stick& stick : state.sticks) {
+    CHECK(std::abs(stick.duration - 1.3755743369215955) < 1e-12);
+    CHECK(std::abs(std::abs(stick.position) - 1.2515943400339361) < 1e-12);
+  }
+  // A stick wipes out the memory of the speed: the map keeps one dimension, where the mass stuck.
+  CHECK(std::abs(state.multipliers[0] * state.multipliers[1]) < 1e-12);
+  CHECK(state.stable());
+}
+
+TEST_CASE("a stick across the period boundary counts once") {
+  sim::Model model = stick_slip();
+  const sim::SteadyState plain = sim::steady_state(model);
+  // Shift time by the middle of the second stick: it then lies across t = 0.
+  const double shift = plain.sticks[1].start + 0.5 * plain.sticks[1].duration;
+  model.excitation.phase = 0.5 * shift;
+  const sim::SteadyState shifted = sim::steady_state(model);
+  REQUIRE(shifted.sticks.size() == 2);
+  CHECK(shifted.stops_per_cycle == 2);
+  CHECK(shifted.peak == Approx(plain.peak).epsilon(1e-13));
+  for (const sim::Stick& stick : shifted.sticks) {
+    CHECK(stick.duration == Approx(1.3755743369215955).epsilon(1e-12));
+    CHECK(stick.start >= 0.0);
+    CHECK(stick.start < shifted.period);
+  }
+}
+
+TEST_CASE("the multipliers are those of a difference quotient of the period map") {
+  const sim::Model model = base_driven(1.3, 80.0, 0.9, 1.1, 1.1, 0.06, 7.1);
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  const auto map = [&](double x, double v) {
+    sim::Model from = model;
+    from.initial = {x, v};
+    const sim::Sample end = sim::simulate(from, {.duration = state.period}).final;
+    return std::array<double, 2>{end.x, end.v};
+  };
+  // Central differences of an exact map: h^2 truncation, 1e-16/h rounding.
+  const double h = 1e-6;
+  const auto x_up = map(state.start.x + h, state.start.v);
+  const auto x_down = map(state.start.x - h, state.start.v);
+  const auto v_up = map(state.start.x, state.start.v + h);
+  const auto v_down = map(state.start.x, state.start.v - h);
+  const double a = (x_up[0] - x_down[0]) / (2.0 * h);
+  const double b = (v_up[0] - v_down[0]) / (2.0 * h);
+  const double c = (x_up[1] - x_down[1]) / (2.0 * h);
+  const double d = (v_up[1] - v_down[1]) / (2.0 * h);
+  const std::complex<double> sum = state.multipliers[0] + state.multipliers[1];
+  const std::complex<double> product = state.multipliers[0] * state.multipliers[1];
+  CHECK(sum.real() == Approx(a + d).margin(1e-8));
+  CHECK(product.real() == Approx(a * d - b * c).margin(1e-8));
+}
+
+TEST_CASE("1,000 forced cycles balance their energy, sticking included") {
+  for (const sim::Model& model : {stick_slip(), base_driven(1.0, 100.0, 4.0, 2.0, 2.0, 0.1, 10.0),
+                                  base_driven(1.0, 100.0, 1.0, 1.0, 1.4, 0.05, 3.0)}) {
+    const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
+    const sim::History history = sim::simulate(model, {.duration = 1000.0 * period});
+    REQUIRE(history.outcome.ok());
+    // Each account is a compensated sum of quadratures exact to rounding.
+    CHECK(std::abs(history.energy.defect) < 1e-12 * history.energy.input);
+    CHECK(history.energy.friction > 0.0);
+  }
+}
+
+TEST_CASE("no number is returned where there is none") {
+  SECTION("resonance without damping and with friction below (pi/4) k Y grows without bound") {
+    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.5, 0.5, 1.0, 1.0));
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows") != std::string::npos);
+    // In proportion to time from the start: the first time it can be told is after 2,000 periods.
+    CHECK(state.transient_periods < 2010);
+  }
+  SECTION("a viscous force that saturates below what the drive puts in") {
+    // At large amplitude the drive's fundamental k Y = 3 N stands against (4/pi)(F0 + c v0) = 2.5 N.
+    sim::Model model = base_driven(1.0, 1.0, 0.0, 1.0, 1.0, 3.0, 1.0);
+    model.friction.emplace_back(friction::ViscousSaturating(2.0, 0.5));
+    const sim::SteadyState state = sim::steady_state(model);
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows") != std::string::npos);
+    CHECK(state.transient_periods < 4010);
+  }
+  SECTION("just above that limit it is bounded") {
+    CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.79, 0.79, 1.0, 1.0)).outcome.ok());
+  }
+  SECTION("negative damping") {
+    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 100.0, -1.0, 2.0, 2.0, 0.1, 10.0));
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+  }
+  SECTION("nothing damps: the transient beats for ever") {
+    const double r = GENERATE(0.7, 0.7001, 0.83, 0.917, 0.9901, 1.013, 1.37);
+    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.0, 0.0, 1.0, r));
+    CAPTURE(r);
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows") == std::string::npos);
+  }
+  SECTION("a continuum of orbits at r = 1/2 without viscous damping") {
+    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.1, 0.1, 1.0, 0.5));
+    CHECK(state.outcome.kind == core::OutcomeKind::not_unique);
+    CHECK(state.outcome.reason.find("not unique") != std::string::npos);
+  }
+}
+
+TEST_CASE("a drive that friction holds leaves the mass where it was, and says so") {
+  sim::Model model = base_driven(1.0, 1.0, 0.1, 2.0, 2.0, 1.0, 0.7);
+  model.initial.position = 0.3;
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.amplitude == 0.0);
+  CHECK(state.peak == 0.3);
+  CHECK(state.stops_per_cycle == 0);
+  REQUIRE(state.sticks.size() == 1);
+  CHECK(state.sticks[0].duration == Approx(state.period).epsilon(1e-14));
+  CHECK(state.stable());
+  CHECK_FALSE(state.warnings.empty());
+}
+
+TEST_CASE("low frequencies stop more than twice a cycle") {
+  // After each base reversal the mass follows in several slips: 2, 4, 6 stops as the drive slows down.
+  CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.2)).stops_per_cycle == 2);
+  CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.1)).stops_per_cycle == 4);
+  CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.07)).stops_per_cycle == 6);
+}
+
+TEST_CASE("an x-Y curve carries failed points as rows with a reason") {
+  // Friction of 0.5 N limits an undamped resonance up to Y = 0.5/(pi/4).
+  const sim::Curve curve = sim::xy_curve(base_driven(1.0, 1.0, 0.0, 0.5, 0.5, 1.0, 1.0), {0.3, 0.6, 1.0});
+  REQUIRE(curve.points.size() == 3);
+  CHECK(curve.points[0].ok());
+  CHECK(curve.points[0].x == 0.0);
+  CHECK(curve.points[1].ok());
+  CHECK(curve.points[1].x > 0.0);
+  CHECK_FALSE(curve.points[2].ok());
+  CHECK_FALSE(curve.reason(curve.points[2]).empty());
+}
+
+TEST_CASE("the certificate of a curve is the sum of its points'") {
+  // Static friction above kinetic: none of the points is found in a pack.
+  const sim::Model model = base_driven(1.0, 100.0, 1.0, 0.5, 0.6, 0.05, 10.0);
+  core::SearchCount sum;
+  for (const double omega : {5.0, 10.0, 20.0}) {
+    sim::Model point = model;
+    point.excitation.frequency = omega;
+    const sim::SteadyState state = sim::steady_state(point);
+    // Two reversals and the end of the period: three searches in each period followed.
+    CHECK(state.certificate.searches >= 3 * (1 + state.newton_steps));
+    CHECK(state.certificate.panels >= state.certificate.searches);
+    sum += state.certificate;
+  }
+  const core::SearchCount found = sim::frequency_response(model, {5.0, 10.0, 20.0}).certificate;
+  CHECK(found.searches == sum.searches);
+  CHECK(found.panels == sum.panels);
+  CHECK(found.splits == sum.splits);
+  CHECK(found.grazings == sum.grazings);
+}
+
+TEST_CASE("a frequency response keeps its order and peaks near resonance") {
+  const auto curve =
+      sim::frequency_response(base_driven(1.0, 100.0, 1.0, 0.5, 0.5, 0.05, 10.0), {5.0, 10.0, 20.0}).points;
+  REQUIRE(curve.size() == 3);
+  CHECK(curve[0].omega == 5.0);
+  CHECK(curve[1].x > curve[0].x);
+  CHECK(curve[1].x > curve[2].x);
+  // Phase runs from in phase through a quarter turn to opposite.
+  CHECK(curve[0].phase < 0.5 * std::numbers::pi);
+  CHECK(curve[2].phase > 0.5 * std::numbers::pi);
+}
+
+TEST_CASE("the energy account resolves a transient far faster than the motion") {
+  // c/m = 20,000 1/s against k/c = 0.005 1/s: seven decades between the two exponents.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 2e4};
+  model.initial = {.position = 1.0, .velocity = 5.0};
+  const sim::History history = sim::simulate(model, {.duration = 10.0});
+  REQUIRE(history.outcome.ok());
+  CHECK(history.energy.viscous > 0.0);
+  CHECK(std::abs(history.energy.defect) < 1e-12 * history.energy.viscous);
+}
+
+TEST_CASE("one period of samples closes and shows the numbers of its steady state") {
+  for (const sim::Model& model : {base_driven(1.0, 100.0, 4.0, 2.0, 2.0, 0.1, 10.0), stick_slip()}) {
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    const std::vector<sim::Sample> orbit = sim::one_period(model, state, 1000);
+    REQUIRE(orbit.size() == 1001);
+    CHECK(orbit.back().t == Approx(state.period).epsilon(1e-12));
+    CHECK(orbit.back().x == Approx(orbit.front().x).margin(1e-12 * state.amplitude));
+    CHECK(orbit.back().v == Approx(orbit.front().v).margin(1e-12 * state.max_speed));
+    double peak = 0.0;
+    double fastest = 0.0;
+    for (const sim::Sample& sample : orbit) {
+      peak = std::max(peak, sample.x);
+      fastest = std::max(fastest, std::abs(sample.v));
+    }
+    // Between samples the parabola through a peak loses (pi/1000)^2/2 of it.
+    CHECK(peak == Approx(state.peak).epsilon(1e-5));
+    CHECK(fastest == Approx(state.max_speed).epsilon(1e-5));
+  }
+}
