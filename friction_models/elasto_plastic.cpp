@@ -54,7 +54,7 @@ double ElastoPlastic::respond(const Memory& memory, const Instant& now, Directio
 
 void ElastoPlastic::guards(const Memory& memory, const Instant& now, Direction direction,
                            std::vector<double>& values) const {
-  if (direction == Direction::rest) return;
+  if (direction == Direction::none) return;
   const double room = now.limit_now(elastic_force_) - sign(direction) * bristles_.sigma0 * memory.state[0];
   values.push_back(memory.mode == elastic ? room : -room);
 }

@@ -88,7 +88,7 @@ void GeneralizedMaxwellSlip::rates(const Memory& memory, const Instant& now, Dir
 
 void GeneralizedMaxwellSlip::guards(const Memory& memory, const Instant& now, Direction direction,
                                     std::vector<double>& values) const {
-  if (direction == Direction::rest) return;
+  if (direction == Direction::none) return;
   const double level = curve_.level(now, sign(direction) * now.v);
   for (std::size_t i = 0; i < elements_.size(); ++i)
     if (memory.indices[i] == stuck)

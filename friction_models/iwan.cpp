@@ -150,7 +150,7 @@ Affine Iwan::affine_force(const Memory& memory, const Instant&, Direction) const
 void Iwan::affine_guards(const Memory& memory, const Instant&, Direction direction,
                          std::vector<Affine>& guards) const {
   const Segments segments(memory, count());
-  if (direction == Direction::rest || segments.empty()) return;
+  if (direction == Direction::none || segments.empty()) return;
   const Segments::Segment top = segments.top();
   const double side = sign(direction);
   const double distance = slip_distance_[static_cast<std::size_t>(top.first)];

@@ -47,8 +47,8 @@
 
 namespace dualdamp::friction {
 
-/// Direction of slip in which a branch is frozen.
-enum class Direction : int { backward = -1, rest = 0, forward = 1 };
+/// Direction of slip in which a branch is frozen; none: the mass sticks.
+enum class Direction : int { backward = -1, none = 0, forward = 1 };
 
 [[nodiscard]] constexpr double sign(Direction direction) {
   return static_cast<double>(static_cast<int>(direction));

@@ -81,7 +81,7 @@ class PluginLaw final : public LawModel {
   [[nodiscard]] Memory start(const Instant& now) const override {
     Memory memory{.state = std::vector<double>(table_.states)};
     if (table_.start != nullptr) {
-      const dualdamp_instant instant = outside(now, Direction::rest);
+      const dualdamp_instant instant = outside(now, Direction::none);
       call(table_, "start", table_.start, law(), &instant, &memory.mode, memory.state.data());
       check_memory("start", memory);
     }
@@ -108,7 +108,7 @@ class PluginLaw final : public LawModel {
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const override {
     if (table_.static_limit == nullptr) return 0.0;
     double limit = 0.0;
-    const dualdamp_instant instant = outside(now, Direction::rest);
+    const dualdamp_instant instant = outside(now, Direction::none);
     call(table_, "static_limit", table_.static_limit, law(), memory.mode, memory.state.data(), &instant, &limit);
     if (!std::isfinite(limit)) refuse_nan("static_limit", memory, now);
     if (limit < 0.0) fail(table_, "static_limit() gave " + core::format_number(limit) + ", which is below 0");

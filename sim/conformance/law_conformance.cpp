@@ -143,7 +143,7 @@ void examine_displaced(const LawHost& host, bool with_jumps, Random& random, Fau
   std::vector<int> causes = {Trigger::direction_change, Trigger::limit_change};
   for (int i = 0; i < static_cast<int>(host.guards().size()); ++i) causes.push_back(i);
   for (const int cause : causes) {
-    for (const Direction direction : {Direction::backward, Direction::rest, Direction::forward}) {
+    for (const Direction direction : {Direction::backward, Direction::none, Direction::forward}) {
       if (cause != Trigger::direction_change && direction != host.direction()) continue;
       const auto jumped = [&](const std::vector<double>& z) {
         Memory memory = host.memory();
@@ -229,7 +229,7 @@ void examine_response(const LawHost& host, const LawCase& c, Faults& faults) {
   if (!std::isfinite(heat)) faults.add("the dissipation is not finite");
   // Without a dissipation of its own it is the power, which a law may give back.
   if (c.passive && heat != power && heat < -same * std::abs(power)) faults.add("the dissipation is negative");
-  if (host.direction() != Direction::rest) examine_kink(host, c.stroke / c.stroke_time, faults);
+  if (host.direction() != Direction::none) examine_kink(host, c.stroke / c.stroke_time, faults);
 }
 
 /// All that can be asked of one step without making it. No event between now and `end`.
@@ -286,7 +286,7 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
     const bool rest = random.chance(0.15);
     Stroke stroke{host.now(), 0.0, c.stroke_time * random.logarithmic(0.1, 3.0)};
     if (!rest) stroke.length = random.sign() * c.stroke * random.logarithmic(1e-3, 1.0);
-    const Direction direction = rest                  ? Direction::rest
+    const Direction direction = rest                  ? Direction::none
                                 : stroke.length > 0.0 ? Direction::forward
                                                       : Direction::backward;
     const Path path = stroke;

@@ -86,7 +86,7 @@ std::vector<double> LawHost::guards() const {
 }
 
 void LawHost::turn(Direction direction) {
-  for (const Direction next : {Direction::rest, direction}) {
+  for (const Direction next : {Direction::none, direction}) {
     direction_ = next;
     if (law_.is_modal()) law_.jump(memory_, {}, now_, direction_);
     settle();
@@ -119,7 +119,7 @@ void LawHost::follow(double end, const Path& way) {
 void LawHost::move_to(double x) {
   const Instant from = now_;
   const double length = x - from.x;
-  turn(length > 0.0 ? Direction::forward : length < 0.0 ? Direction::backward : Direction::rest);
+  turn(length > 0.0 ? Direction::forward : length < 0.0 ? Direction::backward : Direction::none);
   follow(from.t + 1.0, [from, length](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
   now_.x = x;
 }

@@ -63,7 +63,7 @@ class LawHost {
   friction::Instant now_;
   double first_velocity_ = 0.0;
   std::vector<Stroke> strokes_;  ///< those followed, for a law with a delay
-  friction::Direction direction_ = friction::Direction::rest;
+  friction::Direction direction_ = friction::Direction::none;
   double guard_size_ = 0.0;
   double work_ = 0.0;
   double heat_ = 0.0;

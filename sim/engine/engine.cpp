@@ -110,7 +110,7 @@ EventKind Engine::act(const Owner& owner) {
   switch (owner.kind) {
     case Owner::Kind::velocity:
       settle();
-      return direction_ == Direction::rest ? EventKind::stop : EventKind::reversal;
+      return direction_ == Direction::none ? EventKind::stop : EventKind::reversal;
     case Owner::Kind::limit:
       change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
       return EventKind::release;
@@ -135,7 +135,7 @@ void Engine::act_on_schedule(double due) {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});
   }
-  if (direction_ == Direction::rest) settle();
+  if (direction_ == Direction::none) settle();
 }
 
 bool Engine::comes_to_an_end(bool takes_no_time) {

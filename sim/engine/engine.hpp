@@ -109,7 +109,7 @@ class Engine {
   double v_ = 0.0;
   double local_time_ = 0.0;  ///< within the forcing period
   long cycle_ = 0;
-  friction::Direction direction_ = friction::Direction::rest;
+  friction::Direction direction_ = friction::Direction::none;
   std::vector<friction::Memory> memories_;
   bool tracking_ = false;
   std::vector<core::Grazing> grazings_;

@@ -51,7 +51,7 @@ class ExactEngine::PhaseInterval final : public Interval {
     Sample sample{.t = begin + s, .y = drive.y, .y_rate = drive.y_rate, .external = drive.external};
     sample.x = core::evaluate(basis, engine_.motion_, values);
     const Oscillator& o = engine_.model_.oscillator;
-    if (direction == Direction::rest) {
+    if (direction == Direction::none) {
       // Friction balances all else.
       const double damper = o.damper_to == DamperTo::base ? o.damping * drive.y_rate : 0.0;
       sample.force = o.stiffness * (drive.y - sample.x) + damper + drive.external;
@@ -116,7 +116,7 @@ void ExactEngine::PhaseInterval::form() const {
   core::clear(basis, form_.v);
   core::clear(basis, form_.a);
   core::clear(basis, form_.force);
-  if (direction == Direction::rest) return;
+  if (direction == Direction::none) return;
   core::assign(basis, friction::sign(direction), engine_.speed(), form_.v);
   core::assign(basis, friction::sign(direction), engine_.speed_rate(), form_.a);
   mode.represent({.constant = force.constant, .transients = transients}, form_.force);
@@ -141,18 +141,18 @@ void ExactEngine::begin_motion() {
 
 /// Decides what happens at v = 0: rest, or slip in the direction of the pull.
 void ExactEngine::settle() {
-  change_direction(Direction::rest);
+  change_direction(Direction::none);
   collect(false);
   const double pull = pull_now();
   const double level = total_->limit.constant;
   const double scale = force_scale() + level;
   Direction direction = pull > 0.0 ? Direction::forward : Direction::backward;
   if (std::abs(pull) < level - clearly * scale) {
-    direction = Direction::rest;
+    direction = Direction::none;
   } else if (std::abs(pull) <= level + clearly * scale) {
     direction = settle_closely(rounding * scale);
   }
-  if (direction != Direction::rest) change_direction(direction);
+  if (direction != Direction::none) change_direction(direction);
 }
 
 /// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
@@ -160,7 +160,7 @@ Direction ExactEngine::settle_closely(double tolerance) {
   const LinearMode* present = mode_;
   ModeFunction pull;
   mode_ = &pull_on_mode(pull);
-  Direction direction = Direction::rest;
+  Direction direction = Direction::none;
   for (const Direction candidate : {Direction::forward, Direction::backward}) {
     ModeFunction guard;
     limit_guard(pull, friction::sign(candidate), guard);
@@ -186,7 +186,7 @@ void ExactEngine::keep_rounding(double s) {
                        core::evaluate(basis, guard.slope, crossing_.values),
                        core::evaluate(basis, guard.curvature, crossing_.values));
   }
-  if (direction_ == Direction::rest) return;
+  if (direction_ == Direction::none) return;
   x_rounding_ = part * core::bound(basis, motion_, crossing_.values, s, 0.0);
   v_rounding_ = part * core::bound(basis, speed(), crossing_.values, s, 0.0);
 }
@@ -203,7 +203,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
   if (some_modal_ && s > 0.0) keep_rounding(s);
   const friction::Instant before = now();
-  if (direction_ != Direction::rest && s > 0.0) {
+  if (direction_ != Direction::none && s > 0.0) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
     v_ = friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
   }
@@ -227,7 +227,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
 }
 
 double ExactEngine::start_acceleration() const {
-  if (direction_ == Direction::rest) return 0.0;
+  if (direction_ == Direction::none) return 0.0;
   return friction::sign(direction_) * core::at_start(mode_->basis(), speed_rate());
 }
 
@@ -241,7 +241,7 @@ void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
 
 /// Over the phase, `s` long: motion and guard, while the memories are still those of its begin.
 void ExactEngine::track_motion(const friction::Instant& begin, double s) {
-  if (direction_ == Direction::rest) {
+  if (direction_ == Direction::none) {
     sensitivity_.rest();
   } else {
     responses_.clear();
@@ -269,7 +269,7 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
   Sensitivity::Event crossing{
       .velocity = v_,
       .acceleration =
-          direction_ == Direction::rest
+          direction_ == Direction::none
               ? 0.0
               : friction::sign(direction_) * core::evaluate(mode_->basis(), speed_rate(), crossing_.values)};
   if (crossing_.found) {

@@ -23,7 +23,7 @@ void ExactEngine::collect(bool with_guards) {
   if (total_->lasting) return;
   total_->lasting = !some_modal_;
   const friction::Instant at = now();
-  const bool resting = direction_ == Direction::rest;
+  const bool resting = direction_ == Direction::none;
   total_->force = total_->limit = {};
   total_->ramped = drive_.ramped();
   total_->transients.clear();
@@ -199,7 +199,7 @@ void ExactEngine::add_law_guards() {
                      .by_velocity = g.velocity,
                      .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
                                               std::abs(g.velocity * v_) + g.cancelled)});
-      if (direction_ != Direction::rest) {
+      if (direction_ != Direction::none) {
         watches_[guard_count_ - 1].tolerance +=
             velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
       }
@@ -210,7 +210,7 @@ void ExactEngine::add_law_guards() {
       }
       mode_->represent(own, guard.value);
       core::accumulate(basis, g.position, motion_, guard.value);
-      if (direction_ != Direction::rest)
+      if (direction_ != Direction::none)
         core::accumulate(basis, g.velocity * friction::sign(direction_), speed(), guard.value);
       core::prepare(basis, guard);
     }
@@ -220,7 +220,7 @@ void ExactEngine::add_law_guards() {
 void ExactEngine::lay_phase() {
   guard_count_ = 0;
   collect(true);
-  if (direction_ == Direction::rest) {
+  if (direction_ == Direction::none) {
     lay_rest();
   } else {
     lay_slip();
@@ -281,7 +281,7 @@ bool ExactEngine::find_violated() {
       return true;
     }
     guard.known_zeros = std::min(germ.zeros, 3);
-    if (germ.sign == 0 && direction_ == Direction::rest) drop_guard(--i);
+    if (germ.sign == 0 && direction_ == Direction::none) drop_guard(--i);
   }
   return false;
 }

@@ -101,7 +101,7 @@ double Flow::driving(double x, double v, const Drive::Value& drive) const {
 void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates) const {
   double force = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) force += respond(i, X, t, rates.subspan(first_[i], count_[i]));
-  if (direction_ == Direction::rest) {
+  if (direction_ == Direction::none) {
     rates[0] = rates[1] = 0.0;
     return;
   }
@@ -122,14 +122,14 @@ void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const 
   displaced_[column] = X[column] - step;
   const double lower = respond(i, displaced_, t, below_);
   const std::span<double> target = columns.subspan(column * size_, size_);
-  if (direction_ != Direction::rest) target[1] -= (upper - lower) / (2.0 * step) / model_.oscillator.mass;
+  if (direction_ != Direction::none) target[1] -= (upper - lower) / (2.0 * step) / model_.oscillator.mass;
   for (std::size_t k = 0; k < count_[i]; ++k) target[first_[i] + k] = (above_[k] - below_[k]) / (2.0 * step);
 }
 
 void Flow::jacobian(std::span<const double> X, double t, std::span<double> columns) const {
   const Oscillator& o = model_.oscillator;
   std::ranges::fill(columns, 0.0);
-  if (direction_ != Direction::rest) {
+  if (direction_ != Direction::none) {
     const double stretch = drive(t).y - X[0];
     columns[1] = -(o.stiffness + 3.0 * o.cubic_stiffness * stretch * stretch) / o.mass;
     columns[size_] = 1.0;
@@ -145,7 +145,7 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
 double Flow::resisting(std::span<const double> X, double t) const {
   double force = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) {
-    if (direction_ == Direction::rest && silent_[i]) continue;
+    if (direction_ == Direction::none && silent_[i]) continue;
     force += model_.friction[i].force(memory(i, X), instant(i, X, t), direction_);
   }
   return force;
@@ -170,7 +170,7 @@ void Flow::guards(std::size_t i, std::span<const double> X, double t, std::vecto
 Sample Flow::sample(std::span<const double> X, double t) const {
   const Drive::Value& now = drive(t);
   Sample sample{.t = offset_ + t, .y = now.y, .y_rate = now.y_rate, .x = X[0], .external = now.external};
-  if (direction_ == Direction::rest) {
+  if (direction_ == Direction::none) {
     // Friction balances all else.
     sample.force = driving(X[0], 0.0, now);
     return sample;

@@ -68,7 +68,7 @@ class Flow final : public VectorField {
   Model model_;
   const Drive& drive_;
   const VelocityHistory& past_;
-  friction::Direction direction_ = friction::Direction::rest;
+  friction::Direction direction_ = friction::Direction::none;
   double offset_ = 0.0;
   std::size_t size_ = 2;
   std::vector<std::size_t> first_;  ///< of each law: index of its first state in X

@@ -46,7 +46,7 @@ class Interval {
 
   double begin = 0.0;     ///< s
   double duration = 0.0;  ///< s
-  friction::Direction direction = friction::Direction::rest;
+  friction::Direction direction = friction::Direction::none;
   std::optional<EventKind> ending;  ///< none: it ends at a period boundary, a noise's node or the horizon
 
   /// The motion at `begin + s`, 0 <= s <= duration.

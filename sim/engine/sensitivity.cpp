@@ -56,7 +56,7 @@ void Sensitivity::lay(Laws laws, const Memories& memories, const Instant& now, D
   if (!with_states_) return;
   force_.assign(motion_.size(), Eigen::VectorXd::Zero(at(1 + decays.size())));
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (memories[i].state.empty() || (direction == Direction::rest && silent[i])) continue;
+    if (memories[i].state.empty() || (direction == Direction::none && silent[i])) continue;
     const Affine base = laws[i].affine_force(memories[i], now, direction);
     for (std::size_t c = 0; c < motion_.size(); ++c) {
       if (!perturbed(i, c)) continue;

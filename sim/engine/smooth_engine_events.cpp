@@ -26,7 +26,7 @@ constexpr double equal = 1e-12;
 
 void SmoothEngine::lay_watches() {
   watches_.clear();
-  if (direction_ != Direction::rest) {
+  if (direction_ != Direction::none) {
     watches_.push_back({.owner = {.kind = Owner::Kind::velocity}, .scale = flow_.scales()[1]});
   } else if (can_rest_) {
     const double scale = drive_.force_scale() + flow_.limit(X_, local_time_);
@@ -70,7 +70,7 @@ void SmoothEngine::size_up_guards() {
 /// Values of all guards, in the order of watches_.
 void SmoothEngine::evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const {
   values.clear();
-  if (direction_ != Direction::rest) {
+  if (direction_ != Direction::none) {
     values.push_back(friction::sign(direction_) * X[1]);
   } else if (can_rest_) {
     const double pull = flow_.pull(X, t);
@@ -256,8 +256,8 @@ bool SmoothEngine::land(const Hit& hit) {
 
 /// Decides what happens at v = 0. Where the pull equals the limit within rounding, what both do next decides.
 void SmoothEngine::settle() {
-  change_direction(Direction::rest);
-  judge_.freeze(memories_, Direction::rest, time() - local_time_);
+  change_direction(Direction::none);
+  judge_.freeze(memories_, Direction::none, time() - local_time_);
   std::vector<double> X;
   judge_.gather(x_, 0.0, memories_, X);
   std::vector<double> rates(X.size());

@@ -13,7 +13,7 @@ class VelocityHistory;
 struct State {
   double x = 0.0;  ///< m
   double v = 0.0;  ///< m/s
-  friction::Direction direction = friction::Direction::rest;
+  friction::Direction direction = friction::Direction::none;
   std::vector<friction::Memory> memories{};  ///< of each law
   /// The velocity before, where a law sees it; else none.
   std::shared_ptr<const VelocityHistory> past{};

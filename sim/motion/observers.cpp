@@ -171,7 +171,7 @@ void Extremes::observe(const Interval& interval) {
   peak_ = std::max({peak_, begin.x, end.x});
   trough_ = std::min({trough_, begin.x, end.x});
   max_speed_ = std::max({max_speed_, std::abs(begin.v), std::abs(end.v)});
-  if (interval.direction == friction::Direction::rest || interval.duration <= 0.0) return;
+  if (interval.direction == friction::Direction::none || interval.duration <= 0.0) return;
   const ClosedForm* form = interval.closed_form();
   const double inside = form == nullptr ? largest_inner_speed(interval) : largest_inner_speed(interval, *form);
   max_speed_ = std::max(max_speed_, inside);

@@ -50,7 +50,7 @@ FreeDecay free_decay(const Model& model, int peaks) {
   const double patience = 100.0 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
   double deadline = patience;
   while (static_cast<int>(decay.peaks.size()) < peaks) {
-    if (engine.direction() == friction::Direction::rest) {
+    if (engine.direction() == friction::Direction::none) {
       decay.came_to_rest = true;
       break;
     }

@@ -17,7 +17,7 @@ OrbitAccount::OrbitAccount(const Model& model, bool full)
 
 void OrbitAccount::begin(const State& start) {
   peak_ = trough_ = start.x;
-  rests_at_start_ = start.direction == Direction::rest;
+  rests_at_start_ = start.direction == Direction::none;
 }
 
 void OrbitAccount::observe(const Interval& interval, double x) {
@@ -29,7 +29,7 @@ void OrbitAccount::observe(const Interval& interval, double x) {
     energy_.observe(interval);
     fundamental_.observe(interval);
   }
-  const bool rest = interval.direction == Direction::rest;
+  const bool rest = interval.direction == Direction::none;
   if (rest) collect_stick(interval, x);
   resting_ = rest;
   if (interval.ending == EventKind::stop) ++stops_;

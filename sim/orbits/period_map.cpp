@@ -70,7 +70,7 @@ Passage PeriodMap::pass(Derivative derivative, PeriodObserver* observer) {
   while (engine_->cycle() == cycle) {
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
-    passage.moves = passage.moves || interval->direction != Direction::rest;
+    passage.moves = passage.moves || interval->direction != Direction::none;
     passage.size = std::max(passage.size, std::abs(engine_->position()));
     if (observer != nullptr) observer->observe(*interval, engine_->position());
   }
@@ -101,7 +101,7 @@ Eigen::VectorXd coordinates(const State& state) {
 State displaced(const State& state, const Eigen::VectorXd& change) {
   State result = state;
   result.x += change[0];
-  if (state.direction != Direction::rest) result.v += change[1];
+  if (state.direction != Direction::none) result.v += change[1];
   Eigen::Index next = 2;
   for (friction::Memory& memory : result.memories) {
     for (double& value : memory.state) value += change[next++];

@@ -60,8 +60,8 @@ TEST_CASE("contact_compliance: the slider jumps at break-away, the mass does not
   CHECK(law.force(memory, broken, Direction::forward) == 2.0);
   // It re-sticks at the reversal with its spring stretched by kinetic/stiffness.
   const Instant turned{.x = 0.6};
-  law.jump(memory, {}, turned, Direction::rest);
-  CHECK(law.force(memory, turned, Direction::rest) == Approx(2.0).epsilon(1e-13));
+  law.jump(memory, {}, turned, Direction::none);
+  CHECK(law.force(memory, turned, Direction::none) == Approx(2.0).epsilon(1e-13));
   CHECK(law.force(memory, {.x = 0.597}, Direction::backward) == Approx(-1.0).epsilon(1e-13));
 }
 
@@ -101,8 +101,8 @@ TEST_CASE("contact_compliance: under a growing limit the slider stops before the
   law.affine_guards(memory, now, Direction::forward, guards);
   REQUIRE(guards.size() == 1);
   CHECK(friction::value(guards[0], now) == Approx(0.3 - 2.0 * 4.0 / 1000.0).epsilon(1e-14));
-  law.jump(memory, {}, now, Direction::rest);
-  CHECK(law.affine_force(memory, now, Direction::rest).rate == Approx(8.0).epsilon(1e-14));
+  law.jump(memory, {}, now, Direction::none);
+  CHECK(law.affine_force(memory, now, Direction::none).rate == Approx(8.0).epsilon(1e-14));
   // A step of the limit halts the spring at its present force.
   law.jump(memory, {friction::Trigger::limit_change}, now, Direction::forward);
   CHECK(friction::value(law.affine_force(memory, now, Direction::forward), now) == Approx(3.0).epsilon(1e-13));

@@ -100,7 +100,7 @@ TEST_CASE("friction_lag: higher while the mass accelerates than while it deceler
   CHECK(host.force() < 2.5);
   const double w = host.memory().state[0];
   const Instant stop = host.now();
-  host.turn(Direction::rest);
+  host.turn(Direction::none);
   host.follow(half + lag, [&](double t) { return Instant{.t = t, .x = stop.x}; });
   CHECK(host.law().static_limit(host.memory(), host.now()) == Approx(level(w / std::numbers::e)).epsilon(1e-9));
 }

@@ -287,7 +287,7 @@ TEST_CASE("fluctuation: a step that leaves a sloping limit below zero leaves non
   int steps[3] = {};
   for (std::size_t i = 1; i < factor.size(); ++i) {
     now.t = law.next_change(memory);
-    law.jump(memory, {friction::Trigger::scheduled}, now, Direction::rest);
+    law.jump(memory, {friction::Trigger::scheduled}, now, Direction::none);
     CAPTURE(i, factor[i]);
     CHECK(law.force(memory, now, Direction::forward) ==
           Approx(std::max(0.0, 2.0 * factor[i] - 1.0)).epsilon(1e-12));

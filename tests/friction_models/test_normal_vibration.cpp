@@ -59,7 +59,7 @@ NormalVibration::Rider jumping() {
 /// Goes on at this speed for this time; 0: at rest.
 void slide(sim::LawHost& host, double speed, double duration) {
   const Instant from = host.now();
-  host.turn(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::rest);
+  host.turn(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::none);
   host.follow(from.t + duration,
               [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
 }
@@ -99,9 +99,9 @@ TEST_CASE("normal_vibration: the stiffness of small vibrations", "[friction][nor
   // y'' = -(2 weight/(h0 m)) y - 2 ratio w y', w = sqrt(4e6); the square of y/h0 = 1e-7 is left out.
   const Law law{NormalVibration(rider)};
   std::array<double, 2> rates{};
-  law.rates({.state = {1e-11, 0.0}}, {}, Direction::rest, rates);
+  law.rates({.state = {1e-11, 0.0}}, {}, Direction::none, rates);
   CHECK(rates[1] == Approx(-4e6 * 1e-11).epsilon(1e-6));
-  law.rates({.state = {0.0, 1e-3}}, {}, Direction::rest, rates);
+  law.rates({.state = {0.0, 1e-3}}, {}, Direction::none, rates);
   CHECK(rates[0] == 1e-3);
   CHECK(rates[1] == Approx(-2.0 * 0.1 * 2e3 * 1e-3).epsilon(1e-12));
 }

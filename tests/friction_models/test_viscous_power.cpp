@@ -45,7 +45,7 @@ TEST_CASE("viscous_power: dashpot, drag, cube, root", "[friction][viscous_power]
     CHECK(force(3.0, side * 2.0) == Approx(side * 192.0).epsilon(1e-15));
     CHECK(force(0.5, side * 2.0) == Approx(side * 6.0).epsilon(1e-15));
   }
-  CHECK(Law(ViscousPower(3.0, 1.0, 2.0)).force({}, {}, Direction::rest) == 0.0);
+  CHECK(Law(ViscousPower(3.0, 1.0, 2.0)).force({}, {}, Direction::none) == 0.0);
 }
 
 TEST_CASE("viscous_power: work of a harmonic cycle", "[friction][viscous_power]") {

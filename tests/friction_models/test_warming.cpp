@@ -116,7 +116,7 @@ TEST_CASE("warming: at rest the contact cools", "[friction][warming]") {
   slide(host, 0.5, 1.0);
   const double warm = power * std::log(kinetic / host.force());
   REQUIRE(warm > 0.1);
-  host.turn(Direction::rest);
+  host.turn(Direction::none);
   const Instant from = host.now();
   const double wait = 0.9;
   host.follow(from.t + wait, [=](double t) { return Instant{.t = t, .x = from.x}; });

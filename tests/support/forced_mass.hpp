@@ -69,7 +69,7 @@ class ForcedMass {
   double mass_;
   std::function<double(double)> load_;
   friction::Memory memory_;
-  friction::Direction direction_ = friction::Direction::rest;
+  friction::Direction direction_ = friction::Direction::none;
   double t_ = 0.0;
   std::vector<double> z_ = [this] {
     std::vector<double> z(2);

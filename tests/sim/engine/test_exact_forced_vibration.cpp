@@ -360,7 +360,7 @@ TEST_CASE("Intervals join: position and velocity are continuous, acceleration ob
             o.mass * std::abs(s.a) + std::abs(damper) + 100.0 * (std::abs(s.x) + std::abs(s.y)) + 10.0;
         CHECK(std::abs(balance) <= 1e-12 * size);
         CHECK(s.v * friction::sign(interval->direction) >= -1e-13 * speed);
-        if (interval->direction == Direction::rest) CHECK(s.v == 0.0);
+        if (interval->direction == Direction::none) CHECK(s.v == 0.0);
       }
       const sim::Sample last = interval->at(interval->duration);
       x = last.x;

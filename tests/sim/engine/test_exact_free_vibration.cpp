@@ -35,7 +35,7 @@ TEST_CASE("Free Coulomb decay loses 4F/k a cycle, to the last bit, and stops ins
         ++n;
       }
       CHECK(events.size() == n);
-      CHECK(engine.direction() == Direction::rest);
+      CHECK(engine.direction() == Direction::none);
       CHECK(std::abs(engine.position()) * 64.0 <= static_level * (1.0 + 16 * epsilon));
       CHECK(engine.time() == 1e3);
     }

@@ -45,7 +45,7 @@ TEST_CASE("After every release from exact stick the next event is found, and non
     model.initial.position = start + room;
 
     ExactEngine engine(model);
-    if (engine.direction() != Direction::rest) continue;
+    if (engine.direction() != Direction::none) continue;
     const auto first = events_of(engine, 1.5 * engine.period(), 1);
     if (first.empty()) continue;  // the pull never reaches the limit
     REQUIRE(first[0].kind == EventKind::release);

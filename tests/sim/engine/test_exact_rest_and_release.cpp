@@ -28,7 +28,7 @@ TEST_CASE("A start exactly at the limit stays while the pull falls and slips whi
 
       model.excitation.slope = -side * 2.0;
       ExactEngine falling(model);
-      CHECK(falling.direction() == Direction::rest);
+      CHECK(falling.direction() == Direction::none);
       // Released on the other side, when the pull has come down by twice the limit.
       const auto events = events_of(falling, 10.0, 1);
       REQUIRE(events.size() == 1);
@@ -42,7 +42,7 @@ TEST_CASE("A start exactly at the limit stays while the pull falls and slips whi
   still.friction.push_back(coulomb(5.0, 5.0));
   still.initial.position = 0.05;
   ExactEngine engine(still);
-  CHECK(engine.direction() == Direction::rest);
+  CHECK(engine.direction() == Direction::none);
   CHECK(events_of(engine, 1e6).empty());
 }
 
@@ -101,13 +101,13 @@ TEST_CASE("A harmonic pull at the limit at the start: growing, falling and at it
     model.friction.push_back(coulomb(5.0, 5.0));
     model.initial.position = -0.05;
     const ExactEngine engine(model);
-    CHECK(engine.direction() == (rate > 0.0 ? Direction::forward : Direction::rest));
+    CHECK(engine.direction() == (rate > 0.0 ? Direction::forward : Direction::none));
   }
   // At the crest, pull = static = 10 N: equality holds and the pull falls on both sides.
   Model crest = base_driven(1.0, 100.0, 4.0, 0.1, 10.0);
   crest.friction.push_back(coulomb(10.0, 10.0));
   ExactEngine engine(crest);
-  CHECK(engine.direction() == Direction::rest);
+  CHECK(engine.direction() == Direction::none);
   // And it comes back to the crest, once a period, without ever crossing.
   CHECK(events_of(engine, 10.0).empty());
 }
