@@ -1,14 +1,21 @@
-# dualdamp_module(<folder> HEADERS ... SOURCES ... [PUBLIC ...] [PRIVATE ...]): the library of one folder.
+# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]): the library of one folder.
 # HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
+# A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
+# say PAIRS, the test ROOM/test_NAME.cpp: one line for each law.
 # PUBLIC and PRIVATE are what it links.
 function(dualdamp_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dualdamp_module(${name}): unexpected ${arg_UNPARSED_ARGUMENTS}")
   endif()
   if(NOT arg_HEADERS AND NOT arg_SOURCES)
     return()  # a folder still empty
   endif()
+  foreach(pair IN LISTS arg_PAIRS)
+    list(APPEND arg_HEADERS ${pair}.hpp)
+    list(APPEND arg_SOURCES ${pair}.cpp)
+  endforeach()
+  set_property(GLOBAL PROPERTY DUALDAMP_PAIRS_${name} ${arg_PAIRS})
   set(target dualdamp_${name})
   add_library(${target} STATIC)
   add_library(dualdamp::${name} ALIAS ${target})

@@ -18,8 +18,8 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/law_fault.hpp"
-#include "friction_models/modified.hpp"
-#include "friction_models/modifiers.hpp"
+#include "friction_models/modifiers/modified.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
 #include "friction_models/plugin_law.hpp"
 #include "friction_models/registry.hpp"
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/speed/timing.hpp"
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "identify/methods.hpp"
 #include "scenarios/measure.hpp"
 

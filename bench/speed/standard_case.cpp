@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {

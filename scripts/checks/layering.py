@@ -5,7 +5,7 @@ usage: layering.py ROOT
 
 FOLDERS says which folders may include which, ROOMS the same of the rooms inside a folder; LIBRARIES says where each
 foreign library may appear. A header is public when a CMakeLists.txt names it under HEADERS (they are installed),
-private otherwise.
+private otherwise. A name under PAIRS stands for a public header, NAME.hpp, and a source.
 """
 
 import re
@@ -25,6 +25,12 @@ FOLDERS = {
 }
 # What a room may include of its own folder, beside itself. "." is the folder's own top level.
 ROOMS = {
+    "friction_models": {
+        ".": ["laws", "modifiers"],  # the list of laws; the wrapper of plugins
+        "formulas": ["."],
+        "modifiers": ["."],
+        "laws": [".", "formulas", "modifiers"],
+    },
     "sim": {
         ".": [],
         "engine": ["."],
@@ -79,6 +85,7 @@ LIBRARIES = {
 STANDARD = re.compile(r"[a-z_0-9]+$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 HEADER_LIST = re.compile(r"\bHEADERS\b(.*?)(?:\bSOURCES\b|\))", re.DOTALL)
+PAIR_LIST = re.compile(r"\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
 LINKED = re.compile(r"\b(?:dualdamp_|dualdamp::)(%s)\b" % "|".join(FOLDERS))
 # Folders that keep a library in a single file.
 ONE_FILE = {"Boost.Odeint": "sim", "the operating system": "identify"}
@@ -93,8 +100,10 @@ def public_headers(root):
     found = set()
     for folder in FOLDERS:
         for cmake in (root / folder).rglob("CMakeLists.txt"):
-            for names in HEADER_LIST.findall(re.sub(r"#.*", "", cmake.read_text())):
-                found |= {str((cmake.parent / name).relative_to(root)) for name in names.split()}
+            text = re.sub(r"#.*", "", cmake.read_text())
+            names = [name for part in HEADER_LIST.findall(text) for name in part.split()]
+            names += [name + ".hpp" for part in PAIR_LIST.findall(text) for name in part.split()]
+            found |= {str((cmake.parent / name).relative_to(root)) for name in names}
     return found
 
 

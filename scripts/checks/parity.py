@@ -6,7 +6,8 @@ usage: parity.py ROOT PROGRAM
 Laws and methods are those the built PROGRAM lists; a page of another name is a fault. Each law has a header,
 a source, a test, a page and a scenario that uses it; each method likewise, where one file pair may serve a family:
 resonance.{hpp,cpp} serves resonance_two_point. Every header of a library is in a CMakeLists.txt (public under
-HEADERS, which makes a FILE_SET; private under SOURCES), so is every source, and the first line of every shipped scenario points editors to the schema.
+HEADERS, which makes a FILE_SET; private under SOURCES), so is every source; a name under PAIRS stands for header,
+source and test. The first line of every shipped scenario points editors to the schema.
 """
 
 import os
@@ -19,6 +20,7 @@ import yaml
 
 CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "tests"]
 LIBRARIES = ["core", "friction_models", "sim", "identify", "scenarios"]  # folders whose headers are installed
+PAIR_LIST = re.compile(r"\bdualdamp_module\([^)]*?\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
 SHIPPED = ["scenarios/examples", "scenarios/paper"]
 
 
@@ -65,9 +67,9 @@ def law_faults(root, names):
     used = used_words(root, "law")
     for name in names:
         yield from (f"law {name}: {fault}" for fault in lacking(root, [
-            ("header", [f"friction_models/{name}.hpp"]),
-            ("source", [f"friction_models/{name}.cpp"]),
-            ("test", [f"tests/friction_models/test_{name}.cpp"]),
+            ("header", [f"friction_models/laws/{name}.hpp"]),
+            ("source", [f"friction_models/laws/{name}.cpp"]),
+            ("test", [f"tests/friction_models/laws/test_{name}.cpp"]),
             ("page", [f"docs/laws/{name}.md"]),
         ]))
         if name not in used:
@@ -104,8 +106,13 @@ def built_files(root):
     found = set()
     for folder in CODE:
         for cmake in (root / folder).rglob("CMakeLists.txt"):
-            for name in re.findall(r"[\w./-]+\.[ch]pp\b", re.sub(r"#.*", "", cmake.read_text())):
+            text = re.sub(r"#.*", "", cmake.read_text())
+            for name in re.findall(r"[\w./-]+\.[ch]pp\b", text):
                 found.add((cmake.parent / name).resolve())
+            for name in (name for part in PAIR_LIST.findall(text) for name in part.split()):
+                room, stem = name.rsplit("/", 1)
+                found |= {root / folder / f"{name}.{ending}" for ending in ("hpp", "cpp")}
+                found.add(root / "tests" / folder / room / f"test_{stem}.cpp")
     return found
 
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <span>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/batch/kernels.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/orbits/steady_state.hpp"

@@ -12,8 +12,8 @@ CHECK = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "layering.p
 SOUND = {
     "core/units.hpp": "#pragma once\n#include <Eigen/Core>\n#include <string>\n",
     "core/units.cpp": '#include "core/units.hpp"\n\n#include <udunits2.h>\n#include <cmath>\n',
-    "friction_models/coulomb.hpp": '#pragma once\n#include "core/units.hpp"\n',
-    "sim/smooth.hpp": '#pragma once\n#include "friction_models/coulomb.hpp"\n',
+    "friction_models/laws/coulomb.hpp": '#pragma once\n#include "core/units.hpp"\n',
+    "sim/smooth.hpp": '#pragma once\n#include "friction_models/laws/coulomb.hpp"\n',
     "sim/smooth.cpp": '#include "sim/smooth.hpp"\n#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>\n',
     "sim/engine/state.hpp": '#pragma once\n#include "sim/smooth.hpp"\n',
     "identify/fit.cpp": '#include <ceres/ceres.h>\n#include "sim/smooth.hpp"\n',
@@ -25,7 +25,7 @@ SOUND = {
     "tests/core/files.hpp": "#pragma once\n",
     "scenarios/json.hpp": "#pragma once\n#include <nlohmann/json.hpp>\n",
     "core/CMakeLists.txt": "dualdamp_module(core\n  HEADERS units.hpp bad.hpp\n  SOURCES units.cpp)\n",
-    "friction_models/CMakeLists.txt": "dualdamp_module(f HEADERS coulomb.hpp PUBLIC dualdamp_core)\n",
+    "friction_models/CMakeLists.txt": "dualdamp_module(f PAIRS laws/coulomb PUBLIC dualdamp_core)\n",
     "sim/CMakeLists.txt": "# not dualdamp_cli\ndualdamp_module(sim HEADERS smooth.hpp bad.hpp PUBLIC dualdamp_core)\n",
     "scenarios/CMakeLists.txt": "dualdamp_module(scenarios HEADERS bad.hpp SOURCES reader.cpp json.hpp)\n",
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/conformance/law_conformance.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/units.hpp"
-#include "friction_models/modifiers.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
 
 using namespace dualdamp;
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "identify/record.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/identify/records.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
 #include "identify/methods/amplitudes/resonance_two_point.hpp"
 #include "identify/methods/decays/free_decay.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "scenarios/measure.hpp"
 #include "sim/motion/simulate.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "friction_models/modifiers.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
 
 namespace dualdamp::test {
 

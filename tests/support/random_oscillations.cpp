@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <vector>
 
-#include "friction_models/bristle.hpp"
-#include "friction_models/contact_compliance.hpp"
-#include "friction_models/coulomb.hpp"
-#include "friction_models/iwan.hpp"
-#include "friction_models/reset_integrator.hpp"
+#include "friction_models/laws/bristle.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/iwan.hpp"
+#include "friction_models/laws/reset_integrator.hpp"
 
 namespace dualdamp::test {
 

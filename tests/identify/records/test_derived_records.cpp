@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "tests/identify/histories.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/motion/simulate.hpp"

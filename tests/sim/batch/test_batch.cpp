@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "friction_models/contact_compliance.hpp"
-#include "friction_models/coulomb.hpp"
-#include "friction_models/modified.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/modifiers/modified.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/engine/exact_engine.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "tests/support/oracle.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "friction_models/contact_compliance.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
 #include "tests/sim/engine/exact_motions.hpp"
 #include "tests/support/random.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"

@@ -5,8 +5,8 @@
 #include <complex>
 #include <numbers>
 
-#include "friction_models/contact_compliance.hpp"
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/closed_form.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/observers.hpp"

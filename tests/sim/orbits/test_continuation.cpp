@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
 using namespace dualdamp;

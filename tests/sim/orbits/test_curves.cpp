@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "tests/support/random.hpp"
 

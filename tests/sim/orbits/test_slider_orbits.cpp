@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "friction_models/contact_compliance.hpp"
-#include "friction_models/coulomb.hpp"
-#include "friction_models/iwan.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/iwan.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
-#include "friction_models/coulomb.hpp"
-#include "friction_models/viscous_saturating.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/curves.hpp"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 
 using namespace dualdamp;
 

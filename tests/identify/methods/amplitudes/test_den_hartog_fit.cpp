@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/orbits/curves.hpp"

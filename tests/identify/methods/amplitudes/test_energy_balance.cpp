@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "friction_models/coulomb.hpp"
+#include "friction_models/laws/coulomb.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/histories.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"

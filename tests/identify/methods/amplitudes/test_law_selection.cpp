@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "friction_models/coulomb.hpp"
-#include "friction_models/stribeck.hpp"
-#include "friction_models/viscous_power.hpp"
-#include "friction_models/viscous_saturating.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/stribeck.hpp"
+#include "friction_models/laws/viscous_power.hpp"
+#include "friction_models/laws/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/orbits/curves.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "friction_models/viscous_saturating.hpp"
+#include "friction_models/laws/viscous_saturating.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "friction_models/contact_compliance.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;

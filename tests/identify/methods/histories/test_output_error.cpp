@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "friction_models/viscous_saturating.hpp"
+#include "friction_models/laws/viscous_saturating.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "tests/identify/histories.hpp"
 

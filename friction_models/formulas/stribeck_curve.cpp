@@ -1,0 +1,62 @@
+#include "friction_models/formulas/stribeck_curve.hpp"
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::friction {
+
+namespace {
+
+StribeckCurve::Form form_of(const ParameterValues& values) {
+  if (!values.has("form")) return StribeckCurve::Form::gaussian;
+  if (values.choice("form") == "exponential") return StribeckCurve::Form::exponential;
+  return values.choice("form") == "lorentz" ? StribeckCurve::Form::lorentz : StribeckCurve::Form::gaussian;
+}
+
+}  // namespace
+
+std::vector<Parameter> StribeckCurve::parameters(const Range& kinetic) {
+  return {
+      {.name = "kinetic", .unit = "N", .range = kinetic, .meaning = "friction level at high speed"},
+      {.name = "static",
+       .unit = "N",
+       .same_as = "kinetic",
+       .range = {.low = 0.0},
+       .at_least = "kinetic",
+       .meaning = "friction level at rest"},
+      {.name = "stribeck_velocity",
+       .unit = "m/s",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "speed over which the level falls from static to kinetic"},
+  };
+}
+
+std::vector<Parameter> StribeckCurve::shape_parameters() {
+  return {
+      {.name = "exponent",
+       .unit = "1",
+       .fallback = 2.0,
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "of the speed ratio in the form gaussian"},
+      {.name = "form",
+       .kind = ParameterKind::choice,
+       .words = {"gaussian", "exponential", "lorentz"},
+       .fallback = "gaussian",
+       .meaning = "how the level falls: exp(-r^exponent), exp(-r), 1/(1 + r^2)"},
+  };
+}
+
+std::vector<ParameterFault> StribeckCurve::check_shape(const ParameterValues& values) {
+  const std::string& form = values.choice("form");
+  const double exponent = values.number("exponent");
+  if (form == "gaussian" || exponent == 2.0) return {};
+  return {{.name = "exponent",
+           .message = "'exponent' belongs to the form gaussian, not to " + form,
+           .allowed = "no exponent, or the form gaussian",
+           .found = core::format_number(exponent)}};
+}
+
+StribeckCurve::StribeckCurve(const ParameterValues& values)
+    : StribeckCurve(values.number("kinetic"), values.number("static"), values.number("stribeck_velocity"),
+                    form_of(values), values.has("exponent") ? values.number("exponent") : 2.0) {}
+
+}  // namespace dualdamp::friction

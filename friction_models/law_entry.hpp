@@ -1,0 +1,43 @@
+#pragma once
+/// What the program knows about a law beside its equation of motion: name, texts, facts, parameters, and how it is
+/// made from values. Each law's source states its entry once; listing, schema, checks and documentation use it.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/provenance.hpp"
+#include "friction_models/law.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+enum class EngineKind { exact, smooth };
+
+struct LawEntry {
+  std::string_view name;      ///< YAML name
+  std::string_view summary;   ///< one line
+  std::string_view equation;  ///< plain text, for `dualdamp laws NAME`
+  EngineKind engine = EngineKind::exact;
+  std::string_view states{};  ///< what it remembers, in words; empty: nothing
+  bool is_random = false;
+  bool is_odd = true;                         ///< the mirrored motion gives the mirrored force
+  bool is_passive = true;                     ///< never gives out more work than it took in
+  std::string_view caution{};                 ///< what the literature warns of, in one sentence; empty: nothing
+  std::string_view sources{};                 ///< keys in `docs/refs.bib`
+  std::vector<std::string_view> modifiers{};  ///< names of those it supports
+  /// Its own and, once in `laws()`, those of its modifiers.
+  std::vector<Parameter> parameters{};
+  /// Laws in parallel that make up this one. `values` complete.
+  std::function<std::vector<Law>(const ParameterValues& values)> make{};
+  /// What its table cannot say: rules between values that each are in range. `values` complete. May be absent.
+  std::function<std::vector<ParameterFault>(const ParameterValues& values)> check{};
+  /// What to warn of with these complete values.
+  std::function<std::vector<std::string>(const ParameterValues& values)> warnings{};
+  std::vector<std::string_view> limits{};  ///< parameters that modifiers act on, where the entry says so
+  std::optional<core::Plugin> plugin{};    ///< the library it comes from; none: it is built in
+};
+
+}  // namespace dualdamp::friction

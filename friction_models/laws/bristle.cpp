@@ -1,0 +1,100 @@
+#include "friction_models/laws/bristle.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "friction_models/law_entry.hpp"
+#include "friction_models/modifiers/modified.hpp"
+
+namespace dualdamp::friction {
+
+namespace {
+
+/// Bristles this close to their limit, relative, are at it: rounding must not tell equal ones apart.
+constexpr double same_place = 1.0 - 1e-12;
+
+}  // namespace
+
+const std::vector<Parameter>& Bristle::parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "stiffness",
+       .unit = "N/m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stiffness of one bristle"},
+      {.name = "snap_distance",
+       .unit = "m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stretch at which a bristle snaps"},
+      {.name = "count",
+       .kind = ParameterKind::count,
+       .range = {.low = 1.0, .high = 10'000.0},
+       .meaning = "number of bristles"},
+      {.name = "seed", .kind = ParameterKind::seed, .meaning = "which of the random paths"},
+  };
+  return table;
+}
+
+bool Bristle::has_length(const Instant& now) const {
+  const Affine limit = now.limit(snap_distance_);
+  return limit.constant != 0.0 || limit.rate != 0.0;
+}
+
+double Bristle::draw_place(Memory& memory, const Instant& now) const {
+  const auto number = static_cast<std::uint64_t>(memory.indices[0]++);
+  return now.x + now.limit_now(snap_distance_) * (2.0 * draws_.uniform(number) - 1.0);
+}
+
+Memory Bristle::start(const Instant& now) const {
+  Memory memory{.indices = {0}};
+  for (int i = 0; i < count_; ++i) memory.state.push_back(draw_place(memory, now));
+  std::ranges::sort(memory.state);
+  return memory;
+}
+
+Affine Bristle::affine_force(const Memory& memory, const Instant& now, Direction) const {
+  if (!has_length(now)) return {};
+  const double places = std::accumulate(memory.state.begin(), memory.state.end(), 0.0);
+  return {.constant = -stiffness_ * places, .position = stiffness_ * count_};
+}
+
+void Bristle::affine_guards(const Memory& memory, const Instant& now, Direction,
+                            std::vector<Affine>& guards) const {
+  if (!has_length(now)) return;
+  const Affine limit = now.limit(snap_distance_);
+  guards.push_back(limit - Affine{.constant = -memory.state.front(), .position = 1.0});
+  guards.push_back(limit + Affine{.constant = -memory.state.back(), .position = 1.0});
+}
+
+void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
+  std::vector<double>& places = memory.state;
+  if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(places, now.x);
+  if (trigger.cause < 0) return;
+  // All of this side that are beyond the limit snap together: many after it fell, and those that stand in one
+  // place.
+  const double limit = same_place * now.limit_now(snap_distance_);
+  const bool rear = trigger.cause == 0;
+  do {
+    const double place = draw_place(memory, now);
+    places.erase(rear ? places.begin() : places.end() - 1);
+    places.insert(std::ranges::lower_bound(places, place), place);
+  } while (rear ? now.x - places.front() >= limit : places.back() - now.x >= limit);
+}
+
+LawEntry bristle_entry() {
+  return {.name = "bristle",
+          .summary = "bonds that stretch, snap and form anew at random (Haessig and Friedland)",
+          .equation = "F = sum of stiffness (x - b);  at |x - b| = snap_distance: b = x + snap_distance U(-1, 1)",
+          .states = "place of each bristle",
+          .is_random = true,
+          .is_odd = false,
+          .sources = "haessig1991",
+          .modifiers = {"fluctuation"},
+          .parameters = Bristle::parameters(),
+          .make = [](const ParameterValues& p) -> std::vector<Law> {
+            const Law law(Bristle(p.number("stiffness"), p.number("snap_distance"),
+                                  static_cast<int>(p.count("count")), p.seed("seed")));
+            return {modified(law, p)};
+          }};
+}
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,58 @@
+#include "friction_models/laws/dahl.hpp"
+
+#include <cmath>
+
+#include "friction_models/formulas/smooth.hpp"
+#include "friction_models/law_entry.hpp"
+#include "friction_models/modifiers/modified.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& Dahl::parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "kinetic",
+       .unit = "N",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "friction force of a long slip"},
+      {.name = "sigma0",
+       .unit = "N/m",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "stiffness of the bristles at F = 0"},
+      {.name = "exponent",
+       .unit = "1",
+       .fallback = 1.0,
+       .range = {.low = 1.0},
+       .meaning = "shape of the approach to the kinetic level"},
+  };
+  return table;
+}
+
+void Dahl::rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const {
+  const double kinetic = divisor(now.limit_now(kinetic_), kinetic_);
+  const double room = 1.0 - sign(direction) * sigma0_ * memory.state[0] / kinetic;
+  rates[0] = now.v * (exponent_ == 1.0 ? room : std::copysign(std::pow(std::abs(room), exponent_), room));
+}
+
+double Dahl::dissipation(const Memory& memory, const Instant& now, Direction direction) const {
+  double rate = 0.0;
+  rates(memory, now, direction, {&rate, 1});
+  return sigma0_ * memory.state[0] * (now.v - rate);
+}
+
+LawEntry dahl_entry() {
+  return {.name = "dahl",
+          .summary = "bristles that give way gradually, whatever the speed (Dahl)",
+          .equation = "F = sigma0 z;  z' = v |1 - sigma0 z sgn v/kinetic|^exponent sgn(1 - sigma0 z sgn v/kinetic)",
+          .engine = EngineKind::smooth,
+          .states = "mean deflection z of the bristles",
+          .sources = "dahl1976",
+          .modifiers = all_modifiers(),
+          .parameters = Dahl::parameters(),
+          .make = [](const ParameterValues& p) -> std::vector<Law> {
+            const Law law(Dahl(p.number("kinetic"), p.number("sigma0"), p.number("exponent")));
+            return {modified(law, p, {p.number("kinetic")})};
+          }};
+}
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,92 @@
+#include "friction_models/laws/elasto_plastic.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "friction_models/law_entry.hpp"
+#include "friction_models/modifiers/modified.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& ElastoPlastic::parameters() {
+  static const std::vector<Parameter> table = [] {
+    std::vector<Parameter> list = Lugre::parameters();
+    list.push_back({.name = "elastic_limit",
+                    .unit = "m",
+                    .range = {.low = 0.0, .low_open = true},
+                    .meaning = "deflection up to which the bristles do not give way, < kinetic/sigma0"});
+    return list;
+  }();
+  return table;
+}
+
+std::vector<ParameterFault> ElastoPlastic::check(const ParameterValues& values) {
+  const double limit = values.number("elastic_limit");
+  const double beyond = values.number("kinetic") / values.number("sigma0");
+  if (limit < beyond) return {};
+  return {{.name = "elastic_limit",
+           .message = "'elastic_limit' is not below kinetic/sigma0",
+           .allowed = "> 0 m and < " + core::format_number(beyond) + " m",
+           .found = core::format_number(limit) + " m"}};
+}
+
+ElastoPlastic::ElastoPlastic(const ParameterValues& values)
+    : ElastoPlastic(StribeckCurve(values), Lugre::bristles(values), values.number("elastic_limit")) {}
+
+double ElastoPlastic::plastic_share(const Instant& now, double stretch, double level) const {
+  const double largest = level / bristles_.sigma0;
+  if (stretch >= largest) return 1.0;
+  const double least = now.limit_now(elastic_force_) / bristles_.sigma0;
+  return 0.5 * std::sin(std::numbers::pi * (stretch - (largest + least) / 2.0) / (largest - least)) + 0.5;
+}
+
+double ElastoPlastic::respond(const Memory& memory, const Instant& now, Direction direction,
+                              std::span<double> rates) const {
+  const double z = memory.state[0];
+  rates[0] = now.v;
+  if (memory.mode == yielding) {
+    const double speed = sign(direction) * now.v;
+    const double level = curve_.divisor(now, speed);
+    const double share = plastic_share(now, sign(direction) * z, level);
+    rates[0] -= share * bristles_.sigma0 * speed * z / level;
+  }
+  return bristles_.sigma0 * z + bristles_.sigma1 * rates[0] + bristles_.sigma2 * now.v;
+}
+
+void ElastoPlastic::guards(const Memory& memory, const Instant& now, Direction direction,
+                           std::vector<double>& values) const {
+  if (direction == Direction::none) return;
+  const double room = now.limit_now(elastic_force_) - sign(direction) * bristles_.sigma0 * memory.state[0];
+  values.push_back(memory.mode == elastic ? room : -room);
+}
+
+double ElastoPlastic::dissipation(const Memory& memory, const Instant& now, Direction direction) const {
+  double rate = 0.0;
+  const double force = respond(memory, now, direction, {&rate, 1});
+  return force * now.v - bristles_.sigma0 * memory.state[0] * rate;
+}
+
+LawEntry elasto_plastic_entry() {
+  return {.name = "elasto_plastic",
+          .summary = "LuGre bristles with an elastic range, which do not drift (Dupont and others)",
+          .equation =
+              "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v (1 - alpha(z, v) sigma0 sgn(v) z/g(v)), alpha = 0 up "
+              "to elastic_limit, g as in lugre",
+          .engine = EngineKind::smooth,
+          .states = "mean deflection z of the bristles",
+          .is_passive = false,
+          .sources = "dupont2002",
+          .modifiers = all_modifiers(),
+          .parameters = ElastoPlastic::parameters(),
+          .make = [](const ParameterValues& p) -> std::vector<Law> {
+            return {modified(
+                Law(ElastoPlastic(p)), p,
+                {p.number("sigma0") * p.number("elastic_limit"), p.number("kinetic"), p.number("static")})};
+          },
+          .check = ElastoPlastic::check,
+          .warnings = Lugre::warnings};
+}
+
+}  // namespace dualdamp::friction

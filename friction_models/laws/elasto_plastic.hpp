@@ -1,0 +1,64 @@
+#pragma once
+/// Elasto-plastic bristles: LuGre with a range of deflections in which they do not give way, so that a load that
+/// stays within it moves the mass and brings it back.
+///
+///   z' = v (1 - alpha sigma0 sgn(v) z/g(v))
+///   F  = sigma0 z + sigma1 z' + sigma2 v           [N], g as in `lugre`
+///   alpha = 0                                                               |z| <= z_ba, or sgn z != sgn v
+///           (1 + sin(pi (|z| - (z_m + z_ba)/2)/(z_m - z_ba)))/2              z_ba < |z| < z_m = g(v)/sigma0
+///           1                                                               |z| >= z_m
+///
+/// z_ba is `elastic_limit`, below kinetic/sigma0. No drift under loads below sigma0 z_ba, where LuGre creeps.
+/// sigma0 z_ba is a force limit, which modifiers change with the others. As lugre it gives out work where sigma2 <
+/// sigma1 (static - kinetic)/kinetic.
+///
+/// Modes: elastic, alpha = 0; and yielding, sgn(v) z > z_ba. At z_m alpha has a continuous slope and no event: z
+/// comes near it without end in a long slip.
+///
+/// Source: dupont2002 in `docs/refs.bib`. Smooth engine. Cost: an exponential and a sine a call.
+
+#include <span>
+#include <vector>
+
+#include "friction_models/formulas/stribeck_curve.hpp"
+#include "friction_models/law.hpp"
+#include "friction_models/laws/lugre.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+class ElastoPlastic {
+ public:
+  static const std::vector<Parameter>& parameters();
+  /// An elastic limit beyond kinetic/sigma0.
+  static std::vector<ParameterFault> check(const ParameterValues& values);
+
+  /// elastic_limit: m, > 0 and < kinetic/sigma0.
+  ElastoPlastic(const StribeckCurve& curve, const Lugre::Bristles& bristles, double elastic_limit)
+      : curve_(curve), bristles_(bristles), elastic_force_(bristles.sigma0 * elastic_limit) {}
+  /// From the parameters.
+  explicit ElastoPlastic(const ParameterValues& values);
+
+  [[nodiscard]] Memory start(const Instant&) const { return {.state = {0.0}}; }
+  [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
+                               std::span<double> rates) const;
+  void guards(const Memory& memory, const Instant& now, Direction direction, std::vector<double>& values) const;
+  void jump(Memory& memory, Trigger trigger, const Instant&, Direction) const {
+    memory.mode = trigger.cause >= 0 && memory.mode == elastic ? yielding : elastic;
+  }
+  void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
+  /// F v less what the bristles store, sigma0 z z'.
+  [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
+
+ private:
+  enum : int { elastic, yielding };
+
+  /// alpha at |z| = stretch.
+  [[nodiscard]] double plastic_share(const Instant& now, double stretch, double level) const;
+
+  StribeckCurve curve_;
+  Lugre::Bristles bristles_;
+  double elastic_force_;
+};
+
+}  // namespace dualdamp::friction

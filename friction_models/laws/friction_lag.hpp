@@ -1,0 +1,77 @@
+#pragma once
+/// Friction with memory: Coulomb's law at a level that follows the speed late.
+///
+///   slip   F = level sgn v                         [N]
+///   rest   F = pull while |pull| <= level          [N]
+///
+///   FrictionLag        level = level(|w|),  w' = (v - w)/lag at rest too, w = v at first
+///   DelayedFriction    level = level(|v(t - lag)|), at rest too; before the start the velocity is the initial one
+///
+/// level(u): the Stribeck curve of `stribeck_curve.hpp`; without lag this is `stribeck`. As the level falls with
+/// speed, friction is higher while the mass accelerates than while it decelerates, and after a stop the static
+/// limit is regained in a time of about `lag`.
+///
+/// Source: rice1983 (a state that relaxes), hess1990 (the delay, measured) in `docs/refs.bib`. Smooth engine. Cost:
+/// one exponential a call, one look into the past for the delay.
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "friction_models/formulas/stribeck_curve.hpp"
+#include "friction_models/law.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+/// The lag is one of first order. Mode: the sign of w, 0 before the first motion.
+class FrictionLag {
+ public:
+  static const std::vector<Parameter>& parameters();
+
+  /// s > 0.
+  FrictionLag(const StribeckCurve& curve, double lag) : curve_(curve), lag_(lag) {}
+
+  [[nodiscard]] Memory start(const Instant& now) const;
+  [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
+                               std::span<double> rates) const {
+    rates[0] = (now.v - memory.state[0]) / lag_;
+    return sign(direction) * level(memory, now);
+  }
+  [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const { return level(memory, now); }
+  void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.velocity(); }
+  /// |w|: the level has a kink where w changes its sign, some time after v does.
+  void guards(const Memory& memory, const Instant&, Direction, std::vector<double>& values) const {
+    if (memory.mode != 0) values.push_back(memory.mode * memory.state[0]);
+  }
+  void jump(Memory& memory, Trigger trigger, const Instant&, Direction direction) const;
+
+ private:
+  [[nodiscard]] double level(const Memory& memory, const Instant& now) const {
+    return curve_.level(now, memory.mode * memory.state[0]);
+  }
+
+  StribeckCurve curve_;
+  double lag_;
+};
+
+/// The lag is a pure delay.
+class DelayedFriction {
+ public:
+  /// s > 0.
+  DelayedFriction(const StribeckCurve& curve, double lag) : curve_(curve), lag_(lag) {}
+
+  [[nodiscard]] double force(const Memory&, const Instant& now, Direction direction) const {
+    return sign(direction) * level(now);
+  }
+  [[nodiscard]] double static_limit(const Memory&, const Instant& now) const { return level(now); }
+  [[nodiscard]] double delay() const { return lag_; }
+
+ private:
+  [[nodiscard]] double level(const Instant& now) const { return curve_.level(now, std::abs(now.past_velocity)); }
+
+  StribeckCurve curve_;
+  double lag_;
+};
+
+}  // namespace dualdamp::friction

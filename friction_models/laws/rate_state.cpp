@@ -1,0 +1,105 @@
+#include "friction_models/laws/rate_state.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "friction_models/law_entry.hpp"
+#include "friction_models/modifiers/modified.hpp"
+
+namespace dualdamp::friction {
+
+namespace {
+
+/// asinh(ratio exp(exponent)), where the exponential alone may overflow.
+double asinh_scaled(double ratio, double exponent) {
+  constexpr double largest = 300.0;
+  if (exponent < largest) return std::asinh(ratio * std::exp(exponent));
+  if (ratio == 0.0) return 0.0;
+  // asinh y = ln 2y + O(1/y^2); below that y is so small that the speed is none.
+  const double logarithm = exponent + std::log(std::abs(ratio));
+  if (logarithm < largest) return std::copysign(std::asinh(std::exp(logarithm)), ratio);
+  return std::copysign(logarithm + std::numbers::ln2, ratio);
+}
+
+/// r ln |r|, which is 0 at 0.
+double entropy(double r) { return r == 0.0 ? 0.0 : r * std::log(std::abs(r)); }
+
+}  // namespace
+
+const std::vector<Parameter>& RateState::parameters() {
+  constexpr Range positive = {.low = 0.0, .low_open = true};
+  static const std::vector<Parameter> table = {
+      {.name = "normal_force",
+       .unit = "N",
+       .range = {.low = 0.0},
+       .meaning = "force that presses the faces together"},
+      {.name = "mu0",
+       .unit = "1",
+       .range = positive,
+       .meaning = "coefficient of steady friction at the reference velocity"},
+      {.name = "a", .unit = "1", .range = positive, .meaning = "direct effect: growth with ln of speed, at once"},
+      {.name = "b",
+       .unit = "1",
+       .range = {.low = 0.0},
+       .meaning = "evolution effect: fall with ln of speed, over the slip distance"},
+      {.name = "slip_distance", .unit = "m", .range = positive, .meaning = "slip over which contacts are renewed"},
+      {.name = "reference_velocity", .unit = "m/s", .range = positive, .meaning = "speed to which mu0 refers"},
+      {.name = "evolution",
+       .kind = ParameterKind::choice,
+       .words = {"aging", "slip"},
+       .fallback = "aging",
+       .meaning = "how contacts change: with time and slip, or with slip only"},
+  };
+  return table;
+}
+
+std::vector<std::string> RateState::warnings(const ParameterValues& values) {
+  // Beyond 25 a speed of exp(-mu0/a) times one that the motion has is near the rounding of that; motions that
+  // stick, whose contacts age, have been given up from 16 on.
+  constexpr double largest = 15.0;
+  const double ratio = values.number("mu0") / values.number("a");
+  if (ratio <= largest) return {};
+  return {
+      "a motion that reverses may take very long to compute: at a reversal the force turns over within "
+      "exp(-mu0/a) = exp(-" +
+      core::format_number(ratio, 3) + ") of the reference velocity"};
+}
+
+RateState::RateState(const ParameterValues& values)
+    : RateState(Contact{.normal_force = values.number("normal_force"),
+                        .mu0 = values.number("mu0"),
+                        .a = values.number("a"),
+                        .b = values.number("b"),
+                        .slip_distance = values.number("slip_distance"),
+                        .reference_velocity = values.number("reference_velocity"),
+                        .evolution = values.choice("evolution") == "slip" ? Evolution::slip : Evolution::aging}) {}
+
+double RateState::respond(const Memory& memory, const Instant& now, Direction direction,
+                          std::span<double> rates) const {
+  const double psi = memory.state[0];
+  const double ratio = now.v / contact_.reference_velocity;
+  const double speed_ratio = sign(direction) * ratio;
+  const double pace = contact_.reference_velocity / contact_.slip_distance;
+  rates[0] = contact_.evolution == Evolution::aging ? pace * (std::exp(-psi) - speed_ratio)
+                                                    : -pace * (entropy(speed_ratio) + speed_ratio * psi);
+  const double exponent = (contact_.mu0 + contact_.b * psi) / contact_.a;
+  return now.limit_now(contact_.normal_force) * contact_.a * asinh_scaled(0.5 * ratio, exponent);
+}
+
+LawEntry rate_state_entry() {
+  return {.name = "rate_state",
+          .summary = "friction that grows with ln of speed at once and falls with it over a distance of slip",
+          .equation =
+              "F = a normal_force asinh(v/(2 V0) exp((mu0 + b psi)/a));  aging: psi' = (V0/Dc) (exp(-psi) - "
+              "|v|/V0);  slip: psi' = -(|v|/Dc) (ln(|v|/V0) + psi)",
+          .engine = EngineKind::smooth,
+          .states = "age psi of the contacts, ln",
+          .sources = "dieterich1979, ruina1983, rice1983, rice2001",
+          .modifiers = {"drift", "fluctuation", "warming"},
+          .parameters = RateState::parameters(),
+          .make = [](const ParameterValues& p) -> std::vector<Law> { return {modified(Law(RateState(p)), p)}; },
+          .warnings = RateState::warnings};
+}
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,39 @@
+#include "friction_models/laws/viscous_power.hpp"
+
+#include "friction_models/law_entry.hpp"
+#include "friction_models/modifiers/modified.hpp"
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& ViscousPower::parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "coefficient", .unit = "N", .range = {.low = 0.0}, .meaning = "force at the reference velocity"},
+      {.name = "reference_velocity",
+       .unit = "m/s",
+       .fallback = 1.0,
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "speed to which the power refers"},
+      {.name = "exponent",
+       .unit = "1",
+       .range = {.low = 0.0, .low_open = true},
+       .meaning = "of the speed: 1 a dashpot, 2 drag"},
+  };
+  return table;
+}
+
+LawEntry viscous_power_entry() {
+  return {
+      .name = "viscous_power",
+      .summary = "force against the motion that goes with a power of speed: drag, films that thin under shear",
+      .equation = "F = coefficient (|v|/reference_velocity)^exponent sgn v",
+      .engine = EngineKind::smooth,
+      .sources = "ostwald1925, jacobsen1930",
+      .modifiers = {"drift", "fluctuation", "warming"},
+      .parameters = ViscousPower::parameters(),
+      .make = [](const ParameterValues& p) -> std::vector<Law> {
+        const Law law(ViscousPower(p.number("coefficient"), p.number("reference_velocity"), p.number("exponent")));
+        return {modified(law, p)};
+      }};
+}
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,66 @@
+#include "friction_models/modifiers/modifiers.hpp"
+
+#include <algorithm>
+
+namespace dualdamp::friction {
+
+const std::vector<Parameter>& modifier_parameters() {
+  static const std::vector<Parameter> table = {
+      {.name = "drift",
+       .unit = "1/s",
+       .is_optional = true,
+       .meaning = "growth of the force limits with time, relative; they end at 0"},
+      {.name = "position_slope",
+       .unit = "N/m",
+       .is_optional = true,
+       // The spring relaxes towards a limit that follows x: no affine function of x and v any more.
+       .not_beside = "contact_damping",
+       .meaning = "growth of the force limits with the distance from x = 0; they end at 0"},
+      {.name = "fluctuation",
+       .kind = ParameterKind::record,
+       .fields = {{.name = "ratio",
+                   .unit = "1",
+                   // A level beyond that is 0 for a sixth of the time: no fluctuation any more.
+                   .range = {.low = 0.0, .high = 1.0},
+                   .meaning = "standard deviation relative to the level"},
+                  {.name = "correlation_time",
+                   .unit = "s",
+                   .range = {.low = 0.0, .low_open = true},
+                   .meaning = "time in which the correlation falls to 1/e"},
+                  {.name = "correlation_length",
+                   .unit = "m",
+                   .instead_of = "correlation_time",
+                   .range = {.low = 0.0, .low_open = true},
+                   .meaning = "distance over which the correlation falls to 1/e"},
+                  {.name = "seed", .kind = ParameterKind::seed, .meaning = "which of the random paths"}},
+       .is_optional = true,
+       .meaning = "random growth and fall of the force limits with time or position"},
+      {.name = "warming",
+       .kind = ParameterKind::record,
+       .fields = {{.name = "power",
+                   .unit = "W",
+                   .range = {.low = 0.0, .low_open = true},
+                   .meaning = "power turned to heat at which the force limits fall to 1/e"},
+                  {.name = "time_constant",
+                   .unit = "s",
+                   .range = {.low = 0.0, .low_open = true},
+                   .meaning = "time in which the contact warms and cools"}},
+       .is_optional = true,
+       .meaning = "fall of the force limits with the power that friction turns to heat"},
+  };
+  return table;
+}
+
+std::vector<std::string_view> all_modifiers() {
+  std::vector<std::string_view> names;
+  for (const Parameter& modifier : modifier_parameters()) names.push_back(modifier.name);
+  return names;
+}
+
+std::vector<Parameter> with_modifiers(std::vector<Parameter> own, const std::vector<std::string_view>& modifiers) {
+  for (const Parameter& modifier : modifier_parameters())
+    if (std::ranges::find(modifiers, modifier.name) != modifiers.end()) own.push_back(modifier);
+  return own;
+}
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,31 @@
+#pragma once
+/// Modifiers: what may happen to the force limits of a law beside its own equation (`modified.hpp`). A law entry
+/// names those that it supports; they stand among its parameters. The factors act first, the slope after.
+///
+///   drift           limits multiplied by max(0, 1 + drift t)
+///   position_slope  limits plus position_slope |x|, at least 0
+///   fluctuation     limits multiplied by max(0, 1 + ratio n), n a stationary Ornstein-Uhlenbeck process of
+///                   variance 1 over time, correlation exp(-|t|/correlation_time), or over position, correlation
+///                   exp(-|x|/correlation_length), held on a grid
+///   warming         limits multiplied by exp(-P/power), P the power that the law turns to heat, averaged with a
+///                   weight that falls as exp(-t/time_constant) into the past; makes the law one of the smooth
+///                   engine
+
+#include <string_view>
+#include <vector>
+
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+/// All of them, each optional: absent, it does nothing.
+[[nodiscard]] const std::vector<Parameter>& modifier_parameters();
+
+/// The names of all of them.
+[[nodiscard]] std::vector<std::string_view> all_modifiers();
+
+/// A law's own parameters, then the modifiers named.
+[[nodiscard]] std::vector<Parameter> with_modifiers(std::vector<Parameter> own,
+                                                    const std::vector<std::string_view>& modifiers);
+
+}  // namespace dualdamp::friction

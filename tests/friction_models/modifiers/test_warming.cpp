@@ -1,0 +1,165 @@
+// The modifier warming: p' = (P - p)/tau, limits multiplied by exp(-p/power).
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/modifiers/modified.hpp"
+#include "friction_models/registry.hpp"
+#include "sim/conformance/law_conformance.hpp"
+#include "sim/conformance/law_host.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "tests/support/standard_system.hpp"
+
+using namespace dualdamp;
+using friction::Direction;
+using friction::Instant;
+using friction::Law;
+using friction::ParameterValues;
+
+namespace {
+
+constexpr double kinetic = 2.0;  // N
+
+ParameterValues warming(double power, double time_constant) {
+  const ParameterValues record{{"power", power}, {"time_constant", time_constant}};
+  return {{"warming", std::vector<ParameterValues>{record}}};
+}
+
+Law warm_coulomb(double power, double time_constant) {
+  return friction::modified(Law(friction::Coulomb(kinetic, kinetic)), warming(power, time_constant), {kinetic});
+}
+
+/// Slides forward at this speed for this time.
+void slide(sim::LawHost& host, double speed, double duration) {
+  if (host.direction() != Direction::forward) host.turn(Direction::forward);
+  const Instant from = host.now();
+  host.follow(from.t + duration,
+              [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
+}
+
+}  // namespace
+
+TEST_CASE("laws that warm conform to the law contract", "[friction][warming]") {
+  const ParameterValues curve{{"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.05}};
+  const auto with = [](ParameterValues values, const ParameterValues& more) {
+    for (const auto& [name, value] : more.values()) values.set(name, value);
+    return values;
+  };
+  struct {
+    std::string name;
+    ParameterValues values;
+  } const laws[] = {
+      {"coulomb", {{"kinetic", 2.0}, {"static", 3.0}}},
+      {"coulomb", {{"kinetic", 2.0}, {"position_slope", -30.0}}},
+      {"contact_compliance", {{"kinetic", 2.0}, {"static", 3.0}, {"contact_stiffness", 1e3}}},
+      {"contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", 1e3}, {"contact_damping", 20.0}}},
+      {"stribeck", curve},
+      {"friction_lag", with(curve, {{"lag", 0.05}})},
+      {"dahl", {{"kinetic", 2.0}, {"sigma0", 1e3}}},
+      {"lugre", with(curve, {{"sigma0", 1e3}, {"sigma1", 1.0}, {"sigma2", 1.0}})},
+      {"bouc_wen", {{"limit", 2.0}, {"stiffness", 1e3}, {"exponent", 2.0}}},
+      {"viscous_power", {{"coefficient", 2.0}, {"exponent", 2.0}}},
+  };
+  for (const auto& [name, values] : laws) {
+    sim::LawCase c = sim::law_case(name, with(values, warming(0.5, 0.3)));
+    c.stroke = 0.05;
+    CAPTURE(name, values.has("contact_damping"), values.has("position_slope"));
+    CHECK(sim::nonconformities(c) == std::vector<std::string>{});
+  }
+}
+
+TEST_CASE("warming: a law of the smooth engine, whose motions may be periodic", "[friction][warming]") {
+  const Law law = warm_coulomb(1.0, 1.0);
+  CHECK_FALSE(law.is_affine());
+  CHECK(law.aperiodic().empty());
+}
+
+TEST_CASE("warming: steady sliding", "[friction][warming]") {
+  // F = kinetic exp(-F v/power): F v/power = W(kinetic v/power), here by bisection of an increasing function.
+  const double power = 0.7;
+  for (const double v : {0.05, 0.5, 3.0}) {
+    double low = 0.0;
+    double high = kinetic;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (low + high);
+      (middle * std::exp(middle * v / power) < kinetic ? low : high) = middle;
+    }
+    sim::LawHost host(warm_coulomb(power, 0.1), {.v = v});
+    // The slowest approach is exp(-t/0.1).
+    slide(host, v, 4.0);
+    CHECK(host.force() == Approx(low).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("warming: no heat is lost in a time short against the time constant", "[friction][warming]") {
+  // p' = kinetic v exp(-p/power)/tau: F = kinetic/(1 + kinetic v t/(tau power)). What cools away is t/tau of it.
+  const double tau = 1e8;
+  const double capacity = 3.0;  // J: tau power
+  const double v = 0.5;
+  sim::LawHost host(warm_coulomb(capacity / tau, tau), {.v = v});
+  for (const double t : {1.0, 4.0, 9.0}) {
+    slide(host, v, t - host.now().t);
+    CHECK(host.force() == Approx(kinetic / (1.0 + kinetic * v * t / capacity)).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("warming: at rest the contact cools", "[friction][warming]") {
+  const double power = 0.7;
+  const double tau = 0.4;
+  sim::LawHost host(warm_coulomb(power, tau), {.v = 0.5});
+  slide(host, 0.5, 1.0);
+  const double warm = power * std::log(kinetic / host.force());
+  REQUIRE(warm > 0.1);
+  host.turn(Direction::none);
+  const Instant from = host.now();
+  const double wait = 0.9;
+  host.follow(from.t + wait, [=](double t) { return Instant{.t = t, .x = from.x}; });
+  const double limit = kinetic * std::exp(-warm * std::exp(-wait / tau) / power);
+  CHECK(host.law().static_limit(host.memory(), host.now()) == Approx(limit).epsilon(1e-9));
+}
+
+TEST_CASE("warming: a compliant contact is heated by its slider only", "[friction][warming]") {
+  // The loop 4 kinetic (A - kinetic/kt), whatever the spring holds; a power so large does not change the limit.
+  const double tau = 1e8;
+  const double power = 1e9;
+  const double A = 0.05;
+  const Law contact(friction::ContactCompliance(kinetic, kinetic, 1e3, 0.0));
+  sim::LawHost host(friction::modified(contact, warming(power, tau), {kinetic}), {});
+  host.move_to(A);
+  const double before = host.memory().state.back();
+  host.move_to(-A);
+  host.move_to(A);
+  REQUIRE_FALSE(host.broken());
+  const double heat = tau * (host.memory().state.back() - before);
+  CHECK(heat == Approx(4.0 * kinetic * (A - kinetic / 1e3)).epsilon(1e-7));
+}
+
+TEST_CASE("warming: a slow contact in steady vibration is coulomb at the mean power", "[friction][warming]") {
+  // Over a period p' adds up to nothing, so the mean of p is the friction work over the period, W/T. With tau >> T
+  // it hardly varies: the motion is that under F = kinetic exp(-W/(T power)), W = 4 F x, up to T/tau.
+  const double T = std::numbers::pi / 5.0;
+  const double power = 3.0;
+  double F = kinetic;
+  double x = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    x = sim::steady_state(test::standard_system(Law(friction::Coulomb(F, F)))).amplitude;
+    F = kinetic * std::exp(-4.0 * F * x / (T * power));
+  }
+  REQUIRE(F < 0.6 * kinetic);
+  const auto error = [&](double tau) {
+    const sim::SteadyState orbit = sim::steady_state(test::standard_system(warm_coulomb(power, tau)));
+    REQUIRE(orbit.outcome.ok());
+    CHECK(orbit.stable());
+    return std::abs(orbit.amplitude - x);
+  };
+  const double coarse = error(20.0 * T);
+  const double fine = error(80.0 * T);
+  CHECK(coarse < 1e-3 * x);
+  CHECK(std::log(coarse / fine) / std::log(4.0) == Approx(1.0).margin(0.15));
+}
