@@ -22,7 +22,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/search_result.hpp"
 #include "core/outcome.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/excitation.hpp"

@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/search_result.hpp"
 #include "core/outcome.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/interval.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/first_crossing.hpp"
 #include "sim/engine/closed_form.hpp"
 
 namespace dualdamp::sim {

@@ -14,7 +14,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/guard.hpp"
+#include "core/interval_start.hpp"
+#include "core/search_result.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/linear_mode.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/search_result.hpp"
 #include "core/outcome.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/model.hpp"

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/search_result.hpp"
 #include "core/outcome.hpp"
 #include "sim/orbits/steady_state.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/search_result.hpp"
 #include "core/outcome.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/state.hpp"

@@ -1,0 +1,37 @@
+#pragma once
+/// What a search for the first crossing reports (`core/first_crossing.hpp`).
+
+#include "core/exponential_basis.hpp"
+
+namespace dualdamp::core {
+
+struct Crossing {
+  bool found = false;
+  int guard = -1;                   ///< index of the guard that crossed
+  double s = 0.0;                   ///< where [s]
+  ExponentialBasis::Values values;  ///< E_k at s, or at the horizon when nothing was found
+};
+
+/// A guard touches zero and does not cross.
+struct Grazing {
+  int guard = -1;
+  double s = 0.0;  ///< s
+};
+
+/// What has been searched so far: the certificate a run can print.
+struct SearchCount {
+  long searches = 0;  ///< searches for the next event
+  long panels = 0;    ///< certified, of all guards at once
+  long splits = 0;    ///< panels of one guard that had to be divided
+  long grazings = 0;  ///< guards that touched zero without crossing
+
+  SearchCount& operator+=(const SearchCount& other) {
+    searches += other.searches;
+    panels += other.panels;
+    splits += other.splits;
+    grazings += other.grazings;
+    return *this;
+  }
+};
+
+}  // namespace dualdamp::core
