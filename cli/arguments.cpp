@@ -28,7 +28,7 @@ void add_output_options(CLI::App& command, std::string& out, bool& json, bool& q
       ->type_name("DIR")
       ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
   command.add_flag("--json", json, "Print one JSON document and nothing else");
-  command.add_flag("--quiet", quiet, "No messages on stderr but errors");
+  command.add_flag("--quiet", quiet, "Print only errors on stderr");
 }
 
 /// The libraries that DUALDAMP_PLUGINS names.
@@ -48,7 +48,7 @@ class Parser {
     app_.set_version_flag("--version", version_text());
     add_plugins(app_);
     app_.footer(
-        "Exit status: 0 done, 1 a requested check failed, 2 wrong usage, 3 invalid scenario or data,\n"
+        "Exit status: 0 done, 1 a requested check failed, 2 wrong command line, 3 invalid scenario or data,\n"
         "4 numerical failure, 5 some cases of a stress test failed, 70 a bug of this program, 130 interrupted.");
     add_run();
     add_check();
@@ -76,9 +76,7 @@ class Parser {
     const auto append = [this](const std::vector<std::string>& files) {
       plugins_.insert(plugins_.end(), files.begin(), files.end());
     };
-    command
-        .add_option_function<std::vector<std::string>>("--plugin", append,
-                                                       "Library with a friction law, loaded before anything else")
+    command.add_option_function<std::vector<std::string>>("--plugin", append, "Shared library with a friction law")
         ->allow_extra_args(false)
         ->type_name("LIB");
   }
@@ -87,20 +85,18 @@ class Parser {
     run_command_ = app_.add_subcommand("run", "Run scenario files");
     run_command_->add_option("FILE", run_.files, "Scenario files")->required()->type_name("");
     add_output_options(*run_command_, run_.out, run_.json, run_.quiet);
-    run_command_
-        ->add_option("--set", run_.set,
-                     "Replace or add a value before the file is checked: --set system.mass='2 kg'")
+    run_command_->add_option("--set", run_.set, "Set a value before the file is checked: --set system.mass='2 kg'")
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
     constexpr int max_jobs = 1024;
     run_command_
-        ->add_option(
-            "--jobs", run_.jobs,
-            "Threads, by default all cores; of several files, how many run at the same time (by default one)")
+        ->add_option("--jobs", run_.jobs,
+                     "Number of threads (default: all cores); with several files, how many run at the same time "
+                     "(default: one)")
         ->check(CLI::Range(1, max_jobs))
         ->type_name("N");
-    run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and say what would be run");
-    run_command_->add_flag("--resume", run_.resume, "Go on with a stress test that was interrupted");
+    run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
+    run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test");
     add_plugins(*run_command_);
   }
 
@@ -119,7 +115,7 @@ class Parser {
         ->type_name("");
     command
         .add_option("--mass", identify_.mass,
-                    "Mass, such as '1.042 kg'; without it the methods that can estimate it")
+                    "Mass, such as '1.042 kg'; without it only methods that do not need it are used")
         ->type_name("QUANTITY");
     command
         .add_option("--stiffness", identify_.stiffness,
@@ -127,24 +123,24 @@ class Parser {
         ->type_name("QUANTITY");
     command
         .add_option("--frequency", identify_.frequency,
-                    "Forcing frequency, such as '6.17 Hz'; not for a free decay")
+                    "Forcing frequency, such as '6.17 Hz'; a free decay has none")
         ->type_name("QUANTITY");
-    command.add_option("--method", identify_.methods, "A method to use; default: all that fit the data")
+    command
+        .add_option("--method", identify_.methods, "A method to use; default: all methods that can read the data")
         ->allow_extra_args(false)
         ->type_name("NAME");
-    command.add_option("--unit", identify_.units, "Unit of a column that the file does not state: --unit x=mm")
+    command.add_option("--unit", identify_.units, "Unit of a column, if the file does not state it: --unit x=mm")
         ->allow_extra_args(false)
         ->type_name("COLUMN=UNIT");
     command
-        .add_option("--column", identify_.columns,
-                    "What the file calls a column, or its number: --column x='LVDT 2'")
+        .add_option("--column", identify_.columns, "Name or number of a column in the file: --column x='LVDT 2'")
         ->allow_extra_args(false)
         ->type_name("COLUMN=NAME");
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }
 
   void add_report() {
-    report_command_ = app_.add_subcommand("report", "Write the page of a result directory, report.html, anew");
+    report_command_ = app_.add_subcommand("report", "Write report.html of a result directory again");
     report_command_->add_option("DIR", report_.directories, "Directories with a result.json")
         ->required()
         ->type_name("");
@@ -159,8 +155,7 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("NAME=VALUE")
         ->needs(check);
-    laws_command_
-        ->add_option("--stroke", laws_.stroke, "Longest stroke of the test; strokes up to this visit all modes")
+    laws_command_->add_option("--stroke", laws_.stroke, "Longest stroke of the test; it should reach all modes")
         ->type_name("QUANTITY")
         ->capture_default_str()
         ->needs(check);
@@ -172,7 +167,7 @@ class Parser {
     methods_command_ = app_.add_subcommand("methods", "List the identification methods, or explain one");
     methods_command_->add_option("NAME", methods_.name, "A method")->type_name("");
     schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
-    schema_command_->add_flag("--markdown", schema_.markdown, "The reference page instead");
+    schema_command_->add_flag("--markdown", schema_.markdown, "Print the reference page instead");
     add_plugins(*schema_command_);
   }
 
