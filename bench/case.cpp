@@ -30,7 +30,7 @@ sim::ReferenceMotion reference_of(const sim::Truth& truth, const scenarios::Exci
 
 sim::Model model_of(const Grid::Motion& motion, const sim::Truth& truth, const sim::SteadyStateOptions& options) {
   if (motion.law == nullptr) return sim::undisturbed(truth);
-  return motion.law->apply(truth, reference_of(truth, *motion.range, options), motion.severity);
+  return sim::departed(*motion.law, truth, reference_of(truth, *motion.range, options), motion.severity);
 }
 
 Motions motions_of(const Grid& grid, const Grid::Motion& motion, const sim::Truth& truth,

@@ -19,9 +19,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 using scenarios::MechanismStudy;
+using sim::Apparatus;
 using sim::Mechanism;
 using sim::MechanismParameter;
-using sim::Rig;
 
 /// Error of steps and closure of orbits: what differences over `step` can bear.
 constexpr double accuracy = 1e-8;
@@ -175,15 +175,16 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
   return best;
 }
 
-std::optional<Response> response(const Mechanism& mechanism, const Rig& rig, const sim::RigFriction& friction,
-                                 std::span<const double> values, const std::vector<double>& Y) {
+std::optional<Response> response(const Mechanism& mechanism, const Apparatus& apparatus,
+                                 const sim::RigFriction& friction, std::span<const double> values,
+                                 const std::vector<double>& Y) {
   sim::SteadyStateOptions options;
   options.tolerance = accuracy;
   options.max_periods = patience;
   options.full_account = false;
   Response result;
   for (const double amplitude : Y) {
-    sim::Model model = mechanism.build(rig, friction, values, amplitude);
+    sim::Model model = driven(mechanism, apparatus, friction, values, amplitude);
     model.solver.tolerance = accuracy;
     const sim::SteadyState state = sim::steady_state(model, options);
     if (!state.outcome.ok()) return std::nullopt;
@@ -193,9 +194,9 @@ std::optional<Response> response(const Mechanism& mechanism, const Rig& rig, con
   return result;
 }
 
-MechanismSearch::MechanismSearch(const Mechanism& mechanism, const MechanismStudy& study, const Rig& rig,
-                                 Levels near)
-    : mechanism_(mechanism), study_(study), rig_(rig), near_(std::move(near)) {}
+MechanismSearch::MechanismSearch(const Mechanism& mechanism, const MechanismStudy& study,
+                                 const Apparatus& apparatus, Levels near)
+    : mechanism_(mechanism), study_(study), apparatus_(apparatus), near_(std::move(near)) {}
 
 std::size_t MechanismSearch::starts() const {
   if (mechanism_.parameters.empty()) return 1;
@@ -210,7 +211,8 @@ MechanismSearch::Point MechanismSearch::point(const VectorXd& p) const {
   for (std::size_t i = 0; i < parameters(); ++i) {
     const MechanismParameter& parameter = mechanism_.parameters[i];
     const double u = p[first_parameter() + static_cast<Index>(i)];
-    point.values.push_back(natural_scale(rig_, parameter.unit) * (goes_by_ratios(parameter) ? std::exp(u) : u));
+    point.values.push_back(natural_scale(apparatus_, parameter.unit) *
+                           (goes_by_ratios(parameter) ? std::exp(u) : u));
   }
   return point;
 }
@@ -235,7 +237,7 @@ VectorXd MechanismSearch::start(std::size_t number) const {
   // data read.
   const scenarios::PartEstimate& estimate = number == 0 ? study_.estimates.back() : study_.estimates.front();
   const double below = number == 0 ? 0.85 : 0.95;
-  const double c = 2.0 * estimate.zeta * std::sqrt(rig_.oscillator.mass * rig_.oscillator.stiffness);
+  const double c = 2.0 * estimate.zeta * std::sqrt(apparatus_.oscillator.mass * apparatus_.oscillator.stiffness);
   VectorXd p = VectorXd::Ones(static_cast<Index>(unknowns()));
   p[0] = below * estimate.F0 / study_.friction.F0;
   p[1] = below * c / study_.friction.c;
@@ -269,12 +271,12 @@ MechanismFit MechanismSearch::refine(const MechanismFit& rough) const {
 }
 
 MechanismFit MechanismSearch::fit(const VectorXd& from, double tolerance) const {
-  const identify::KnownConstants constants{rig_.oscillator.mass, rig_.oscillator.stiffness,
-                                           rig_.reference.frequency};
+  const identify::KnownConstants constants{apparatus_.oscillator.mass, apparatus_.oscillator.stiffness,
+                                           apparatus_.reference.frequency};
   MechanismFit result;
   const auto test = [&](const VectorXd& p) -> std::optional<VectorXd> {
     const Point here = point(p);
-    const auto outputs = response(mechanism_, rig_, here.friction, here.values, here.Y);
+    const auto outputs = response(mechanism_, apparatus_, here.friction, here.values, here.Y);
     if (!outputs || outputs->sticks) return std::nullopt;
     result.levels = {here.Y, outputs->x};
     const auto readings = read_parts(result.levels, study_, constants);

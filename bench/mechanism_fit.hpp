@@ -21,7 +21,7 @@
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
 #include "scenarios/mechanism_study.hpp"
-#include "sim/mechanisms.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -56,7 +56,7 @@ struct Response {
   std::vector<double> x;  ///< m
   bool sticks = false;    ///< at one of them at least
 };
-[[nodiscard]] std::optional<Response> response(const sim::Mechanism& mechanism, const sim::Rig& rig,
+[[nodiscard]] std::optional<Response> response(const sim::Mechanism& mechanism, const sim::Apparatus& apparatus,
                                                const sim::RigFriction& friction, std::span<const double> values,
                                                const std::vector<double>& Y);
 
@@ -71,12 +71,12 @@ struct MechanismFit {
   Eigen::VectorXd unknowns;  ///< for `refine`
 };
 
-/// Fits one mechanism; the study, the rig and the mechanism outlive it.
+/// Fits one mechanism; the study, the apparatus and the mechanism outlive it.
 class MechanismSearch {
  public:
   /// `near`: levels with which searches begin, or the known ones.
-  MechanismSearch(const sim::Mechanism& mechanism, const scenarios::MechanismStudy& study, const sim::Rig& rig,
-                  Levels near);
+  MechanismSearch(const sim::Mechanism& mechanism, const scenarios::MechanismStudy& study,
+                  const sim::Apparatus& apparatus, Levels near);
 
   /// Places from which the mechanism's parameters are sought.
   [[nodiscard]] std::size_t starts() const;
@@ -110,7 +110,7 @@ class MechanismSearch {
 
   const sim::Mechanism& mechanism_;
   const scenarios::MechanismStudy& study_;
-  const sim::Rig& rig_;
+  const sim::Apparatus& apparatus_;
   Levels near_;
 };
 

@@ -32,16 +32,17 @@ class Study {
   Study(const Scenario& scenario, Levels levels)
       : study_(study_of(scenario)),
         levels_(std::move(levels)),
-        rig_(rig_of(scenario, levels_)),
-        constants_{rig_.oscillator.mass, rig_.oscillator.stiffness, rig_.reference.frequency} {
-    for (const Mechanism* mechanism : study_.mechanisms) searches_.emplace_back(*mechanism, study_, rig_, levels_);
+        apparatus_(apparatus_of(scenario, levels_)),
+        constants_{apparatus_.oscillator.mass, apparatus_.oscillator.stiffness, apparatus_.reference.frequency} {
+    for (const Mechanism* mechanism : study_.mechanisms)
+      searches_.emplace_back(*mechanism, study_, apparatus_, levels_);
   }
 
   [[nodiscard]] std::vector<Explanation> explain() const;
   [[nodiscard]] std::vector<Effect> effects() const;
 
  private:
-  static sim::Rig rig_of(const Scenario& scenario, const Levels& levels);
+  static sim::Apparatus apparatus_of(const Scenario& scenario, const Levels& levels);
   [[nodiscard]] std::vector<MechanismFit> rough_fits() const;
   void finish(Explanation& explanation) const;
   [[nodiscard]] std::optional<DecayReading> decay(const Explanation& explanation) const;
@@ -50,12 +51,12 @@ class Study {
 
   const MechanismStudy& study_;
   Levels levels_;
-  sim::Rig rig_;
+  sim::Apparatus apparatus_;
   identify::KnownConstants constants_;
   std::vector<MechanismSearch> searches_;
 };
 
-sim::Rig Study::rig_of(const Scenario& scenario, const Levels& levels) {
+sim::Apparatus Study::apparatus_of(const Scenario& scenario, const Levels& levels) {
   // Steady states know a slow warming by its mean power: five periods are slow enough for four digits.
   constexpr double warming_periods = 5.0;
   const std::size_t middle = levels.Y.size() / 2;
@@ -112,8 +113,8 @@ double Study::stretch(const Explanation& explanation) const {
 /// Of the fitted rig on the spring of the decay, cold, released from rest.
 std::optional<DecayReading> Study::decay(const Explanation& explanation) const {
   const MeasuredDecay& measured = *study_.decay;
-  sim::Rig cold = rig_;
-  cold.warming_time = sim::Rig{}.warming_time;
+  sim::Apparatus cold = apparatus_;
+  cold.warming_time = sim::Apparatus{}.warming_time;
   const sim::Model model = released(*explanation.mechanism, cold, explanation.fit.friction, explanation.fit.values,
                                     measured.stiffness, measured.displacement);
   constexpr int extremes = 5;
@@ -151,7 +152,7 @@ void Study::finish(Explanation& explanation) const {
     const double input =
         Y.front() - margin + (Y.back() - Y.front() + 2.0 * margin) * static_cast<double>(i) / (points - 1);
     const auto output =
-        response(*explanation.mechanism, rig_, explanation.fit.friction, explanation.fit.values, {input});
+        response(*explanation.mechanism, apparatus_, explanation.fit.friction, explanation.fit.values, {input});
     if (!output) continue;
     explanation.curve.Y.push_back(input);
     explanation.curve.x.push_back(output->x.front());
@@ -199,7 +200,7 @@ std::vector<Effect> Study::effects() const {
     const PlausibleRig& plausible = study_.plausible[first];
     Effect& effect = effects[first];
     effect.rig = &plausible;
-    effect.response = response(*plausible.mechanism, rig_, study_.friction, plausible.values, levels_.Y);
+    effect.response = response(*plausible.mechanism, apparatus_, study_.friction, plausible.values, levels_.Y);
     if (effect.response) effect.readings = read_parts({levels_.Y, effect.response->x}, study_, constants_);
   });
   return effects;

@@ -4,7 +4,7 @@
 #include "core/numbers.hpp"
 #include "scenarios/checks_of_analyses.hpp"
 #include "scenarios/formulas.hpp"
-#include "sim/departures.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::scenarios {
 

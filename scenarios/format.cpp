@@ -5,10 +5,9 @@
 #include "identify/methods.hpp"
 #include "identify/readers/record_reader.hpp"
 #include "scenarios/formulas.hpp"
-#include "sim/departures.hpp"
 #include "sim/excitation.hpp"
-#include "sim/mechanisms.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::scenarios {
 

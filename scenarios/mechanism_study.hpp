@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/mechanisms.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -8,7 +8,7 @@
 
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
-#include "sim/departures.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::scenarios {
 

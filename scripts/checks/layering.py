@@ -40,6 +40,7 @@ ROOMS = {
         "orbits": [".", "engine", "motion", "analytic", "batch"],
         "batch": [".", "engine", "motion", "orbits"],
         "conformance": [".", "engine"],
+        "rigs": ["."],
     },
     "identify": {
         ".": ["methods"],  # the list of methods

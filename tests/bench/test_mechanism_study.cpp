@@ -22,8 +22,8 @@ namespace {
 
 const sim::Oscillator oscillator{.mass = 1.042, .stiffness = 1568.0};
 const identify::KnownConstants constants{1.042, 1568.0, sim::natural_frequency(oscillator)};
-const sim::Rig rig{.oscillator = oscillator,
-                   .reference = {.amplitude = 9.7e-3, .frequency = constants.frequency, .Y = 5.6e-3}};
+const sim::Apparatus rig{.oscillator = oscillator,
+                         .reference = {.amplitude = 9.7e-3, .frequency = constants.frequency, .Y = 5.6e-3}};
 const bench::Levels five = {{4.452e-3, 5.027e-3, 5.602e-3, 6.177e-3, 6.752e-3},
                             {5.117e-3, 7.143e-3, 9.667e-3, 12.707e-3, 16.896e-3}};
 

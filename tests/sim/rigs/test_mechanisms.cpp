@@ -1,7 +1,5 @@
 // Mechanisms: each of them vanishes into Coulomb + viscous friction, and the formulas that they are built by hold.
 
-#include "sim/mechanisms.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "sim/analytic/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 
@@ -21,13 +20,14 @@ namespace {
 /// The rig of the paper: X = 9.7 mm in mid range.
 const sim::Oscillator oscillator{.mass = 1.042, .stiffness = 1568.0};
 const double natural = sim::natural_frequency(oscillator);
-const sim::Rig rig{.oscillator = oscillator, .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
+const sim::Apparatus rig{.oscillator = oscillator,
+                         .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
 const sim::RigFriction usual{.F0 = 3.7, .c = 11.0};
 
 sim::SteadyState steady(const std::string& name, const std::vector<double>& values) {
   const sim::Mechanism* mechanism = sim::find_mechanism(name);
   REQUIRE(mechanism != nullptr);
-  const sim::SteadyState state = sim::steady_state(mechanism->build(rig, usual, values, rig.reference.Y));
+  const sim::SteadyState state = sim::steady_state(sim::driven(*mechanism, rig, usual, values, rig.reference.Y));
   REQUIRE(state.outcome.ok());
   return state;
 }
@@ -113,7 +113,8 @@ TEST_CASE("mechanisms: a film has the force of the damper c at the reference spe
   for (const auto& [name, value] :
        std::map<std::string, double>{{"viscous_power", 0.4}, {"viscous_saturating", 0.3}}) {
     CAPTURE(name);
-    const sim::Model model = sim::find_mechanism(name)->build(rig, usual, std::vector{value}, rig.reference.Y);
+    const sim::Model model =
+        sim::driven(*sim::find_mechanism(name), rig, usual, std::vector{value}, rig.reference.Y);
     CHECK(force_at(model, V) == Approx(expected).epsilon(1e-14));
     // Below it sublinear films have more: F = c V (v/V)^n, and c (1 + V/v0) v/(1 + v/v0).
     const double half =
@@ -126,7 +127,7 @@ TEST_CASE("mechanisms: a clipped base moves as the formula says and is read by i
   const double stroke = 6e-3;
   const double Y = 6.75e-3;
   const sim::Excitation drive =
-      sim::find_mechanism("base_clipping")->build(rig, usual, std::vector{stroke}, Y).excitation;
+      sim::driven(*sim::find_mechanism("base_clipping"), rig, usual, std::vector{stroke}, Y).excitation;
   const double a = Y / stroke;
   // Coefficients fall by exp(-2 asinh(pi/2a)) = 0.11 from one to the next: eight of them leave 0.11^8 = 2e-8 of Y.
   for (int i = 0; i <= 40; ++i) {
@@ -148,7 +149,8 @@ TEST_CASE("mechanisms: a warm film is a weaker damper, by the power that it turn
   const double cold = usual.c * std::exp(0.5 * usual.c * V * V / power);
   double c = usual.c;
   for (int i = 0; i < 60; ++i) {
-    sim::Model model = sim::find_mechanism("coulomb_viscous")->build(rig, {usual.F0, c}, {}, rig.reference.Y);
+    sim::Model model =
+        sim::driven(*sim::find_mechanism("coulomb_viscous"), rig, {usual.F0, c}, {}, rig.reference.Y);
     const double heat = c * sim::steady_state(model).mean_square_speed;
     c = 0.5 * (c + cold * std::exp(-heat / power));
   }

@@ -1,12 +1,11 @@
 // Every departure from Coulomb + viscous friction tends to it as its severity falls.
 
-#include "sim/departures.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "sim/orbits/steady_state.hpp"
+#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 
@@ -26,7 +25,7 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
     CHECK(sim::find_departure(departure.name) == &departure);
     CHECK_FALSE(departure.severity.empty());
     const auto distance = [&](double s) {
-      const sim::SteadyState state = sim::steady_state(departure.apply(truth, motion, s));
+      const sim::SteadyState state = sim::steady_state(sim::departed(departure, truth, motion, s));
       REQUIRE(state.outcome.ok());
       return std::abs(state.amplitude / reference.amplitude - 1.0) + std::abs(state.phase - reference.phase);
     };

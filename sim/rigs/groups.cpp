@@ -1,0 +1,43 @@
+#include "sim/rigs/groups.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "friction_models/registry.hpp"
+
+namespace dualdamp::sim {
+
+using friction::ParameterValues;
+
+std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups) {
+  std::vector<Rig> all;
+  for (const std::vector<Rig>& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+Model with_law(Model model, std::string_view law, ParameterValues values) {
+  const friction::LawEntry* entry = friction::find_law(law);
+  if (entry == nullptr || !friction::complete(*entry, values).empty())
+    throw std::logic_error("the law " + std::string(law) + " refuses the values of a table");
+  for (friction::Law& part : entry->make(values)) model.friction.push_back(std::move(part));
+  return model;
+}
+
+Model with_coulomb(const RigBase& base, ParameterValues values) {
+  values.set("kinetic", base.F0);
+  return with_law(base.model, "coulomb", std::move(values));
+}
+
+Model coulomb_viscous(const RigBase& base, RigValues) { return with_coulomb(base); }
+
+std::vector<ParameterValues> warming(const RigBase& base, double power) {
+  return {ParameterValues{{"power", power}, {"time_constant", base.warming_time}}};
+}
+
+double when_cold(const RigBase& base, double found, double heat, double power) {
+  return base.found_at_reference ? found * std::exp(heat / power) : found;
+}
+
+}  // namespace dualdamp::sim

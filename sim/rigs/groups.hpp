@@ -1,0 +1,72 @@
+#pragma once
+/// The groups that the table of rigs is made of, and the pieces that several of them share.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "friction_models/parameters.hpp"
+#include "sim/rigs/rigs.hpp"
+
+namespace dualdamp::sim {
+
+/// Friction that yields before it slips: contacts behind a stiffness, and bristles.
+[[nodiscard]] std::vector<Rig> contact_rigs();
+/// Coulomb friction that depends on speed, position, warmth or the load of the contact.
+[[nodiscard]] std::vector<Rig> sliding_rigs();
+/// Viscous friction that is not proportional to speed.
+[[nodiscard]] std::vector<Rig> film_rigs();
+/// Drives and springs that differ from what the laboratory states.
+[[nodiscard]] std::vector<Rig> drive_rigs();
+
+[[nodiscard]] std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups);
+
+/// Values of a rig's parameters, SI.
+using RigValues = std::span<const double>;
+
+/// `model` with the law beside those it has; defaults of `values` are filled in. Errors: `std::logic_error` when
+/// the law is unknown or refuses the values, which is a fault of the table.
+[[nodiscard]] Model with_law(Model model, std::string_view law, friction::ParameterValues values);
+
+/// The base with Coulomb friction F0; `values` are further parameters of the law.
+[[nodiscard]] Model with_coulomb(const RigBase& base, friction::ParameterValues values = {});
+
+/// `with_coulomb` as the builder of a rig without parameters.
+[[nodiscard]] Model coulomb_viscous(const RigBase& base, RigValues values);
+
+/// Parameters of the modifier `warming` for a heat power at which the force has fallen to 1/e [W].
+[[nodiscard]] std::vector<friction::ParameterValues> warming(const RigBase& base, double power);
+
+/// The force or damping of the cold rig: `found` is what the base states, `heat` the power that friction turns to
+/// heat in the reference motion [W].
+[[nodiscard]] double when_cold(const RigBase& base, double found, double heat, double power);
+
+/// Severities of laws whose friction falls with speed say "over 0.1 of the peak speed".
+[[nodiscard]] inline double tenth_of_speed(const RigBase& base) { return 0.1 * base.reference.speed(); }
+
+/// What several rigs have.
+inline constexpr friction::Range positive = {.low = 0.0, .low_open = true};
+inline constexpr RigParameter excess_parameter = {.name = "excess",
+                                                  .unit = "1",
+                                                  .meaning = "of friction at rest over F0, over F0",
+                                                  .range = {.low = 0.0},
+                                                  .start = 0.3,
+                                                  .low = 1e-4,
+                                                  .high = 3.0};
+inline constexpr RigParameter fall_parameter = {.name = "stribeck_velocity",
+                                                .unit = "m/s",
+                                                .meaning = "speed over which the excess falls",
+                                                .range = positive,
+                                                .start = 0.3,
+                                                .low = 0.01,
+                                                .high = 5.0};
+inline constexpr RigParameter power_parameter = {
+    .name = "power",
+    .unit = "W",
+    .meaning = "power turned to heat at which the force has fallen to 1/e",
+    .range = positive,
+    .start = 6.0,
+    .low = 0.1,
+    .high = 1e3};
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,109 @@
+#include "sim/rigs/rigs.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "sim/rigs/groups.hpp"
+
+namespace dualdamp::sim {
+
+namespace {
+
+std::vector<Rig> those_that(bool (*belongs)(const Rig&)) {
+  std::vector<Rig> list;
+  std::ranges::copy_if(rigs(), std::back_inserter(list), belongs);
+  return list;
+}
+
+const Rig* find(const std::vector<Rig>& list, std::string_view name) {
+  const auto found = std::ranges::find(list, name, &Rig::name);
+  return found == list.end() ? nullptr : &*found;
+}
+
+RigBase base_of(const Apparatus& apparatus, const RigFriction& friction, double Y) {
+  // Friction of boundary lubrication falls over the first 10 mm/s.
+  RigBase base{.F0 = friction.F0,
+               .reference = apparatus.reference,
+               .warming_time = apparatus.warming_time,
+               .boundary_velocity = 0.01,
+               .found_at_reference = true};
+  base.model.oscillator = apparatus.oscillator;
+  base.model.oscillator.damping = friction.c;
+  base.model.excitation = {
+      .type = ExcitationType::base_harmonic, .amplitude = Y, .frequency = apparatus.reference.frequency};
+  return base;
+}
+
+}  // namespace
+
+const std::vector<Rig>& rigs() {
+  static const std::vector<Rig> list = [] {
+    std::vector<Rig> all = joined({contact_rigs(), sliding_rigs(), film_rigs(), drive_rigs()});
+    std::ranges::sort(all, {}, &Rig::name);
+    return all;
+  }();
+  return list;
+}
+
+const std::vector<Rig>& departures() {
+  static const std::vector<Rig> list = those_that([](const Rig& rig) { return !rig.severity.empty(); });
+  return list;
+}
+
+const std::vector<Rig>& mechanisms() {
+  static const std::vector<Rig> list = those_that([](const Rig& rig) { return !rig.plausible.empty(); });
+  return list;
+}
+
+const Rig* find_departure(std::string_view name) { return find(departures(), name); }
+
+const Rig* find_mechanism(std::string_view name) { return find(mechanisms(), name); }
+
+Model undisturbed(const Truth& truth) { return with_coulomb({.model = truth.model, .F0 = truth.F0}); }
+
+Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s) {
+  const double period = 2.0 * std::numbers::pi / reference.frequency;
+  const RigBase base{.model = truth.model,
+                     .F0 = truth.F0,
+                     .reference = reference,
+                     .warming_time = 5.0 * period,
+                     .boundary_velocity = 0.02 * reference.speed()};
+  return departure.build(base, departure.values_at(base, s));
+}
+
+Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+             std::span<const double> values, double Y) {
+  return mechanism.build(base_of(apparatus, friction, Y), values);
+}
+
+Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+               std::span<const double> values, double stiffness, double displacement) {
+  Apparatus other = apparatus;
+  other.oscillator.stiffness = stiffness;
+  const RigBase base = base_of(other, friction, apparatus.reference.Y);
+  Model model = mechanism.forced_only ? with_coulomb(base) : mechanism.build(base, values);
+  model.excitation = {};
+  model.initial = {.position = displacement};
+  return model;
+}
+
+double natural_scale(const Apparatus& apparatus, std::string_view unit) {
+  const double k = apparatus.oscillator.stiffness;
+  const double X = apparatus.reference.amplitude;
+  const double V = apparatus.reference.speed();
+  const double force = k * apparatus.reference.Y;
+  if (unit == "1") return 1.0;
+  if (unit == "m") return X;
+  if (unit == "m/s") return V;
+  if (unit == "s") return 1.0 / apparatus.reference.frequency;
+  if (unit == "N/m") return k;
+  if (unit == "N/m^3") return k / (X * X);
+  if (unit == "N.s^2/m^2") return force / (V * V);
+  if (unit == "W") return force * V / 2.0;
+  throw std::logic_error("no scale for the unit " + std::string(unit));
+}
+
+}  // namespace dualdamp::sim

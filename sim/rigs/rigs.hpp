@@ -1,0 +1,143 @@
+#pragma once
+/// Rigs: an oscillator with Coulomb + viscous friction and one thing beside, each a real law or drive of this
+/// program, so that what it does to a test is computed and not described.
+///
+/// One table serves two questions.
+///
+/// * The stress test takes a rig as a *departure*. One pure number, the severity s > 0, sets all parameters of the
+///   rig, so that the harm that different laws do to an identification can be compared. The departure tends to
+///   Coulomb + viscous friction as s -> 0. Severities are ratios to the reference motion: amplitude X and peak
+///   speed V of Coulomb + viscous friction in the middle of the range of excitation.
+/// * The study of mechanisms takes a rig as a *mechanism*, with parameters in SI units, so that it can be compared
+///   with a laboratory. F0 and c are there what a test in the middle of the range would find: where a mechanism
+///   changes the viscous force itself, c is the damper that gives the same force at the speed V.
+///
+/// A rig is one entry of a group: `contacts.cpp`, `sliding.cpp`, `films.cpp` or `drives.cpp`.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "friction_models/parameters.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+/// The motion that parameters are measured by.
+struct ReferenceMotion {
+  double amplitude = 0.0;  ///< X [m]
+  double frequency = 0.0;  ///< w [rad/s]
+  double Y = 0.0;          ///< input amplitude [m]
+
+  /// V [m/s]
+  [[nodiscard]] double speed() const { return amplitude * frequency; }
+};
+
+/// What a rig is built on.
+struct RigBase {
+  Model model{};    ///< oscillator with its damper c, and its drive; without friction laws
+  double F0 = 0.0;  ///< Coulomb friction [N]
+  ReferenceMotion reference{};
+  double warming_time = 0.0;       ///< in which contact or film warms [s]
+  double boundary_velocity = 0.0;  ///< over which friction falls from its value at rest as a film forms [m/s]
+  /// Whether F0 and c are what the reference motion finds; else they are those of a cold rig at low speed.
+  bool found_at_reference = false;
+
+  [[nodiscard]] double c() const { return model.oscillator.damping; }
+};
+
+struct RigParameter {
+  std::string_view name;
+  std::string_view unit;  ///< SI
+  std::string_view meaning;
+  friction::Range range;  ///< what has a meaning at all
+  /// Where the fit of a mechanism begins and the interval it keeps to, over `natural_scale`. With low > 0 the fit
+  /// changes the parameter by ratios.
+  double start = 1.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Values that a real rig may well have.
+struct PlausibleValues {
+  std::string_view name;       ///< which of several; may be empty
+  std::vector<double> values;  ///< SI, in the order of the parameters
+  std::string_view because;    ///< where they come from
+};
+
+/// One line of the table: "base + values of the parameters -> model".
+struct Rig {
+  std::string_view name;
+  std::string_view meaning;  ///< what happens in the rig, one line
+  std::vector<RigParameter> parameters;
+  /// `values`: SI, in the order of the parameters.
+  Model (*build)(const RigBase& base, std::span<const double> values);
+
+  // As a departure; a rig without `severity` is none.
+  std::string_view severity{};  ///< what s is, in words: "deflection of the contact F0/K over X"
+  double largest = 0.0;         ///< beyond it s has no meaning
+  /// The parameters at severity s.
+  std::vector<double> (*values_at)(const RigBase& base, double s) = nullptr;
+
+  // As a mechanism; a rig without plausible values is none.
+  std::vector<PlausibleValues> plausible{};
+  bool forced_only = false;  ///< it lies in drive or spring: a free decay on another spring does not have it
+};
+
+/// All rigs, sorted by name.
+[[nodiscard]] const std::vector<Rig>& rigs();
+
+/// Those that are departures, and those that are mechanisms; sorted by name.
+[[nodiscard]] const std::vector<Rig>& departures();
+[[nodiscard]] const std::vector<Rig>& mechanisms();
+
+/// nullptr when there is no such departure, no such mechanism.
+[[nodiscard]] const Rig* find_departure(std::string_view name);
+[[nodiscard]] const Rig* find_mechanism(std::string_view name);
+
+// Names of rigs by what they serve as.
+using Departure = Rig;
+using Mechanism = Rig;
+using MechanismParameter = RigParameter;
+
+/// Coulomb + viscous friction: what the methods assume, and are to find.
+struct Truth {
+  Model model;      ///< with the damper c; without friction laws
+  double F0 = 0.0;  ///< N
+};
+
+/// The truth itself.
+[[nodiscard]] Model undisturbed(const Truth& truth);
+
+/// The truth with a departure of severity s.
+[[nodiscard]] Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s);
+
+/// What is known of a laboratory's rig, and the motion in the middle of its tests.
+struct Apparatus {
+  Oscillator oscillator;      ///< its damping is not used
+  ReferenceMotion reference;  ///< its frequency is the one that the laboratory sets
+  /// In which contact or film warms [s]. A minute is long against a free decay, which stays cold. Steady states
+  /// depend on it by the ratio of a period to it, and are found the sooner the shorter it is.
+  double warming_time = 60.0;
+};
+
+/// Friction of a rig beside its mechanism.
+struct RigFriction {
+  double F0 = 0.0;  ///< N, > 0
+  double c = 0.0;   ///< N.s/m
+};
+
+/// The rig driven at the laboratory's frequency with the input amplitude Y [m].
+[[nodiscard]] Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                           std::span<const double> values, double Y);
+
+/// A release from rest at x = displacement [m], on a spring of this stiffness [N/m], without drive.
+[[nodiscard]] Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                             std::span<const double> values, double stiffness, double displacement);
+
+/// The size that a quantity of this unit has in the reference motion: X for m, wX for m/s, k for N/m, k/X^2 for
+/// N/m^3, kY/(wX)^2 for N.s^2/m^2, the drive's power kY wX/2 for W, 1/w for s, 1 for 1. Errors: `std::logic_error`
+/// for another unit.
+[[nodiscard]] double natural_scale(const Apparatus& apparatus, std::string_view unit);
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,187 @@
+#include <numbers>
+
+#include "sim/rigs/groups.hpp"
+
+namespace dualdamp::sim {
+
+namespace {
+
+using friction::ParameterValues;
+
+Model friction_lag(const RigBase& base, RigValues p) {
+  return with_law(
+      base.model, "friction_lag",
+      {{"kinetic", base.F0}, {"static", (1.0 + p[0]) * base.F0}, {"stribeck_velocity", p[1]}, {"lag", p[2]}});
+}
+
+/// Coefficient of friction of the rider whose weight [N] gives F0.
+constexpr double mu = 0.3;
+double weight_of(const RigBase& base) { return base.F0 / mu; }
+
+/// The rider's own vibration is ten times as fast as the forcing and damped to a tenth.
+Model normal_vibration(const RigBase& base, RigValues p) {
+  constexpr double approach = 1e-6;
+  const double weight = weight_of(base);
+  const double fast = 10.0 * base.reference.frequency;
+  return with_law(base.model, "normal_vibration",
+                  {{"mu", mu},
+                   {"weight", weight},
+                   {"normal_mass", 2.0 * weight / (approach * fast * fast)},
+                   {"static_approach", approach},
+                   {"normal_damping_ratio", 0.1},
+                   {"lift", p[0]},
+                   {"lift_velocity", base.reference.speed()}});
+}
+
+Model on_slope(const RigBase& base, double slope) { return with_coulomb(base, {{"position_slope", slope}}); }
+
+Model position_dependence(const RigBase& base, RigValues p) { return on_slope(base, -base.F0 / p[0]); }
+
+Model position_slope(const RigBase& base, RigValues p) { return on_slope(base, p[0]); }
+
+/// Friction that varies along the way, the same each time the mass comes by.
+Model rough_way(const RigBase& base, RigValues p) {
+  const ParameterValues roughness{{"ratio", p[0]}, {"correlation_length", p[1]}, {"seed", 1.0}};
+  return with_coulomb(base, {{"fluctuation", std::vector<ParameterValues>{roughness}}});
+}
+
+Model static_friction(const RigBase& base, RigValues p) {
+  return with_coulomb(base, {{"static", (1.0 + p[0]) * base.F0}});
+}
+
+Model stribeck(const RigBase& base, RigValues p) {
+  return with_law(base.model, "stribeck",
+                  {{"kinetic", base.F0}, {"static", (1.0 + p[0]) * base.F0}, {"stribeck_velocity", p[1]}});
+}
+
+/// Friction of F0 warms the contact by 4 F0 X each period.
+Model warming_contact(const RigBase& base, RigValues p) {
+  const double heat = 2.0 / std::numbers::pi * base.F0 * base.reference.speed();
+  RigBase cold = base;
+  cold.F0 = when_cold(base, base.F0, heat, p[0]);
+  return with_coulomb(cold, {{"warming", warming(base, p[0])}});
+}
+
+/// Coulomb friction that falls with speed.
+std::vector<Rig> by_speed() {
+  return {
+      {.name = "friction_lag",
+       .meaning = "friction falls with speed, and follows the speed late",
+       .parameters = {excess_parameter,
+                      fall_parameter,
+                      {.name = "lag",
+                       .unit = "s",
+                       .meaning = "time by which it is late",
+                       .range = positive,
+                       .start = 0.1,
+                       .low = 0.003,
+                       .high = 2.0}},
+       .build = friction_lag,
+       .severity = "lag times forcing frequency, and excess of friction at rest over F0, falling over 0.1 of the "
+                   "peak speed",
+       .largest = 10.0,
+       .values_at = [](const RigBase& base,
+                       double s) { return std::vector{s, tenth_of_speed(base), s / base.reference.frequency}; },
+       .plausible = {{"2 ms", {0.3, 0.2, 2e-3}, "lags of some milliseconds, hess1990"},
+                     {"5 ms", {0.3, 0.2, 5e-3}, "lags of some milliseconds, hess1990"}}},
+      {.name = "normal_vibration",
+       .meaning = "speed lifts the rider off the way, and friction falls with its load",
+       .parameters =
+           {{.name = "lift", .unit = "N.s/m", .meaning = "lift per speed at low speed", .range = {.low = 0.0}}},
+       .build = normal_vibration,
+       .severity = "lift at high speed over the weight; half of it at the peak speed",
+       .largest = 1.0,
+       .values_at = [](const RigBase& base,
+                       double s) { return std::vector{s * weight_of(base) / base.reference.speed()}; }},
+      {.name = "static_friction",
+       .meaning = "friction holds the mass at rest with more than F0",
+       .parameters = {excess_parameter},
+       .build = static_friction,
+       .severity = "excess of static over kinetic friction, over F0",
+       .largest = 10.0,
+       .values_at = [](const RigBase&, double s) { return std::vector{s}; }},
+      {.name = "stribeck",
+       .meaning = "friction falls with speed",
+       .parameters = {excess_parameter, fall_parameter},
+       .build = stribeck,
+       .severity = "excess of friction at rest over F0, falling over 0.1 of the peak speed",
+       .largest = 10.0,
+       .values_at = [](const RigBase& base, double s) { return std::vector{s, tenth_of_speed(base)}; },
+       .plausible = {{"10 mm/s", {0.3, 0.01}, "30 % more friction at rest, boundary lubrication"},
+                     {"50 mm/s", {0.3, 0.05}, "the same, falling over a wider range"},
+                     {"200 mm/s", {0.3, 0.2}, "the same, over half of the range of speeds"}}},
+  };
+}
+
+/// Coulomb friction that changes with the place.
+std::vector<Rig> by_place() {
+  return {
+      {.name = "position_dependence",
+       .meaning = "Coulomb friction falls with the distance from the middle: F0 (1 - |x|/length)",
+       .parameters = {{.name = "length",
+                       .unit = "m",
+                       .meaning = "distance at which it would vanish",
+                       .range = positive,
+                       .start = 2.5,
+                       .low = 0.3,
+                       .high = 1e3}},
+       .build = position_dependence,
+       .plausible = {{"", {25e-3}, "a way worn in its middle"}}},
+      {.name = "position_slope",
+       .meaning = "Coulomb friction changes with the distance from the middle: F0 + slope |x|",
+       .parameters = {{.name = "slope", .unit = "N/m", .meaning = "of the force over the distance", .range = {}}},
+       .build = position_slope,
+       .severity = "fall of the friction force at the amplitude X, over F0",
+       .largest = 1.0,
+       .values_at = [](const RigBase& base,
+                       double s) { return std::vector{-s * base.F0 / base.reference.amplitude}; }},
+      {.name = "rough_way",
+       .meaning = "Coulomb friction varies at random along the way",
+       .parameters = {{.name = "ratio",
+                       .unit = "1",
+                       .meaning = "standard deviation of the force over F0",
+                       .range = {.low = 0.0}},
+                      {.name = "correlation_length",
+                       .unit = "m",
+                       .meaning = "distance over which the force changes",
+                       .range = positive}},
+       .build = rough_way,
+       .severity = "three standard deviations of the friction force along the way over F0, correlated over 0.1 X",
+       .largest = 1.0,
+       .values_at = [](const RigBase& base,
+                       double s) { return std::vector{s / 3.0, 0.1 * base.reference.amplitude}; }},
+  };
+}
+
+/// Constant Coulomb friction, and one that falls with warmth.
+std::vector<Rig> by_warmth() {
+  return {
+      {.name = "coulomb_viscous",
+       .meaning = "nothing: what the method assumes",
+       .parameters = {},
+       .build = coulomb_viscous,
+       .plausible = {{"", {}, "what the method's own neglect of H bends"}}},
+      {.name = "warming",
+       .meaning = "Coulomb friction falls as the contact warms, over five periods",
+       .parameters = {power_parameter},
+       .build = warming_contact,
+       .severity = "mean power of Coulomb friction over the power at which it falls to 1/e",
+       .largest = 10.0,
+       .values_at =
+           [](const RigBase& base, double s) {
+             const double period = 2.0 * std::numbers::pi / base.reference.frequency;
+             return std::vector{4.0 * base.F0 * base.reference.amplitude / period / s};
+           }},
+      {.name = "warming_contact",
+       .meaning = "Coulomb friction falls as the contact warms, over a minute",
+       .parameters = {power_parameter},
+       .build = warming_contact,
+       .plausible = {{"", {16.0}, "1 % of friction a kelvin, 6 K a watt"}}},
+  };
+}
+
+}  // namespace
+
+std::vector<Rig> sliding_rigs() { return joined({by_speed(), by_place(), by_warmth()}); }
+
+}  // namespace dualdamp::sim
