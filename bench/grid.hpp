@@ -3,7 +3,7 @@
 ///
 /// A motion is one law at one severity over one range of excitation. It serves all sensors and seeds, which are the
 /// cases; a case serves all methods. Motion 0 of each range is the truth itself, friction that is Coulomb +
-/// viscous: there a method that doubts is wrong.
+/// viscous: there a diagnostic is a false alarm.
 
 #include <cstddef>
 #include <string>

@@ -55,8 +55,8 @@ struct Tally {
   Errors zeta, F0;
   int cases = 0;
   int wrong = 0;
-  int wrong_and_doubted = 0;
-  int right_and_doubted = 0;
+  int detected = 0;
+  int false_alarms = 0;
 
   void add(const Json& estimate, double true_zeta, double true_F0) {
     ++cases;
@@ -64,15 +64,15 @@ struct Tally {
         estimate.contains("zeta") && estimate.at("zeta").is_number() && estimate.at("F0").is_number();
     if (!given) {
       ++wrong;
-      ++wrong_and_doubted;
+      ++detected;
       return;
     }
     zeta.add(estimate, "zeta", "zeta95", true_zeta);
     F0.add(estimate, "F0", "F095", true_F0);
     const bool off = std::abs(zeta.values.back()) > tolerable || std::abs(F0.values.back()) > tolerable;
-    const bool doubted = !estimate.at("usable").get<bool>() || estimate.at("fired").get<bool>();
+    const bool has_diagnostic = !estimate.at("usable").get<bool>() || estimate.at("fired").get<bool>();
     if (off) ++wrong;
-    if (doubted) ++(off ? wrong_and_doubted : right_and_doubted);
+    if (has_diagnostic) ++(off ? detected : false_alarms);
   }
 
   [[nodiscard]] Score score() {
@@ -82,45 +82,45 @@ struct Tally {
     result.zeta = zeta.score();
     result.F0 = F0.score();
     result.wrong = share(wrong, cases);
-    result.knew = share(wrong_and_doubted, wrong);
-    result.false_alarm = share(right_and_doubted, cases - wrong);
+    result.knew = share(detected, wrong);
+    result.false_alarm = share(false_alarms, cases - wrong);
     return result;
   }
 };
 
-/// Severity at which an error that was `before` at `from` and is `after` at `to` passes `limit`.
-double crossing(double from, double before, double to, double after, double limit) {
+/// Severity at which an error that was `before` at `from` and is `after` at `to` passes `threshold`.
+double crossing(double from, double before, double to, double after, double threshold) {
   if (!(from > 0.0) || !(before > 0.0)) return to;
-  const double part = std::log(limit / before) / std::log(after / before);
+  const double part = std::log(threshold / before) / std::log(after / before);
   return from * std::pow(to / from, std::clamp(part, 0.0, 1.0));
 }
 
-/// First severity with an error beyond `limit`; a case without any number counts as one.
+/// First severity with an error beyond `threshold`; a case without any number counts as one.
 double first_beyond(const std::vector<const Score*>& scores, const Grid& grid, ParameterScore Score::* parameter,
-                    double limit) {
+                    double threshold) {
   double severity = 0.0;
   double error = 0.0;
   for (const Score* score : scores) {
     const double here = grid.motion(score->motion).severity;
     const double off = (score->*parameter).median_error;
     if (std::isnan(off)) return here;
-    if (off > limit) return crossing(severity, error, here, off, limit);
+    if (off > threshold) return crossing(severity, error, here, off, threshold);
     severity = here;
     error = off;
   }
   return std::numeric_limits<double>::infinity();
 }
 
-/// Sums of shares weighted by what they are shares of.
-struct Doubt {
-  double cases = 0.0, wrong = 0.0, wrong_and_doubted = 0.0, right_and_doubted = 0.0;
+/// Sums over scores, in cases: a share times what it is a share of.
+struct Diagnosed {
+  double cases = 0.0, wrong = 0.0, detected = 0.0, false_alarms = 0.0;
 
   void add(const Score& score) {
     cases += score.cases;
     const double off = score.wrong * score.cases;
     wrong += off;
-    if (off > 0.0) wrong_and_doubted += score.knew * off;
-    if (off < score.cases) right_and_doubted += score.false_alarm * (score.cases - off);
+    if (off > 0.0) detected += score.knew * off;
+    if (off < score.cases) false_alarms += score.false_alarm * (score.cases - off);
   }
 };
 
@@ -139,13 +139,13 @@ std::vector<Breakdown> breakdowns_of(const std::vector<Score>& scores, const Gri
   std::vector<Breakdown> result;
   for (const auto& [key, group] : groups) {
     const auto [law, range, sensors, method] = key;
-    Doubt doubt;
-    for (const Score* score : group) doubt.add(*score);
+    Diagnosed sums;
+    for (const Score* score : group) sums.add(*score);
     result.push_back(
         {std::string(question.laws[law]->name), range, sensors, method,
          first_beyond(group, grid, &Score::zeta, tolerable), first_beyond(group, grid, &Score::zeta, grave),
          first_beyond(group, grid, &Score::F0, tolerable), first_beyond(group, grid, &Score::F0, grave),
-         doubt.wrong / doubt.cases, doubt.wrong > 0.0 ? doubt.wrong_and_doubted / doubt.wrong : none});
+         sums.wrong / sums.cases, sums.wrong > 0.0 ? sums.detected / sums.wrong : none});
   }
   return result;
 }
@@ -153,7 +153,7 @@ std::vector<Breakdown> breakdowns_of(const std::vector<Score>& scores, const Gri
 std::vector<Ranking> ranking_of(const std::vector<Score>& scores, const Grid& grid) {
   std::vector<Ranking> result;
   for (std::size_t method = 0; method < grid.question().methods.size(); ++method) {
-    Doubt doubt;
+    Diagnosed sums;
     Ranking ranking{.method = method, .false_alarm = none, .coverage = none};
     double alarms = 0.0;
     double covered = 0.0;
@@ -162,7 +162,7 @@ std::vector<Ranking> ranking_of(const std::vector<Score>& scores, const Grid& gr
     for (const Score& score : scores) {
       if (score.method != method) continue;
       if (grid.motion(score.motion).law != nullptr) {
-        doubt.add(score);
+        sums.add(score);
         continue;
       }
       if (!std::isnan(score.false_alarm)) {
@@ -174,10 +174,10 @@ std::vector<Ranking> ranking_of(const std::vector<Score>& scores, const Grid& gr
         covered += score.F0.coverage;
       }
     }
-    ranking.wrong = doubt.wrong / doubt.cases;
-    ranking.knew = doubt.wrong > 0.0 ? doubt.wrong_and_doubted / doubt.wrong : none;
-    ranking.trusted = (doubt.cases - doubt.wrong - doubt.right_and_doubted) / doubt.cases;
-    ranking.unwarned = (doubt.wrong - doubt.wrong_and_doubted) / doubt.cases;
+    ranking.wrong = sums.wrong / sums.cases;
+    ranking.knew = sums.wrong > 0.0 ? sums.detected / sums.wrong : none;
+    ranking.trusted = (sums.cases - sums.wrong - sums.false_alarms) / sums.cases;
+    ranking.unwarned = (sums.wrong - sums.detected) / sums.cases;
     ranking.worth = ranking.trusted - ranking.unwarned;
     if (truths > 0) ranking.false_alarm = alarms / truths;
     if (intervals > 0) ranking.coverage = covered / intervals;

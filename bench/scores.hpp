@@ -1,15 +1,17 @@
 #pragma once
-/// Scores of a stress test: how wrong each method is under each law, and whether it knew.
+/// Scores of a stress test: how wrong each method is under each law, and whether its diagnostics say so.
 ///
 /// Per law, severity, range, sensors and method, over the seeds, with errors relative to the truth:
 ///
 ///   bias = mean error, spread = standard deviation, coverage = share of 95 % intervals that hold the truth,
 ///   wrong = share of estimates off by more than 5 % in zeta or F0, or absent,
-///   knew = share of the wrong ones that the method doubted: not usable, its lack-of-fit test fired, or none given,
-///   false_alarm = share of the right ones that it doubted.
+///   knew = share of the wrong ones with a diagnostic: not usable, or its lack-of-fit test fired, or absent,
+///   false_alarm = share of the right ones with a diagnostic.
 ///
-/// Ranking: a number that is right and stood by helps, one that is wrong and stood by harms; a method that doubts
-/// everything does neither and is worth nothing.
+/// A missed detection is a wrong estimate without a diagnostic.
+///
+/// Ranking: a right estimate without a diagnostic helps, a missed detection harms. A method that has a diagnostic
+/// against every estimate does neither, and is worth nothing.
 ///
 /// Breakdown: the severity at which the median |error| first exceeds 5 or 20 %, between two severities of the grid
 /// by a straight line in the logarithms.
@@ -59,8 +61,8 @@ struct Ranking {
   double knew = 0.0;
   double false_alarm = 0.0;  ///< where friction is Coulomb + viscous
   double coverage = 0.0;     ///< of F0, likewise
-  double trusted = 0.0;      ///< share of all cases that are right and not doubted
-  double unwarned = 0.0;     ///< share of all cases that are wrong and not doubted
+  double trusted = 0.0;      ///< share of all cases that are right, without a diagnostic
+  double unwarned = 0.0;     ///< share of all cases that are missed detections
   double worth = 0.0;        ///< trusted less unwarned: what the ranking goes by
 };
 

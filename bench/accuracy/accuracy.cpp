@@ -160,9 +160,10 @@ std::vector<Setting> settings_for(const identify::MethodEntry& method,
 }
 
 /// One number of every estimate against its truth.
-Score score(const std::vector<identify::Estimate>& estimates, double truth, double identify::ParameterSet::* number,
-            std::array<double, 2> identify::ParameterIntervals::* interval) {
-  Score result;
+ErrorSummary summary(const std::vector<identify::Estimate>& estimates, double truth,
+                     double identify::ParameterSet::* number,
+                     std::array<double, 2> identify::ParameterIntervals::* interval) {
+  ErrorSummary result;
   double sum = 0.0;
   double squares = 0.0;
   int count = 0;
@@ -195,8 +196,8 @@ Cell cell_of(const identify::MethodEntry& method, const Experiment& experiment, 
   }
   using identify::ParameterIntervals;
   using identify::ParameterSet;
-  cell.zeta = score(estimates, truth().zeta, &ParameterSet::zeta, &ParameterIntervals::zeta);
-  cell.F0 = score(estimates, truth().F0, &ParameterSet::F0, &ParameterIntervals::F0);
+  cell.zeta = summary(estimates, truth().zeta, &ParameterSet::zeta, &ParameterIntervals::zeta);
+  cell.F0 = summary(estimates, truth().F0, &ParameterSet::F0, &ParameterIntervals::F0);
   return cell;
 }
 
@@ -230,11 +231,11 @@ std::vector<Cell> cells_of(const identify::MethodEntry& method, const Setting& s
 
 std::string noise_text(double noise) { return fmt::format("{:.0f} um", noise / micrometre); }
 
-bool outside(const Score& score) {
+bool outside(const ErrorSummary& score) {
   return score.intervals > 0 && (score.coverage() < least_coverage || score.coverage() > most_coverage);
 }
 
-std::string coverage_text(const Score& score) {
+std::string coverage_text(const ErrorSummary& score) {
   if (score.intervals == 0) return "-";
   return fmt::format("{:.1f}{}", 100.0 * score.coverage(), outside(score) ? " !" : "");
 }
@@ -247,7 +248,7 @@ const std::vector<Experiment>& experiments() {
   return list;
 }
 
-Truth truth() { return {damping / (2.0 * std::sqrt(mass * stiffness)), friction_force}; }
+TrueFriction truth() { return {damping / (2.0 * std::sqrt(mass * stiffness)), friction_force}; }
 
 std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& methods,
                            const std::vector<double>& noises, int seeds) {
@@ -265,7 +266,8 @@ std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& meth
 Coverage coverage(const std::vector<Cell>& cells) {
   Coverage result;
   for (const Cell& cell : cells) {
-    for (const auto& [name, score] : {std::pair<std::string, const Score&>{"zeta", cell.zeta}, {"F0", cell.F0}}) {
+    for (const auto& [name, score] :
+         {std::pair<std::string, const ErrorSummary&>{"zeta", cell.zeta}, {"F0", cell.F0}}) {
       if (score.intervals == 0) continue;
       ++result.claimed;
       if (outside(score))

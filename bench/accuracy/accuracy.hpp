@@ -4,8 +4,8 @@
 /// Each method meets the first of the `experiments()` that it can use, a measurement of Coulomb and viscous
 /// friction, which all of them assume, and the harder variants of that one. The motion is computed once, and every
 /// seed is another reading of it; where the motion itself is random every seed has its own. Coverage counts the 95
-/// % intervals that hold the truth, of all estimates that have one, whether usable or not: to leave out those that
-/// the method doubts would bias it. Results do not depend on the number of threads.
+/// % intervals that hold the truth, of all estimates that have one, whether usable or not: a count of the usable
+/// ones alone would be biased. Results do not depend on the number of threads.
 
 #include <string>
 #include <vector>
@@ -28,14 +28,14 @@ struct Experiment {
 [[nodiscard]] const std::vector<Experiment>& experiments();
 
 /// The friction of all of them.
-struct Truth {
+struct TrueFriction {
   double zeta = 0.0;
   double F0 = 0.0;  ///< N
 };
-[[nodiscard]] Truth truth();
+[[nodiscard]] TrueFriction truth();
 
 /// What the seeds made of one parameter.
-struct Score {
+struct ErrorSummary {
   double bias = 0.0;    ///< mean minus truth, relative to the truth
   double spread = 0.0;  ///< standard deviation, likewise
   int intervals = 0;
@@ -52,8 +52,8 @@ struct Cell {
   int seeds = 0;
   int estimates = 0;  ///< of them gave numbers
   int usable = 0;
-  Score zeta;
-  Score F0;
+  ErrorSummary zeta;
+  ErrorSummary F0;
 };
 
 /// Seeds 0, 1, ... A cell for each experiment that the method meets, and each noise.

@@ -28,14 +28,14 @@ sim::OscillatorBatch batch_of(const StandardCase& work) {
 std::vector<Contender> batch_contenders(const StandardCase& work) {
   std::vector<Contender> contenders;
   for (const int width : sim::batch_widths()) {
-    const auto follow = [batch = batch_of(work), x = work.start_position, v = work.start_velocity,
-                         width](int periods) {
+    const auto integrate = [batch = batch_of(work), x = work.start_position, v = work.start_velocity,
+                            width](int periods) {
       sim::BatchMotions motions{.position = std::vector<double>(batch.size(), x),
                                 .velocity = std::vector<double>(batch.size(), v)};
       sim::follow(batch, periods, motions, {.width = width, .threads = 1});
-      return Followed{motions.amplitude[0], motions.reversals[0]};
+      return IntegratedMotion{motions.amplitude[0], motions.reversals[0]};
     };
-    contenders.push_back({"dualdamp, batches of " + std::to_string(width), 0.0, oscillators, follow});
+    contenders.push_back({"dualdamp, batches of " + std::to_string(width), 0.0, oscillators, integrate});
   }
   return contenders;
 }

@@ -1,8 +1,8 @@
 #pragma once
-/// Ways to follow the standard case. Each one finds every reversal and hands out the amplitude.
+/// Ways to integrate the standard case. Each one finds every reversal and hands out the amplitude.
 ///
-/// The general solvers integrate one phase at a time with the sign of the friction frozen, so that a step may
-/// overrun the reversal and keeps its order, and start anew behind it.
+/// The general solvers integrate one interval at a time with the sign of the friction frozen. So a step may pass
+/// the reversal and keeps its order. They start anew after the reversal.
 
 #include <functional>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace dualdamp::bench::speed {
 
-/// What a contender has found over some forcing periods.
-struct Followed {
+/// What a contender finds over some forcing periods.
+struct IntegratedMotion {
   double amplitude = 0.0;  ///< half the distance between the last two turning points [m]
   long reversals = 0;
 };
@@ -21,9 +21,9 @@ struct Followed {
 struct Contender {
   std::string name;
   double tolerance = 0.0;  ///< relative and absolute, of a step; 0: exact
-  int oscillators = 1;     ///< followed at once; a time is for one of them
+  int oscillators = 1;     ///< integrated at once; a time is for one of them
   /// From the start of the orbit over some forcing periods.
-  std::function<Followed(int periods)> follow;
+  std::function<IntegratedMotion(int periods)> integrate;
 };
 
 /// The exact engine.
@@ -45,13 +45,13 @@ struct Contender {
 
 /// SciPy's solve_ivp, DOP853 with a terminal event, in a child process that times itself.
 struct ScipyResult {
-  Followed followed;
+  IntegratedMotion motion;
   std::vector<double> seconds;  ///< of processor time for each batch: one start and `periods` forcing periods
 };
 
 /// One result for each tolerance; empty where Python or SciPy is missing.
-[[nodiscard]] std::vector<ScipyResult> follow_with_scipy(const StandardCase& work,
-                                                         const std::vector<double>& tolerances, int batches,
-                                                         int periods);
+[[nodiscard]] std::vector<ScipyResult> integrate_with_scipy(const StandardCase& work,
+                                                            const std::vector<double>& tolerances, int batches,
+                                                            int periods);
 
 }  // namespace dualdamp::bench::speed

@@ -33,7 +33,7 @@ enum class CvodeMethod {
 /// What CVODE calls. `data` of each: the pointer given beside these.
 struct CvodeProblem {
   CVRhsFn rate;
-  CVRootFn guard;           ///< one value, positive while a phase lasts
+  CVRootFn guard;           ///< one value, positive within an interval
   CVLsJacFn jacobian;       ///< nullptr: CVODE's differences
   int root_direction = -1;  ///< of the guard's sign changes that are reported; 0: both
   double relative_tolerance = 0.0;
@@ -106,7 +106,7 @@ class Cvode {
 // The standard case.
 
 int rigid_rate(realtype t, N_Vector state, N_Vector derivative, void* data) {
-  const PhaseField& field = *static_cast<const PhaseField*>(data);
+  const IntervalField& field = *static_cast<const IntervalField*>(data);
   const double* s = N_VGetArrayPointer(state);
   double* d = N_VGetArrayPointer(derivative);
   d[0] = s[1];
@@ -115,7 +115,7 @@ int rigid_rate(realtype t, N_Vector state, N_Vector derivative, void* data) {
 }
 
 int rigid_jacobian(realtype, N_Vector, N_Vector, SUNMatrix matrix, void* data, N_Vector, N_Vector, N_Vector) {
-  const PhaseField& field = *static_cast<const PhaseField*>(data);
+  const IntervalField& field = *static_cast<const IntervalField*>(data);
   SM_ELEMENT_D(matrix, 0, 0) = 0.0;
   SM_ELEMENT_D(matrix, 0, 1) = 1.0;
   SM_ELEMENT_D(matrix, 1, 0) = -field.stiffness;
@@ -123,9 +123,9 @@ int rigid_jacobian(realtype, N_Vector, N_Vector, SUNMatrix matrix, void* data, N
   return 0;
 }
 
-/// Positive while the phase lasts.
+/// Positive within the interval.
 int rigid_guard(realtype, N_Vector state, realtype* value, void* data) {
-  value[0] = static_cast<const PhaseField*>(data)->direction * N_VGetArrayPointer(state)[1];
+  value[0] = static_cast<const IntervalField*>(data)->direction * N_VGetArrayPointer(state)[1];
   return 0;
 }
 
@@ -147,34 +147,34 @@ struct RigidSolver {
     cvode.restart(time);
   }
 
-  PhaseField field;
+  IntervalField field;
   std::array<double, 2> absolute;
   Cvode cvode;
 };
 
-Followed follow(const StandardCase& work, RigidSolver& solver, int periods) {
+IntegratedMotion integrate(const StandardCase& work, RigidSolver& solver, int periods) {
   const double end = periods * 2.0 * std::numbers::pi / work.frequency;
-  PhaseField& field = solver.field;
+  IntervalField& field = solver.field;
   field.direction = std::copysign(1.0, work.start_velocity);
   solver.begin(0.0, work.start_position, work.start_velocity);
 
-  Followed followed;
+  IntegratedMotion motion;
   double turning = 0.0;
   double time = 0.0;
   while (solver.cvode.advance(end, time)) {
     const double x = solver.cvode.state()[0];
     field.direction = field.direction_after(x, time);
     solver.begin(time, x, 0.0);
-    followed.amplitude = 0.5 * std::abs(x - turning);
+    motion.amplitude = 0.5 * std::abs(x - turning);
     turning = x;
-    ++followed.reversals;
+    ++motion.reversals;
   }
-  return followed;
+  return motion;
 }
 
 Contender contender(const char* name, const StandardCase& work, double tolerance, CvodeMethod method) {
   return {name, tolerance, 1, [work, solver = std::make_shared<RigidSolver>(work, tolerance, method)](int periods) {
-            return follow(work, *solver, periods);
+            return integrate(work, *solver, periods);
           }};
 }
 
@@ -228,14 +228,14 @@ struct SmoothSolver {
                .absolute_tolerances = absolute},
               &field) {}
 
-  void follow(const sim::State& start, int periods, std::vector<double>& turns);
+  void integrate(const sim::State& start, int periods, std::vector<double>& turning_points);
 
   SmoothField field;
   std::vector<double> absolute;
   Cvode cvode;
 };
 
-void SmoothSolver::follow(const sim::State& start, int periods, std::vector<double>& turns) {
+void SmoothSolver::integrate(const sim::State& start, int periods, std::vector<double>& turning_points) {
   double* X = cvode.state();
   X[0] = start.x;
   X[1] = start.v;
@@ -245,7 +245,7 @@ void SmoothSolver::follow(const sim::State& start, int periods, std::vector<doub
   const double end = periods * 2.0 * std::numbers::pi / field.standard.frequency;
   double time = 0.0;
   while (cvode.advance(end, time)) {
-    turns.push_back(X[0]);
+    turning_points.push_back(X[0]);
     if (!field.frozen) continue;
     field.direction = -field.direction;
     X[1] = 0.0;
@@ -267,8 +267,8 @@ std::vector<SmoothContender> cvode_smooth(const SmoothCase& work, double toleran
   const auto add = [&](const char* name, CvodeMethod method, bool restarts) {
     auto solver = std::make_shared<SmoothSolver>(work, tolerance, method, restarts);
     contenders.push_back({fmt::format("{} {:.0e}{}", name, tolerance, restarts ? ", restarts" : ""),
-                          [solver, start = work.start](int periods, std::vector<double>& turns) {
-                            solver->follow(start, periods, turns);
+                          [solver, start = work.start](int periods, std::vector<double>& turning_points) {
+                            solver->integrate(start, periods, turning_points);
                           }});
   };
   for (const bool restarts : {true, false}) {

@@ -7,18 +7,18 @@
 namespace dualdamp::bench::speed {
 namespace {
 
-Followed follow(const StandardCase& work, sim::ExactEngine& engine, int periods) {
+IntegratedMotion integrate(const StandardCase& work, sim::ExactEngine& engine, int periods) {
   engine.start(work.start_position, work.start_velocity);
   const double end = periods * engine.period();
-  Followed followed;
+  IntegratedMotion motion;
   double turning = 0.0;
   while (const sim::Interval* interval = engine.next(end)) {
     if (interval->ending != sim::EventKind::reversal) continue;
-    followed.amplitude = 0.5 * std::abs(engine.position() - turning);
+    motion.amplitude = 0.5 * std::abs(engine.position() - turning);
     turning = engine.position();
-    ++followed.reversals;
+    ++motion.reversals;
   }
-  return followed;
+  return motion;
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ Followed follow(const StandardCase& work, sim::ExactEngine& engine, int periods)
 Contender exact_contender(const StandardCase& work) {
   return {"dualdamp, exact engine", 0.0, 1,
           [work, engine = std::make_shared<sim::ExactEngine>(model_of(work))](int periods) {
-            return follow(work, *engine, periods);
+            return integrate(work, *engine, periods);
           }};
 }
 

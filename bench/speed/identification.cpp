@@ -50,7 +50,7 @@ double seconds_for(const char* method, const identify::Record& record, const ide
   const std::vector<std::function<void(int)>> works = {[&](int runs) {
     for (int run = 0; run < runs; ++run) given = given && entry.run(record, constants, options).outcome.ok();
   }};
-  const double seconds = time_in_turns(works, 9, 0.05).front().median;
+  const double seconds = time_alternately(works, 9, 0.05).front().median;
   if (!given) throw std::runtime_error(std::string(method) + " gave no estimate");
   return seconds;
 }

@@ -27,7 +27,7 @@ constexpr int periods_per_start = 50;  // a start costs each contender about one
 struct Row {
   std::string name;
   Time time;
-  Followed followed;
+  IntegratedMotion motion;
 };
 
 Time divided(const Time& time, double parts) { return {time.median / parts, time.low / parts, time.high / parts}; }
@@ -45,15 +45,15 @@ std::vector<Row> in_process(const StandardCase& work, int batches) {
   double sink = 0.0;  // used below, so that no work can be dropped
   for (const Contender& contender : contenders) {
     works.emplace_back([&sink, &contender](int starts) {
-      for (int start = 0; start < starts; ++start) sink += contender.follow(periods_per_start).amplitude;
+      for (int start = 0; start < starts; ++start) sink += contender.integrate(periods_per_start).amplitude;
     });
   }
-  const std::vector<Time> times = time_in_turns(works, batches, 0.02);
+  const std::vector<Time> times = time_alternately(works, batches, 0.02);
   if (!std::isfinite(sink)) throw std::runtime_error("a contender returned no number");
   std::vector<Row> rows;
   for (std::size_t i = 0; i < contenders.size(); ++i) {
     rows.push_back({contenders[i].name, divided(times[i], periods_per_start * contenders[i].oscillators),
-                    contenders[i].follow(periods_per_start)});
+                    contenders[i].integrate(periods_per_start)});
   }
   return rows;
 }
@@ -61,16 +61,16 @@ std::vector<Row> in_process(const StandardCase& work, int batches) {
 std::vector<Row> by_scipy(const StandardCase& work, int batches) {
   std::vector<Row> rows;
   const std::vector<std::string> names{"SciPy DOP853 1e-9", "SciPy DOP853 1e-12"};
-  const auto results = follow_with_scipy(work, {1e-9, 1e-12}, batches, periods_per_start);
+  const auto results = integrate_with_scipy(work, {1e-9, 1e-12}, batches, periods_per_start);
   for (std::size_t i = 0; i < results.size(); ++i)
-    rows.push_back({names[i], divided(quartiles(results[i].seconds), periods_per_start), results[i].followed});
+    rows.push_back({names[i], divided(quartiles(results[i].seconds), periods_per_start), results[i].motion});
   return rows;
 }
 
 void print(const Row& row, double unit) {
   fmt::print("{:32}{:>14.3f}{:>22}{:>10.2f}{:>18.1e}\n", row.name, row.time.median * 1e6,
              fmt::format("{:.3f} - {:.3f}", row.time.low * 1e6, row.time.high * 1e6), row.time.median / unit,
-             std::abs(row.followed.amplitude / exact_amplitude - 1.0));
+             std::abs(row.motion.amplitude / exact_amplitude - 1.0));
 }
 
 /// Median time of the row of that name, or 0.
@@ -127,7 +127,7 @@ int compare(int batches) {
   bool sound = true;
   for (const Row& row : rows) {
     print(row, rows.front().time.median);
-    sound = sound && row.followed.reversals == 2L * periods_per_start;
+    sound = sound && row.motion.reversals == 2L * periods_per_start;
   }
   if (cvode_contenders(work).empty())
     fmt::print("skipped: CVODE; libsundials-dev was not there when this was built\n");

@@ -39,10 +39,10 @@ double locate(Locator locator, const Velocity& velocity, double low, double high
   return high;
 }
 
-Followed follow(const StandardCase& work, double tolerance, Locator locator, int periods) {
+IntegratedMotion integrate(const StandardCase& work, double tolerance, Locator locator, int periods) {
   const double end = periods * 2.0 * std::numbers::pi / work.frequency;
   auto stepper = odeint::make_dense_output(tolerance, tolerance, odeint::runge_kutta_dopri5<State>());
-  PhaseField field(work);
+  IntervalField field(work);
   const auto system = [&field](const State& state, State& rate, double t) {
     rate[0] = state[1];
     rate[1] = field.acceleration(state[0], state[1], t);
@@ -51,7 +51,7 @@ Followed follow(const StandardCase& work, double tolerance, Locator locator, int
   field.direction = std::copysign(1.0, state[1]);
   stepper.initialize(state, 0.0, 0.01 / work.frequency);
 
-  Followed followed;
+  IntegratedMotion motion;
   double turning = 0.0;
   for (;;) {
     const auto [begin, reached] = stepper.do_step(system);
@@ -62,25 +62,25 @@ Followed follow(const StandardCase& work, double tolerance, Locator locator, int
         stepper.calc_state(t, state);
         return state[1];
       };
-      // Right after a reversal the velocity at the beginning is zero; its sign is that of the phase.
+      // Right after a reversal the velocity at the beginning is zero; its sign is that of the interval.
       const double before = field.direction * std::max(std::abs(stepper.previous_state()[1]), 1e-300);
       time = locate(locator, velocity, begin, reached, before, stepper.current_state()[1]);
     }
-    if (time >= end) return followed;
+    if (time >= end) return motion;
     if (!reverses) continue;
 
     stepper.calc_state(time, state);
     field.direction = field.direction_after(state[0], time);
     state[1] = 0.0;
     stepper.initialize(state, time, stepper.current_time_step());
-    followed.amplitude = 0.5 * std::abs(state[0] - turning);
+    motion.amplitude = 0.5 * std::abs(state[0] - turning);
     turning = state[0];
-    ++followed.reversals;
+    ++motion.reversals;
   }
 }
 
 Contender contender(const char* name, const StandardCase& work, double tolerance, Locator locator) {
-  return {name, tolerance, 1, [=](int periods) { return follow(work, tolerance, locator, periods); }};
+  return {name, tolerance, 1, [=](int periods) { return integrate(work, tolerance, locator, periods); }};
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ std::string output_of(const std::string& command, int& status) {
 
 }  // namespace
 
-std::vector<ScipyResult> follow_with_scipy(const StandardCase& work, const std::vector<double>& tolerances,
-                                           int batches, int periods) {
+std::vector<ScipyResult> integrate_with_scipy(const StandardCase& work, const std::vector<double>& tolerances,
+                                              int batches, int periods) {
   const std::string python = DUALDAMP_SPEED_PYTHON;
   if (python.empty()) return {};
   std::string command = fmt::format("'{}' '{}' {} {} {} {} {} {} {} {} {} {}", python, DUALDAMP_SPEED_SCRIPT,
@@ -46,8 +46,8 @@ std::vector<ScipyResult> follow_with_scipy(const StandardCase& work, const std::
     std::istringstream numbers(line);
     double reversals = 0.0;
     ScipyResult& result = results.emplace_back();
-    numbers >> result.followed.amplitude >> reversals;
-    result.followed.reversals = static_cast<long>(reversals);
+    numbers >> result.motion.amplitude >> reversals;
+    result.motion.reversals = static_cast<long>(reversals);
     for (double seconds = 0.0; numbers >> seconds;) result.seconds.push_back(seconds);
   }
   return results;

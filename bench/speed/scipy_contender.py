@@ -4,7 +4,7 @@
 usage: scipy_contender.py BATCHES PERIODS MASS STIFFNESS DAMPING FRICTION FREQUENCY BASE X0 V0 TOLERANCE...
 
 Prints a line for each tolerance: amplitude [m], reversals, then the processor seconds of each batch, which is one
-start followed over PERIODS forcing periods. Started by dualdamp-speed. Status 69: SciPy is missing.
+start integrated over PERIODS forcing periods. Started by dualdamp-speed. Status 69: SciPy is missing.
 """
 
 import math
@@ -17,8 +17,8 @@ except ImportError:
     sys.exit(69)
 
 
-def follow(periods, tolerance, mass, stiffness, damping, friction, frequency, base, x, v):
-    """Amplitude and number of reversals; sgn v is frozen within a phase, as for the other solvers."""
+def integrate(periods, tolerance, mass, stiffness, damping, friction, frequency, base, x, v):
+    """Amplitude and number of reversals; sgn v is frozen within an interval, as for the other solvers."""
     end = periods * 2.0 * math.pi / frequency
     drive, spring, viscous, level = (q / mass for q in (stiffness * base, stiffness, damping, friction))
     t, turning, amplitude, reversals = 0.0, 0.0, 0.0, 0
@@ -34,12 +34,12 @@ def follow(periods, tolerance, mass, stiffness, damping, friction, frequency, ba
 
         reversal.terminal = True
         reversal.direction = -1
-        phase = solve_ivp(rate, (t, end), (x, v), method="DOP853", rtol=tolerance, atol=tolerance, events=reversal)
-        if phase.status == 0:
+        interval = solve_ivp(rate, (t, end), (x, v), method="DOP853", rtol=tolerance, atol=tolerance, events=reversal)
+        if interval.status == 0:
             return amplitude, reversals
-        if phase.status != 1:
-            raise RuntimeError(phase.message)
-        t, x, v = phase.t_events[0][0], phase.y_events[0][0][0], 0.0
+        if interval.status != 1:
+            raise RuntimeError(interval.message)
+        t, x, v = interval.t_events[0][0], interval.y_events[0][0][0], 0.0
         pull = drive * math.cos(frequency * t) - spring * x
         if abs(pull) <= level:
             raise RuntimeError("the standard case does not stick")
@@ -53,11 +53,11 @@ def main():
     case = [float(value) for value in sys.argv[3:11]]
     tolerances = [float(value) for value in sys.argv[11:]]
     seconds = {tolerance: [] for tolerance in tolerances}
-    found = {tolerance: follow(periods, tolerance, *case) for tolerance in tolerances}  # warms up
+    found = {tolerance: integrate(periods, tolerance, *case) for tolerance in tolerances}  # warms up
     for _ in range(batches):
         for tolerance in tolerances:
             begin = time.process_time()
-            follow(periods, tolerance, *case)
+            integrate(periods, tolerance, *case)
             seconds[tolerance].append(time.process_time() - begin)
     for tolerance in tolerances:
         print(*(repr(number) for number in (*map(float, found[tolerance]), *seconds[tolerance])))

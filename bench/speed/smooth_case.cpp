@@ -140,10 +140,10 @@ std::vector<SmoothCase> smooth_cases() {
   return cases;
 }
 
-double departure(std::span<const double> turns, double amplitude) {
-  if (turns.empty()) return std::numeric_limits<double>::infinity();
+double amplitude_error(std::span<const double> turning_points, double amplitude) {
+  if (turning_points.empty()) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
-  for (const double x : turns) largest = std::max(largest, std::abs(std::abs(x) / amplitude - 1.0));
+  for (const double x : turning_points) largest = std::max(largest, std::abs(std::abs(x) / amplitude - 1.0));
   return largest;
 }
 

@@ -46,7 +46,7 @@ struct SmoothCase {
 /// The standard oscillator and drive under this law, which starts at rest.
 [[nodiscard]] sim::Model model_under(const std::string& law, friction::ParameterValues values);
 
-/// Largest departure of the turning points' distances from X, relative; infinite without any.
-[[nodiscard]] double departure(std::span<const double> turns, double amplitude);
+/// Largest difference between the distance of a turning point and X, over X; infinite without turning points.
+[[nodiscard]] double amplitude_error(std::span<const double> turning_points, double amplitude);
 
 }  // namespace dualdamp::bench::speed

@@ -1,5 +1,5 @@
 #pragma once
-/// Ways to follow a work under a smooth law.
+/// Ways to integrate a work under a smooth law.
 
 #include <functional>
 #include <string>
@@ -12,7 +12,7 @@ namespace dualdamp::bench::speed {
 struct SmoothContender {
   std::string setting;
   /// From the start of the orbit over some forcing periods; appends the turning points [m].
-  std::function<void(int periods, std::vector<double>& turns)> follow;
+  std::function<void(int periods, std::vector<double>& turning_points)> integrate;
 };
 
 /// The smooth engine as it comes, at this tolerance. It has found out about stiffness before.
@@ -21,7 +21,7 @@ struct SmoothContender {
 /// CVODE at this tolerance (relative; absolute: of the size of each state) in every setting that can do the work:
 /// Adams with fixed-point iteration, for laws that are not stiff, Adams and BDF with dense Newton; starting anew
 /// behind each reversal with sgn v frozen before it, or going on through it, for laws without a jump there.
-/// Jacobians are CVODE's differences. Empty where SUNDIALS is not installed. Following throws where CVODE fails.
+/// Jacobians are CVODE's differences. Empty where SUNDIALS is not installed. Integration throws where CVODE fails.
 [[nodiscard]] std::vector<SmoothContender> cvode_smooth(const SmoothCase& work, double tolerance);
 
 }  // namespace dualdamp::bench::speed

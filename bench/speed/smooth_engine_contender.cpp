@@ -11,11 +11,12 @@ SmoothContender smooth_engine(const SmoothCase& work, double tolerance) {
   sim::Model model = work.model;
   model.solver.tolerance = tolerance;
   auto engine = std::make_shared<sim::SmoothEngine>(model);
-  return {fmt::format("{:.0e}", tolerance), [engine, start = work.start](int periods, std::vector<double>& turns) {
+  return {fmt::format("{:.0e}", tolerance),
+          [engine, start = work.start](int periods, std::vector<double>& turning_points) {
             engine->restart(start);
             const double end = periods * engine->period();
             while (const sim::Interval* interval = engine->next(end)) {
-              if (interval->ending == sim::EventKind::reversal) turns.push_back(engine->position());
+              if (interval->ending == sim::EventKind::reversal) turning_points.push_back(engine->position());
             }
           }};
 }

@@ -38,31 +38,31 @@ struct Entry {
 
 /// Infinite where the contender fails, or loses a reversal.
 double error_of(const SmoothCase& work, const SmoothContender& contender) {
-  std::vector<double> turns;
+  std::vector<double> turning_points;
   try {
-    contender.follow(periods_per_start, turns);
+    contender.integrate(periods_per_start, turning_points);
     // The first time the engine found out about stiffness.
-    turns.clear();
-    contender.follow(periods_per_start, turns);
+    turning_points.clear();
+    contender.integrate(periods_per_start, turning_points);
   } catch (const std::runtime_error&) {
     return std::numeric_limits<double>::infinity();
   }
-  if (turns.size() != reversals) return std::numeric_limits<double>::infinity();
-  return departure(turns, work.amplitude);
+  if (turning_points.size() != reversals) return std::numeric_limits<double>::infinity();
+  return amplitude_error(turning_points, work.amplitude);
 }
 
-/// Times all entries in turns.
+/// Times all entries one batch of each after the other.
 void time(std::span<Entry> entries, int batches, double batch_seconds) {
   std::vector<std::function<void(int)>> works;
   double sink = 0.0;  // used below, so that no work can be dropped
   for (const Entry& entry : entries) {
     works.emplace_back([&sink, &entry](int starts) {
-      std::vector<double> turns;
-      for (int i = 0; i < starts; ++i) entry.contender.follow(periods_per_start, turns);
-      sink += turns.back();
+      std::vector<double> turning_points;
+      for (int i = 0; i < starts; ++i) entry.contender.integrate(periods_per_start, turning_points);
+      sink += turning_points.back();
     });
   }
-  const std::vector<Time> times = time_in_turns(works, batches, batch_seconds);
+  const std::vector<Time> times = time_alternately(works, batches, batch_seconds);
   if (!std::isfinite(sink)) throw std::runtime_error("a contender returned no number");
   for (std::size_t i = 0; i < entries.size(); ++i)
     entries[i].time = {times[i].median / periods_per_start, times[i].low / periods_per_start,
@@ -103,7 +103,7 @@ void print_smooth_table(int batches) {
           std::function([&](double tolerance) { return cvode_smooth(work, tolerance); })}) {
       if (const auto best = fastest(work, settings)) entries.push_back(*best);
     }
-    if (entries.empty()) throw std::runtime_error(work.law + " is not followed to the error wanted");
+    if (entries.empty()) throw std::runtime_error(work.law + " is not integrated to the error wanted");
     time(entries, batches, 0.02);
     print(entries.front(), "dualdamp", entries.front());
     if (entries.size() == 1) continue;

@@ -27,7 +27,7 @@ StandardCase standard_case() {
   return work;
 }
 
-double PhaseField::direction_after(double x, double t) const {
+double IntervalField::direction_after(double x, double t) const {
   const double force = pull(x, t);
   if (std::abs(force) <= friction) throw std::logic_error("the standard case does not stick");
   return std::copysign(1.0, force);

@@ -22,8 +22,8 @@ struct StandardCase {
   double start_velocity = 0.0;
 };
 
-/// The right side of one phase, per mass: sgn v is `direction` throughout. What every general solver integrates.
-struct PhaseField {
+/// The right side of one interval, per mass: sgn v is `direction` throughout. What every general solver integrates.
+struct IntervalField {
   double damping;
   double stiffness;
   double base;
@@ -31,7 +31,7 @@ struct PhaseField {
   double frequency;
   double direction = 0.0;
 
-  explicit PhaseField(const StandardCase& work)
+  explicit IntervalField(const StandardCase& work)
       : damping(work.damping / work.mass),
         stiffness(work.stiffness / work.mass),
         base(work.stiffness * work.base_amplitude / work.mass),
@@ -42,7 +42,7 @@ struct PhaseField {
   [[nodiscard]] double acceleration(double x, double v, double t) const {
     return pull(x, t) - damping * v - friction * direction;
   }
-  /// Direction of the phase behind a reversal at x.
+  /// Direction of the interval after a reversal at x.
   [[nodiscard]] double direction_after(double x, double t) const;
 };
 

@@ -53,7 +53,7 @@ double seconds_for_curve(const sim::Model& model, const std::vector<double>& amp
   const std::function<void(int)> compute = [&](int times) {
     for (int i = 0; i < times; ++i) sound = sound && is_sound(sim::xy_curve(model, amplitudes, {}, {.threads = 1}));
   };
-  const double median = time_in_turns(std::span(&compute, 1), batches, 0.1).front().median;
+  const double median = time_alternately(std::span(&compute, 1), batches, 0.1).front().median;
   if (!sound) throw std::runtime_error("the x-Y curve is not what it should be");
   return median;
 }
@@ -67,7 +67,7 @@ double seconds_for_steady_state(const StandardCase& work) {
   const std::function<void(int)> find = [&](int times) {
     for (int i = 0; i < times; ++i) sink += sim::steady_state(model).amplitude;
   };
-  const double median = time_in_turns(std::span(&find, 1), 9, 0.02).front().median;
+  const double median = time_alternately(std::span(&find, 1), 9, 0.02).front().median;
   if (!std::isfinite(sink)) throw std::runtime_error("the standard case has no steady state");
   return median;
 }

@@ -32,8 +32,8 @@ Time quartiles(std::vector<double> times) {
   return {.median = times[last / 2], .low = times[last / 4], .high = times[last - last / 4]};
 }
 
-std::vector<Time> time_in_turns(std::span<const std::function<void(int)>> works, int batches,
-                                double batch_seconds) {
+std::vector<Time> time_alternately(std::span<const std::function<void(int)>> works, int batches,
+                                   double batch_seconds) {
   std::vector<int> units;
   for (const auto& work : works) units.push_back(batch_size(work, batch_seconds));
   std::vector<std::vector<double>> times(works.size());

@@ -1,5 +1,6 @@
 #pragma once
-/// Times of several contenders, taken in turns so that a slow moment of the machine meets them all.
+/// Times of several contenders, one batch of each after the other, so that a slow moment of the machine meets them
+/// all.
 
 #include <functional>
 #include <span>
@@ -19,7 +20,7 @@ struct Time {
 
 /// Work(units) does that many units. Each work is warmed up, its batch sized to `batch_seconds`, and then timed
 /// `batches` times, one batch of each work after the other.
-[[nodiscard]] std::vector<Time> time_in_turns(std::span<const std::function<void(int)>> works, int batches,
-                                              double batch_seconds);
+[[nodiscard]] std::vector<Time> time_alternately(std::span<const std::function<void(int)>> works, int batches,
+                                                 double batch_seconds);
 
 }  // namespace dualdamp::bench::speed

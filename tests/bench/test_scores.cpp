@@ -26,21 +26,21 @@ scenarios::StressTest question() {
   return result;
 }
 
-std::string estimate(double zeta, double F0, bool doubted) {
+std::string estimate(double zeta, double F0, bool has_diagnostic) {
   const auto around = [](double value) {
     return "[" + std::to_string(0.99 * value) + "," + std::to_string(1.01 * value) + "]";
   };
   return R"({"method":"m","zeta":)" + std::to_string(zeta) + R"(,"F0":)" + std::to_string(F0) + R"(,"zeta95":)" +
-         around(zeta) + R"(,"F095":)" + around(F0) + R"(,"usable":)" + (doubted ? "false" : "true") +
+         around(zeta) + R"(,"F095":)" + around(F0) + R"(,"usable":)" + (has_diagnostic ? "false" : "true") +
          R"(,"fired":false})";
 }
 
 }  // namespace
 
-TEST_CASE("scores: bias, coverage, who was wrong and who knew, and where a method breaks down") {
+TEST_CASE("scores: bias, coverage, what was wrong and what was detected, and where a method breaks down") {
   const std::string none = R"({"method":"m","reason":"no estimate"})";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {estimate(0.1, 10.0, false), estimate(0.1, 10.0, true)},  // the truth: the second doubts for nothing
+      {estimate(0.1, 10.0, false), estimate(0.1, 10.0, true)},  // the truth: the second is a false alarm
       {estimate(0.1, 10.05, false), estimate(0.1, 10.0, false)},
       {estimate(0.1, 10.2, false), estimate(0.1, 9.0, true)},  // 0.01
       {estimate(0.1, 10.2, false), estimate(0.1, 9.0, false)},
@@ -81,7 +81,7 @@ TEST_CASE("scores: bias, coverage, who was wrong and who knew, and where a metho
   CHECK(scores.breakdowns[1].F0_5 == Approx(0.01));
   CHECK(scores.breakdowns[1].F0_20 == Approx(0.1));
 
-  // Each wrong without a doubt in one case of four; of the first method, two are right and stood by.
+  // Each has one missed detection in four cases; of the first method, two are right without a diagnostic.
   REQUIRE(scores.ranking.size() == 2);
   CHECK(scores.ranking[0].method == 0);
   CHECK(scores.ranking[0].trusted == 0.5);

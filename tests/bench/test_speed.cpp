@@ -13,50 +13,50 @@ namespace {
 
 constexpr int periods = 50;
 
-double error_of(const Followed& followed) { return std::abs(followed.amplitude / exact_amplitude - 1.0); }
+double error_of(const IntegratedMotion& motion) { return std::abs(motion.amplitude / exact_amplitude - 1.0); }
 
 }  // namespace
 
-TEST_CASE("The exact engine follows the standard case to the last bits") {
-  const Followed ours = exact_contender(standard_case()).follow(periods);
+TEST_CASE("The exact engine integrates the standard case to the last bits") {
+  const IntegratedMotion ours = exact_contender(standard_case()).integrate(periods);
   CHECK(ours.reversals == 100);
-  // Four turns of rounding at most: the orbit contracts, so errors of single periods do not add up.
+  // Four periods of rounding at most: the orbit contracts, so errors of single periods do not add up.
   CHECK(error_of(ours) < 1e-15);
 }
 
-TEST_CASE("Batches follow the standard case to the last bits") {
+TEST_CASE("Batches integrate the standard case to the last bits") {
   const auto contenders = batch_contenders(standard_case());
   REQUIRE(!contenders.empty());
   for (const Contender& batch : contenders) {
-    const Followed ours = batch.follow(periods);
+    const IntegratedMotion ours = batch.integrate(periods);
     CHECK(ours.reversals == 100);
     CHECK(error_of(ours) < 1e-15);
   }
 }
 
-TEST_CASE("The general solvers follow the same motion") {
+TEST_CASE("The general solvers find the same motion") {
   // The error of an orbit is that of a step times the steps, divided by how much a period forgets (a third). Odeint
   // holds its tolerance closely; CVODE takes few steps of high order, each with a constant of its own.
   for (const Contender& odeint : odeint_contenders(standard_case())) {
-    const Followed theirs = odeint.follow(periods);
+    const IntegratedMotion theirs = odeint.integrate(periods);
     CHECK(theirs.reversals == 100);
     CHECK(error_of(theirs) < 10.0 * odeint.tolerance);
   }
   for (const Contender& cvode : cvode_contenders(standard_case())) {
     INFO(cvode.name);
-    const Followed theirs = cvode.follow(periods);
+    const IntegratedMotion theirs = cvode.integrate(periods);
     CHECK(theirs.reversals == 100);
     CHECK(error_of(theirs) < 1000.0 * cvode.tolerance);
   }
 }
 
-TEST_CASE("SciPy follows the same motion and times each batch") {
+TEST_CASE("SciPy finds the same motion and times each batch") {
   const std::vector<double> tolerances{1e-6, 1e-9};
-  const auto results = follow_with_scipy(standard_case(), tolerances, 2, 10);
+  const auto results = integrate_with_scipy(standard_case(), tolerances, 2, 10);
   if (results.empty()) return;  // SciPy is not installed
   REQUIRE(results.size() == tolerances.size());
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
-    CHECK(results[i].followed.reversals == 20);
+    CHECK(results[i].motion.reversals == 20);
     CHECK(error_of(results[i].followed) < 1000.0 * tolerances[i]);
     REQUIRE(results[i].seconds.size() == 2);
     CHECK(results[i].seconds.front() > 0.0);
@@ -73,8 +73,8 @@ TEST_CASE("Steady states are counted by the second") {
 
 TEST_CASE("A contender starts from the same state each time") {
   const Contender exact = exact_contender(standard_case());
-  const double first = exact.follow(3).amplitude;
-  CHECK(exact.follow(3).amplitude == first);
+  const double first = exact.integrate(3).amplitude;
+  CHECK(exact.integrate(3).amplitude == first);
 }
 
 TEST_CASE("Times are those of one unit of work, and slower work takes longer") {
@@ -84,7 +84,7 @@ TEST_CASE("Times are those of one unit of work, and slower work takes longer") {
   };
   const std::array<std::function<void(int)>, 2> works{[&](int units) { spin(100 * units); },
                                                       [&](int units) { spin(1000 * units); }};
-  const auto times = time_in_turns(works, 7, 0.005);
+  const auto times = time_alternately(works, 7, 0.005);
   REQUIRE(times.size() == 2);
   for (const Time& time : times) {
     CHECK(time.low > 0.0);
