@@ -57,7 +57,7 @@ TEST_CASE("SciPy finds the same motion and times each batch") {
   REQUIRE(results.size() == tolerances.size());
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     CHECK(results[i].motion.reversals == 20);
-    CHECK(error_of(results[i].followed) < 1000.0 * tolerances[i]);
+    CHECK(error_of(results[i].motion) < 1000.0 * tolerances[i]);
     REQUIRE(results[i].seconds.size() == 2);
     CHECK(results[i].seconds.front() > 0.0);
   }

@@ -122,6 +122,19 @@ ExponentialBasis random_basis(Random& random, bool chains) {
   return basis;
 }
 
+/// A level of the recursion adds the rounding of the two differences below it. They are equal to within the factor
+/// that separates the recursion from the integral, so four levels stay within 2^5. The Taylor form loses a few
+/// units.
+void check_chain(const Nodes& nodes, double s) {
+  constexpr double allowed = 32.0;
+  const double error = chain_error(nodes, s);
+  std::string text;
+  for (const Complex& z : nodes)
+    text += "(" + std::to_string(z.real() * s) + ", " + std::to_string(z.imag() * s) + ") ";
+  INFO("nodes times s: " << text << ", s = " << s);
+  CHECK(error <= allowed);
+}
+
 }  // namespace
 
 TEST_CASE("A plain element is exp(z s)") {
@@ -170,71 +183,61 @@ TEST_CASE("Chains of equal exponents are s^n/n! exp(z s)") {
   }
 }
 
-TEST_CASE("Chains keep their digits whatever the distance of the exponents") {
-  // A level of the recursion adds the rounding of the two differences below it; they are equal to within the factor
-  // that separates the recursion from the integral, so four levels stay within 2^5. The Taylor form loses a few
-  // units.
-  constexpr double allowed = 32.0;
+TEST_CASE("Chains keep their digits: exponents near each other, 1e-16 to 1e-1 apart") {
   Random random(4);
-  const auto check = [&](const Nodes& nodes, double s) {
-    const double error = chain_error(nodes, s);
-    std::string text;
-    for (const Complex& z : nodes)
-      text += "(" + std::to_string(z.real() * s) + ", " + std::to_string(z.imag() * s) + ") ";
-    INFO("nodes times s: " << text << ", s = " << s);
-    CHECK(error <= allowed);
-  };
+  for (int i = 0; i < 600; ++i) {
+    const double s = random.logarithmic(1e-8, 1e3);
+    Nodes nodes(static_cast<std::size_t>(2 + random.pick(4)), random_exponent(random, s, 100.0));
+    const double distance = random.logarithmic(1e-16, 1e-1);
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      nodes[k] *= 1.0 + distance * random.uniform(-1.0, 1.0);
+      if (nodes[k].imag() != 0.0) nodes[k] += Complex(0.0, distance * random.uniform(-1.0, 1.0) * nodes[k].imag());
+    }
+    check_chain(nodes, s);
+  }
+}
 
-  SECTION("near each other, 1e-16 to 1e-1 apart") {
-    for (int i = 0; i < 600; ++i) {
-      const double s = random.logarithmic(1e-8, 1e3);
-      Nodes nodes(static_cast<std::size_t>(2 + random.pick(4)), random_exponent(random, s, 100.0));
-      const double distance = random.logarithmic(1e-16, 1e-1);
-      for (std::size_t k = 1; k < nodes.size(); ++k) {
-        nodes[k] *= 1.0 + distance * random.uniform(-1.0, 1.0);
-        if (nodes[k].imag() != 0.0)
-          nodes[k] += Complex(0.0, distance * random.uniform(-1.0, 1.0) * nodes[k].imag());
-      }
-      check(nodes, s);
-    }
+TEST_CASE("Chains keep their digits: exponents far apart") {
+  Random random(4);
+  for (int i = 0; i < 400; ++i) {
+    const double s = random.logarithmic(1e-8, 1e3);
+    Nodes nodes;
+    for (int k = 2 + random.pick(4); k > 0; --k) nodes.push_back(random_exponent(random, s, 300.0));
+    check_chain(nodes, s);
   }
-  SECTION("far apart") {
-    for (int i = 0; i < 400; ++i) {
-      const double s = random.logarithmic(1e-8, 1e3);
-      Nodes nodes;
-      for (int k = 2 + random.pick(4); k > 0; --k) nodes.push_back(random_exponent(random, s, 300.0));
-      check(nodes, s);
+}
+
+TEST_CASE("Chains keep their digits: exponents in two clusters") {
+  Random random(4);
+  for (int i = 0; i < 400; ++i) {
+    const double s = random.logarithmic(1e-8, 1e3);
+    const Complex a = random_exponent(random, s, 30.0);
+    const Complex b = random_exponent(random, s, 30.0);
+    const double distance = random.logarithmic(1e-16, 1.0);
+    Nodes nodes;
+    for (int k = 2 + random.pick(4); k > 0; --k) {
+      nodes.push_back((random.chance(0.5) ? a : b) * (1.0 + distance * random.uniform(-1.0, 1.0)));
     }
+    check_chain(nodes, s);
   }
-  SECTION("two clusters") {
-    for (int i = 0; i < 400; ++i) {
-      const double s = random.logarithmic(1e-8, 1e3);
-      const Complex a = random_exponent(random, s, 30.0);
-      const Complex b = random_exponent(random, s, 30.0);
-      const double distance = random.logarithmic(1e-16, 1.0);
-      Nodes nodes;
-      for (int k = 2 + random.pick(4); k > 0; --k) {
-        nodes.push_back((random.chance(0.5) ? a : b) * (1.0 + distance * random.uniform(-1.0, 1.0)));
-      }
-      check(nodes, s);
-    }
-  }
-  SECTION("an oscillator's own pair below a drive, a constant and a ramp") {
-    for (int i = 0; i < 400; ++i) {
-      const double s = random.logarithmic(1e-8, 1e3);
-      const double omega = random.logarithmic(1e-3, 100.0) / s;
-      const double zeta = random.logarithmic(1e-16, 0.99);
-      const Complex own(-zeta * omega, omega * std::sqrt((1.0 - zeta) * (1.0 + zeta)));
-      const Complex drive(0.0, own.imag() * (1.0 + random.sign() * random.logarithmic(1e-16, 1e-1)));
-      check({drive, own, std::conj(own)}, s);
-      check({own, std::conj(own)}, s);
-      check({0.0, own, std::conj(own)}, s);
-      check({0.0, 0.0, own, std::conj(own)}, s);
-      const double slow = -random.logarithmic(1e-10, 1.0) / s;
-      const double fast = -random.logarithmic(1.0, 300.0) / s;
-      check({0.0, 0.0, slow, fast}, s);
-      check({slow, fast}, s);
-    }
+}
+
+TEST_CASE("Chains keep their digits: exponents of an oscillator's own pair below a drive, a constant and a ramp") {
+  Random random(4);
+  for (int i = 0; i < 400; ++i) {
+    const double s = random.logarithmic(1e-8, 1e3);
+    const double omega = random.logarithmic(1e-3, 100.0) / s;
+    const double zeta = random.logarithmic(1e-16, 0.99);
+    const Complex own(-zeta * omega, omega * std::sqrt((1.0 - zeta) * (1.0 + zeta)));
+    const Complex drive(0.0, own.imag() * (1.0 + random.sign() * random.logarithmic(1e-16, 1e-1)));
+    check_chain({drive, own, std::conj(own)}, s);
+    check_chain({own, std::conj(own)}, s);
+    check_chain({0.0, own, std::conj(own)}, s);
+    check_chain({0.0, 0.0, own, std::conj(own)}, s);
+    const double slow = -random.logarithmic(1e-10, 1.0) / s;
+    const double fast = -random.logarithmic(1.0, 300.0) / s;
+    check_chain({0.0, 0.0, slow, fast}, s);
+    check_chain({slow, fast}, s);
   }
 }
 

@@ -261,39 +261,49 @@ TEST_CASE("What packs cannot certify goes to the exact engine") {
   CHECK(states.outcome[7] == OutcomeKind::no_steady_state);
 }
 
-TEST_CASE("A model is for batches by what its laws do, not by their names") {
-  // Coulomb friction that no registry knows, and neighbours of it that are none.
-  struct OtherCoulomb {
-    static Affine affine_force(const Memory&, const Instant&, Direction direction) {
-      return {.constant = 2.0 * friction::sign(direction)};
-    }
-    static Affine affine_limit(const Memory&, const Instant&) { return {.constant = 3.0}; }
-  };
-  struct Viscous {
-    static Affine affine_force(const Memory&, const Instant&, Direction) { return {.velocity = 2.0}; }
-  };
-  struct OneWay {
-    static Affine affine_force(const Memory&, const Instant&, Direction direction) {
-      return {.constant = direction == Direction::forward ? 2.0 : -1.0};
-    }
-    static Affine affine_limit(const Memory&, const Instant&) { return {.constant = 2.0}; }
-  };
-  struct NeverHolds {
-    static Affine affine_force(const Memory&, const Instant&, Direction direction) {
-      return {.constant = 2.0 * friction::sign(direction)};
-    }
-  };
+namespace {
+
+// Coulomb friction that no registry knows, and neighbours of it that are none.
+struct OtherCoulomb {
+  static Affine affine_force(const Memory&, const Instant&, Direction direction) {
+    return {.constant = 2.0 * friction::sign(direction)};
+  }
+  static Affine affine_limit(const Memory&, const Instant&) { return {.constant = 3.0}; }
+};
+
+struct Viscous {
+  static Affine affine_force(const Memory&, const Instant&, Direction) { return {.velocity = 2.0}; }
+};
+
+struct OneWay {
+  static Affine affine_force(const Memory&, const Instant&, Direction direction) {
+    return {.constant = direction == Direction::forward ? 2.0 : -1.0};
+  }
+  static Affine affine_limit(const Memory&, const Instant&) { return {.constant = 2.0}; }
+};
+
+struct NeverHolds {
+  static Affine affine_force(const Memory&, const Instant&, Direction direction) {
+    return {.constant = 2.0 * friction::sign(direction)};
+  }
+};
+
+const friction::Coulomb plain_coulomb(1.0, 1.5);
+
+/// A driven oscillator with these laws.
+template <class... Laws>
+Model driven_with(const Laws&... laws) {
   Model model;
   model.oscillator = {.mass = 2.0, .stiffness = 50.0, .damping = 1.0, .damper_to = DamperTo::base};
   model.excitation = {.type = ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 7.0, .phase = 1.0};
-  const auto with = [&](const auto&... laws) {
-    Model other = model;
-    (other.friction.emplace_back(laws), ...);
-    return other;
-  };
-  const friction::Coulomb coulomb(1.0, 1.5);
+  (model.friction.emplace_back(laws), ...);
+  return model;
+}
 
-  const std::optional<OscillatorBatch> batch = batch_of(with(coulomb, OtherCoulomb{}), 3);
+}  // namespace
+
+TEST_CASE("A law that does what Coulomb's does is for batches, whatever its name") {
+  const std::optional<OscillatorBatch> batch = batch_of(driven_with(plain_coulomb, OtherCoulomb{}), 3);
   REQUIRE(batch.has_value());
   CHECK(batch->size() == 3);
   CHECK(batch->type == ExcitationType::base_harmonic);
@@ -305,27 +315,32 @@ TEST_CASE("A model is for batches by what its laws do, not by their names") {
   CHECK(batch->static_level == std::vector<double>(3, 4.5));
   CHECK(batch->amplitude == std::vector<double>(3, 0.1));
   CHECK(batch->frequency == std::vector<double>(3, 7.0));
+}
 
-  CHECK_FALSE(batch_of(with(Viscous{}), 1));
-  CHECK_FALSE(batch_of(with(OneWay{}), 1));
-  CHECK_FALSE(batch_of(with(NeverHolds{}), 1));
-  CHECK_FALSE(batch_of(with(friction::ContactCompliance(1.0, 1.0, 1e4, 0.0)), 1));
-  CHECK_FALSE(batch_of(with(coulomb, friction::ContactCompliance(1.0, 1.0, 1e4, 0.0)), 1));
+TEST_CASE("A law that does something else is not for batches") {
+  CHECK_FALSE(batch_of(driven_with(Viscous{}), 1));
+  CHECK_FALSE(batch_of(driven_with(OneWay{}), 1));
+  CHECK_FALSE(batch_of(driven_with(NeverHolds{}), 1));
+  CHECK_FALSE(batch_of(driven_with(friction::ContactCompliance(1.0, 1.0, 1e4, 0.0)), 1));
+  CHECK_FALSE(batch_of(driven_with(plain_coulomb, friction::ContactCompliance(1.0, 1.0, 1e4, 0.0)), 1));
   for (const char* modifier : {"drift", "position_slope"})
-    CHECK_FALSE(batch_of(with(friction::modified(friction::Law(coulomb), {{modifier, 0.1}}, {1.0, 1.5})), 1));
+    CHECK_FALSE(
+        batch_of(driven_with(friction::modified(friction::Law(plain_coulomb), {{modifier, 0.1}}, {1.0, 1.5})), 1));
+}
 
-  Model distorted = with(coulomb);
+TEST_CASE("Batches are for plain springs and for drives of one harmonic without offset") {
+  Model distorted = driven_with(plain_coulomb);
   distorted.excitation.harmonics = {{.order = 3, .amplitude = 0.01}};
   CHECK_FALSE(batch_of(distorted, 1));
-  Model hardening = with(coulomb);
+  Model hardening = driven_with(plain_coulomb);
   hardening.oscillator.cubic_stiffness = 1.0;
   CHECK_FALSE(batch_of(hardening, 1));
-  Model pushed = with(coulomb);
+  Model pushed = driven_with(plain_coulomb);
   pushed.excitation.type = ExcitationType::force_harmonic;
   CHECK(batch_of(pushed, 1));
   pushed.excitation.offset = 0.5;
   CHECK_FALSE(batch_of(pushed, 1));
-  Model free = with(coulomb);
+  Model free = driven_with(plain_coulomb);
   free.excitation.type = ExcitationType::none;
   CHECK_FALSE(batch_of(free, 1));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 
 #include "tests/sim/engine/exact_motions.hpp"
 #include "tests/support/exponential_sum.hpp"
@@ -15,85 +16,133 @@ using friction::Direction;
 
 // Random releases from rest against the closed form in 50 digits and a search in long double.
 
-TEST_CASE("After every release from exact stick the next event is found, and none is invented", "[exact]") {
-  // DUALDAMP_RELEASE_CASES for a longer run.
-  const long cases = test::case_count("DUALDAMP_RELEASE_CASES", 2000);
-  Random random(24);
+namespace {
+
+/// A mass at rest on a driven base.
+struct Candidate {
+  Model model;
+  double kinetic = 0.0;
+  double static_level = 0.0;
+
+  [[nodiscard]] bool has_equal_limits() const { return static_level == kinetic; }
+};
+
+/// Nothing next to critical damping or next to an undamped resonance.
+std::optional<Candidate> random_candidate(Random& random) {
+  const double wn = random.logarithmic(1.0, 100.0);
+  const double m = random.logarithmic(0.1, 10.0);
+  const double zeta = random.chance(0.2) ? 0.0 : random.logarithmic(1e-3, 3.0);
+  const double r = random.logarithmic(0.05, 5.0);
+  if (std::abs(zeta - 1.0) < 1e-3 || (zeta < 1e-2 && std::abs(r - 1.0) < 1e-2)) return std::nullopt;
+  const double k = m * wn * wn;
+  Candidate candidate;
+  candidate.model = base_driven(m, k, 2.0 * zeta * m * wn, random.logarithmic(1e-3, 1.0), r * wn, random.angle());
+  const double drive = candidate.model.excitation.amplitude;
+  const bool equal = random.chance(0.5);
+  candidate.kinetic = k * drive * random.logarithmic(1e-3, 0.99);
+  candidate.static_level = equal ? candidate.kinetic : candidate.kinetic * random.uniform(1.0, 2.0);
+  candidate.model.friction.push_back(coulomb(candidate.kinetic, candidate.static_level));
+  const double start = drive * std::cos(candidate.model.excitation.phase);
+  // A third of the force limits are reached just before the pull has its extreme: slips from 1e-3 periods on.
+  double room = random.uniform(-1.0, 1.0) * candidate.static_level / k;
+  if (random.chance(0.33))
+    room = drive * (1.0 - random.logarithmic(1e-6, 1e-1)) - start - candidate.static_level / k;
+  candidate.model.initial.position = start + room;
+  return candidate;
+}
+
+/// The release of a candidate: at it cos(angle) = level = (x0 + sign static/k)/Y with the pull growing.
+struct ReleaseAngle {
+  double sign = 0.0;  ///< of the slip
+  long double level = 0.0L;
+  long double sine = 0.0L;
+};
+
+ReleaseAngle release_angle(const Candidate& candidate, double sign) {
+  const Model& model = candidate.model;
+  const long double level = (static_cast<long double>(model.initial.position) +
+                             static_cast<long double>(sign) * static_cast<long double>(candidate.static_level) /
+                                 model.oscillator.stiffness) /
+                            model.excitation.amplitude;
+  return {sign, level, -static_cast<long double>(sign) * std::sqrt(1.0L - level * level)};
+}
+
+/// How long the slip lasts by the closed form; nothing when it lasts longer than three periods.
+std::optional<long double> slip_duration(const Candidate& candidate, const ReleaseAngle& release, double period) {
+  const Oscillator& oscillator = candidate.model.oscillator;
+  const Excitation& base = candidate.model.excitation;
+  const oracle::Complex phasor(static_cast<double>(release.level), static_cast<double>(release.sine));
+  const oracle::LinearProblem slip{.mass = oscillator.mass,
+                                   .damping = oscillator.damping,
+                                   .stiffness = oscillator.stiffness,
+                                   .constant = -release.sign * candidate.kinetic,
+                                   .harmonics = {{base.frequency, oscillator.stiffness * base.amplitude * phasor}},
+                                   .x0 = candidate.model.initial.position};
+  oracle::ExponentialSum velocity;
+  for (const oracle::Exponential& e : oracle::slip_velocity(slip))
+    velocity.add(e.exponent, static_cast<long double>(release.sign) * e.coefficient);
+  velocity.finish(candidate.has_equal_limits() ? 2 : 1);
+  return velocity.first_crossing(3.0L * static_cast<long double>(period));
+}
+
+struct Tally {
   long releases = 0;
   long double_roots = 0;
   long short_slips = 0;
   double worst = 0.0;
   double shortest = 1.0;
-  while (releases < cases) {
-    const double wn = random.logarithmic(1.0, 100.0);
-    const double m = random.logarithmic(0.1, 10.0);
-    const double zeta = random.chance(0.2) ? 0.0 : random.logarithmic(1e-3, 3.0);
-    const double r = random.logarithmic(0.05, 5.0);
-    if (std::abs(zeta - 1.0) < 1e-3 || (zeta < 1e-2 && std::abs(r - 1.0) < 1e-2)) continue;
-    const double k = m * wn * wn;
-    const double w = r * wn;
-    Model model = base_driven(m, k, 2.0 * zeta * m * wn, random.logarithmic(1e-3, 1.0), w, random.angle());
-    const double drive = model.excitation.amplitude;
-    const bool equal = random.chance(0.5);
-    const double kinetic = k * drive * random.logarithmic(1e-3, 0.99);
-    const double static_level = equal ? kinetic : kinetic * random.uniform(1.0, 2.0);
-    model.friction.push_back(coulomb(kinetic, static_level));
-    const double start = drive * std::cos(model.excitation.phase);
-    // A third of the limits are reached just before the pull turns: slips from 1e-3 periods on.
-    double room = random.uniform(-1.0, 1.0) * static_level / k;
-    if (random.chance(0.33)) room = drive * (1.0 - random.logarithmic(1e-6, 1e-1)) - start - static_level / k;
-    model.initial.position = start + room;
+};
 
-    ExactEngine engine(model);
+/// The slip from the release at t = `from`: its end against the closed form.
+void check_slip(ExactEngine& engine, const Candidate& candidate, const ReleaseAngle& release, double from,
+                Tally& tally) {
+  const double period = engine.period();
+  const std::optional<long double> expected = slip_duration(candidate, release, period);
+  const auto next = events_of(engine, from + 2.9 * period, 1);
+  const Model& model = candidate.model;
+  CAPTURE(model.oscillator.mass, model.oscillator.stiffness, model.oscillator.damping, model.excitation.amplitude,
+          model.excitation.frequency, model.excitation.phase, candidate.kinetic, candidate.static_level,
+          model.initial.position);
+  if (!expected || *expected > 2.9L * static_cast<long double>(period)) {
+    CHECK(next.empty());
+    return;
+  }
+  REQUIRE(next.size() == 1);
+  const auto s = static_cast<double>(*expected);
+  const double error = std::abs(next[0].t - from - s) / s;
+  // Time itself rounds at eps t; a release close to the extreme of the drive is known to eps/sine.
+  const double allowed = 1e-11 + 64 * epsilon * next[0].t / s +
+                         1e-14 / static_cast<double>(std::abs(release.sine)) / (model.excitation.frequency * s);
+  CHECK(error <= allowed);
+  CHECK((next[0].kind == EventKind::stop || next[0].kind == EventKind::reversal));
+  tally.worst = std::max(tally.worst, error);
+  tally.shortest = std::min(tally.shortest, s / period);
+  tally.short_slips += s < 0.05 * period ? 1 : 0;
+}
+
+}  // namespace
+
+TEST_CASE("After every release from exact stick the next event is found, and none is invented", "[exact]") {
+  // DUALDAMP_RELEASE_CASES for a longer run.
+  const long cases = test::case_count("DUALDAMP_RELEASE_CASES", 2000);
+  Random random(24);
+  Tally tally;
+  while (tally.releases < cases) {
+    const std::optional<Candidate> candidate = random_candidate(random);
+    if (!candidate) continue;
+    ExactEngine engine(candidate->model);
     if (engine.direction() != Direction::none) continue;
     const auto first = events_of(engine, 1.5 * engine.period(), 1);
-    if (first.empty()) continue;  // the pull never reaches the limit
+    if (first.empty()) continue;  // the pull never reaches the force limit
     REQUIRE(first[0].kind == EventKind::release);
-    const double side = friction::sign(engine.direction());
-    // At release cos(angle) = (x0 + side static/k)/Y with the pull growing; not too near its turning point.
-    const long double level = (static_cast<long double>(model.initial.position) +
-                               static_cast<long double>(side) * static_cast<long double>(static_level) / k) /
-                              drive;
-    if (!(std::abs(level) < 1.0L - 0.9e-6L)) continue;
-    ++releases;
-    double_roots += equal ? 1 : 0;
-    const long double sine = -static_cast<long double>(side) * std::sqrt(1.0L - level * level);
-    const oracle::LinearProblem slip{
-        .mass = m,
-        .damping = model.oscillator.damping,
-        .stiffness = k,
-        .constant = -side * kinetic,
-        .harmonics = {{w, k * drive * oracle::Complex(static_cast<double>(level), static_cast<double>(sine))}},
-        .x0 = model.initial.position};
-    oracle::ExponentialSum velocity;
-    for (const oracle::Exponential& e : oracle::slip_velocity(slip)) {
-      velocity.add(e.exponent, static_cast<long double>(side) * e.coefficient);
-    }
-    velocity.finish(equal ? 2 : 1);
-    const long double horizon = 3.0L * static_cast<long double>(engine.period());
-    const auto expected = velocity.first_crossing(horizon);
-    const auto next = events_of(engine, first[0].t + 2.9 * engine.period(), 1);
-
-    CAPTURE(m, k, model.oscillator.damping, drive, w, model.excitation.phase, kinetic, static_level,
-            model.initial.position);
-    if (!expected || *expected > 2.9L * static_cast<long double>(engine.period())) {
-      CHECK(next.empty());
-      continue;
-    }
-    REQUIRE(next.size() == 1);
-    const double found = next[0].t - first[0].t;
-    const auto s = static_cast<double>(*expected);
-    // Time itself rounds at eps t; a release close to the drive's turning point is known to eps/sine.
-    const double error = std::abs(found - s) / s;
-    const double allowed =
-        1e-11 + 64 * epsilon * next[0].t / s + 1e-14 / static_cast<double>(std::abs(sine)) / (w * s);
-    CHECK(error <= allowed);
-    CHECK((next[0].kind == EventKind::stop || next[0].kind == EventKind::reversal));
-    worst = std::max(worst, error);
-    shortest = std::min(shortest, s / engine.period());
-    short_slips += s < 0.05 * engine.period() ? 1 : 0;
+    const ReleaseAngle release = release_angle(*candidate, friction::sign(engine.direction()));
+    // Not too near the extreme of the pull.
+    if (!(std::abs(release.level) < 1.0L - 0.9e-6L)) continue;
+    ++tally.releases;
+    tally.double_roots += candidate->has_equal_limits() ? 1 : 0;
+    check_slip(engine, *candidate, release, first[0].t, tally);
   }
-  WARN(releases << " releases, " << double_roots << " of them with static = kinetic, " << short_slips
-                << " slips below a twentieth of the period, the shortest " << shortest
-                << " periods; largest relative error of a slip's duration " << worst);
+  WARN(tally.releases << " releases, " << tally.double_roots << " of them with static = kinetic, "
+                      << tally.short_slips << " slips below a twentieth of the period, the shortest "
+                      << tally.shortest << " periods; largest relative error of a slip's duration " << tally.worst);
 }
