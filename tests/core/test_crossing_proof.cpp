@@ -243,7 +243,7 @@ std::string Comparison::inspect_crossing(const Contact& contact, bool uncertain)
   return {};
 }
 
-/// The gap to the next root behind a crossing that is one beyond doubt.
+/// The gap to the next root after a crossing that is certain.
 void Comparison::note_gap(Real root, std::size_t from) {
   for (std::size_t i = from; i + 1 < account_.knots.size(); ++i) {
     if (account_.knots[i + 1].level <= 0) continue;

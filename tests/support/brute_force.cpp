@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/support/plain_phase.hpp"
+#include "tests/support/plain_interval.hpp"
 
 namespace dualdamp::test {
 

@@ -71,7 +71,7 @@ class ExponentialSum {
   [[nodiscard]] Account account(Real horizon) const;
   /// The root between two neighbours of opposite signs.
   [[nodiscard]] Real root(const Knot& left, const Knot& right) const;
-  /// The first root behind which the level falls below -4: a crossing without doubt.
+  /// The first root behind which the level falls below -4: a crossing that is certain.
   [[nodiscard]] std::optional<Real> first_crossing(Real horizon) const;
 
  private:

@@ -102,7 +102,7 @@ void PlainFriction::let_go(int side) {
   }
 }
 
-void PlainFriction::turn(double x) {
+void PlainFriction::reverse(double x) {
   for (Spring& s : springs) {
     if (s.side == 0) continue;
     s.foot = x - s.side * s.trail;

@@ -70,7 +70,7 @@ class PlainFriction {
   /// All springs that do so there.
   void let_go(int side);
   /// v = 0 at x: feet that were dragged stand.
-  void turn(double x);
+  void reverse(double x);
   /// Time passes.
   void relax(double s);
 

@@ -3,8 +3,9 @@
 ///
 /// A release is any event at which something lets go: a contact, an element or a bond breaks away, a bristle snaps,
 /// the mass leaves rest, or it starts again after a reversal at which a slider came to stand. The engine's next
-/// event is compared with the closed form of the phase, from the engine's x, v and t at the release and the places
-/// of all sliders that the test keeps itself, by the oracle's rigorous search (tests/support/plain_phase).
+/// event is compared with the closed form of the interval, from the engine's x, v and t at the release and the
+/// places of all sliders that the test keeps itself, by the oracle's rigorous search
+/// (tests/support/plain_interval).
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include <vector>
 
 #include "sim/engine/exact_engine.hpp"
-#include "tests/support/plain_phase.hpp"
+#include "tests/support/plain_interval.hpp"
 #include "tests/support/random_oscillations.hpp"
 
 namespace {
@@ -26,7 +27,7 @@ using sim::EventKind;
 using test::LawKind;
 using test::MassState;
 using test::NextEvent;
-using test::PlainPhase;
+using test::PlainInterval;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -35,7 +36,7 @@ struct Tally {
   long releases = 0;
   long compared = 0;      ///< next events
   long sharp = 0;         ///< of these, known to 1e-10 of the time from the release
-  long double_roots = 0;  ///< phases after a release with a guard that begins with one
+  long double_roots = 0;  ///< intervals after a release with a guard that begins with one
   double shortest = 1.0;  ///< from a release to the next event, in periods
   double worst = 0.0;     ///< relative error of that time, of the sharp ones
   std::vector<std::string> failures;
@@ -70,7 +71,7 @@ class Walk {
  private:
   bool step();
   bool fail(const std::string& what);
-  bool compare(const NextEvent& expected, const Found& found, const PlainPhase& phase);
+  bool compare(const NextEvent& expected, const Found& found, const PlainInterval& interval);
   [[nodiscard]] bool is_release(const NextEvent& event) const;
 
   const test::Oscillation& o_;
@@ -88,25 +89,25 @@ bool Walk::fail(const std::string& what) {
 
 /// From one event to the next; false at the end of the walk.
 bool Walk::step() {
-  const PlainPhase phase(o_.model, plain_, mass_);
-  if (!phase.is_regular()) return false;
+  const PlainInterval interval(o_.model, plain_, mass_);
+  if (!interval.is_regular()) return false;
   const double period = engine_.period();
-  const std::vector<NextEvent> expected = phase.next_events(3.0 * period);
+  const std::vector<NextEvent> expected = interval.next_events(3.0 * period);
   const auto found = next_event(engine_, mass_.t + 2.9 * period);
   if (released_) {
     ++tally_.releases;
-    if (phase.begins_with_double_root()) ++tally_.double_roots;
+    if (interval.begins_with_double_root()) ++tally_.double_roots;
   }
   if (expected.empty() || expected.front().s > 2.9 * period) return found ? fail("invented") : false;
   if (!found) return fail(fmt::format("missed at {:.17g}", expected.front().s));
   // Of events that rounding puts in order the engine may take any.
   const bool turns = found->kind == EventKind::reversal || found->kind == EventKind::stop;
   const auto same = std::ranges::find_if(
-      expected, [&](const NextEvent& event) { return turns == (event.what == NextEvent::What::turn); });
-  return compare(same == expected.end() ? expected.front() : *same, *found, phase);
+      expected, [&](const NextEvent& event) { return turns == (event.what == NextEvent::What::reversal); });
+  return compare(same == expected.end() ? expected.front() : *same, *found, interval);
 }
 
-bool Walk::compare(const NextEvent& expected, const Found& found, const PlainPhase& phase) {
+bool Walk::compare(const NextEvent& expected, const Found& found, const PlainInterval& interval) {
   const double s = found.t - mass_.t;
   const double error = std::abs(s - expected.s);
   // The time itself rounds.
@@ -115,10 +116,10 @@ bool Walk::compare(const NextEvent& expected, const Found& found, const PlainPha
     return fail(fmt::format("after {:.17g} instead of {:.17g} (+-{:.2g}), {}", s, expected.s, rounding,
                             sim::name(found.kind)));
   const double length = std::abs(mass_.x) + o_.model.excitation.amplitude;
-  if (!(std::abs(engine_.position() - phase.position(s)) <= 1e-12 * length)) return fail("at the wrong place");
+  if (!(std::abs(engine_.position() - interval.position(s)) <= 1e-12 * length)) return fail("at the wrong place");
   const test::LinearForce f = plain_.force(mass_.direction);
   const double force_before = f.constant + f.stiffness * engine_.position() + f.damping * engine_.velocity();
-  if (mass_.direction != 0 && !(std::abs(found.force - force_before) <= 1e-11 * phase.force_scale()))
+  if (mass_.direction != 0 && !(std::abs(found.force - force_before) <= 1e-11 * interval.force_scale()))
     return fail(fmt::format("under a friction of {:.17g} N instead of {:.17g} N", found.force, force_before));
   if (released_) {
     ++tally_.compared;
@@ -129,7 +130,7 @@ bool Walk::compare(const NextEvent& expected, const Found& found, const PlainPha
     }
   }
   plain_.relax(expected.s);
-  mass_ = {found.t, engine_.position(), engine_.velocity(), mass_.direction, phase.velocity_error()};
+  mass_ = {found.t, engine_.position(), engine_.velocity(), mass_.direction, interval.velocity_error()};
   released_ = is_release(expected);
   const EventKind kind = take_place(o_.model, expected, plain_, mass_);
   released_ = released_ && kind != EventKind::stop;
@@ -146,7 +147,7 @@ bool Walk::is_release(const NextEvent& event) const {
       return true;
     case NextEvent::What::contact:
       return plain_.contacts[event.contact].side == 0;
-    case NextEvent::What::turn:
+    case NextEvent::What::reversal:
       break;
   }
   return std::ranges::any_of(plain_.springs, [](const test::Spring& spring) { return spring.side != 0; });
@@ -171,11 +172,11 @@ void check_releases(const std::vector<LawKind>& laws, std::uint64_t seed) {
     UNSCOPED_INFO(tally.failures[i]);
   CHECK(tally.failures.empty());
   CHECK(5 * tally.sharp > 4 * tally.compared);
-  WARN(
-      fmt::format("{}: {} releases of {} oscillators, {} next events, {} of them known to 1e-10, {} phases with a "
-                  "double root at the start\nshortest {:.2g} periods, largest relative error {:.2g}, {} wrong",
-                  what, tally.releases, tally.oscillators, tally.compared, tally.sharp, tally.double_roots,
-                  tally.shortest, tally.worst, tally.failures.size()));
+  WARN(fmt::format(
+      "{}: {} releases of {} oscillators, {} next events, {} of them known to 1e-10, {} intervals with a "
+      "double root at the start\nshortest {:.2g} periods, largest relative error {:.2g}, {} wrong",
+      what, tally.releases, tally.oscillators, tally.compared, tally.sharp, tally.double_roots, tally.shortest,
+      tally.worst, tally.failures.size()));
 }
 
 }  // namespace

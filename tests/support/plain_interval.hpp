@@ -19,15 +19,15 @@ struct MassState {
   double x = 0.0;
   double v = 0.0;
   int direction = 0;
-  double v_error = 0.0;  ///< m/s, of v: what the phase before has left
+  double v_error = 0.0;  ///< m/s, of v: left by the interval before
 };
 
 /// What comes next.
 struct NextEvent {
-  enum class What { turn, release, spring, contact } what = What::turn;
+  enum class What { reversal, release, spring, contact } what = What::reversal;
   int side = 0;  ///< of the release, or to which the spring lets go or the contact breaks away
   std::size_t contact = 0;
-  double s = 0.0;          ///< after the phase began [s]
+  double s = 0.0;          ///< after the start of the interval [s]
   double uncertainty = 0;  ///< what rounding of state, places and drive moves it by [s]
 };
 
@@ -36,9 +36,9 @@ struct NextEvent {
 sim::EventKind take_place(const sim::Model& model, const NextEvent& event, PlainFriction& friction,
                           MassState& mass);
 
-class PlainPhase {
+class PlainInterval {
  public:
-  PlainPhase(const sim::Model& model, const PlainFriction& friction, const MassState& from);
+  PlainInterval(const sim::Model& model, const PlainFriction& friction, const MassState& from);
 
   /// False beside critical damping and undamped resonance, where the closed form cancels.
   [[nodiscard]] bool is_regular() const;

@@ -1,4 +1,4 @@
-#include "tests/support/plain_phase.hpp"
+#include "tests/support/plain_interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,19 +37,19 @@ sim::EventKind take_place(const sim::Model& model, const NextEvent& event, Plain
       }
       return sim::EventKind::switching;
     }
-    case NextEvent::What::turn:
+    case NextEvent::What::reversal:
       break;
   }
   mass.v = 0.0;
   mass.direction = 0;
-  friction.turn(mass.x);
-  const double pull = PlainPhase(model, friction, mass).net_force();
+  friction.reverse(mass.x);
+  const double pull = PlainInterval(model, friction, mass).net_force();
   if (std::abs(pull) <= friction.static_level) return sim::EventKind::stop;
   mass.direction = pull > 0.0 ? 1 : -1;
   return sim::EventKind::reversal;
 }
 
-PlainPhase::PlainPhase(const sim::Model& model, const PlainFriction& friction, const MassState& from)
+PlainInterval::PlainInterval(const sim::Model& model, const PlainFriction& friction, const MassState& from)
     : model_(model), friction_(friction), from_(from), force_(friction.force(from.direction)) {
   const sim::Oscillator& o = model.oscillator;
   problem_ = {.mass = o.mass,
@@ -80,7 +80,7 @@ PlainPhase::PlainPhase(const sim::Model& model, const PlainFriction& friction, c
 }
 
 /// Phasors of the drive's force now.
-void PlainPhase::set_drive() {
+void PlainInterval::set_drive() {
   const sim::Oscillator& o = model_.oscillator;
   const sim::Excitation& e = model_.excitation;
   const bool base = e.type == sim::ExcitationType::base_harmonic;
@@ -89,32 +89,32 @@ void PlainPhase::set_drive() {
     const Real w = Real(order) * static_cast<Real>(e.frequency);
     const Real angle =
         std::remainder(w * static_cast<Real>(from_.t), 2 * std::numbers::pi_v<Real>) + static_cast<Real>(phase);
-    const auto turn = oracle::Complex(std::polar(static_cast<Real>(amplitude), angle));
+    const auto phasor = oracle::Complex(std::polar(static_cast<Real>(amplitude), angle));
     const auto frequency = static_cast<double>(w);
     const oracle::Complex gain = base ? oracle::Complex(o.stiffness, damper * frequency) : oracle::Complex(1.0);
-    problem_.harmonics.push_back({frequency, gain * turn});
-    force_scale_ += std::abs(gain * turn);
-    force_error_ += std::abs(gain * turn) * 0.25 * rounding * frequency * from_.t;
+    problem_.harmonics.push_back({frequency, gain * phasor});
+    force_scale_ += std::abs(gain * phasor);
+    force_error_ += std::abs(gain * phasor) * 0.25 * rounding * frequency * from_.t;
   };
   add(1, e.amplitude, e.phase);
   for (const sim::Harmonic& h : e.harmonics) add(h.order, h.amplitude, h.phase);
   if (!base) problem_.constant += e.offset;
 }
 
-double PlainPhase::rate() const {
+double PlainInterval::rate() const {
   return std::max(std::sqrt(problem_.stiffness / problem_.mass), std::abs(problem_.damping) / problem_.mass);
 }
 
-double PlainPhase::velocity_error() const {
+double PlainInterval::velocity_error() const {
   Real parts = 0;
   for (const oracle::Exponential& e : velocity_) parts += std::abs(e.coefficient);
   return 4.0 * (force_error_ / problem_.mass / rate() + rounding * static_cast<double>(parts));
 }
 
-/// The larger of what the phase before has left and of what this one makes of it.
-double PlainPhase::start_velocity_error() const { return std::max(velocity_error(), from_.v_error); }
+/// The larger of the error that the interval before has left and the error of this interval.
+double PlainInterval::start_velocity_error() const { return std::max(velocity_error(), from_.v_error); }
 
-bool PlainPhase::is_regular() const {
+bool PlainInterval::is_regular() const {
   if (from_.direction == 0) return true;
   const double w = std::sqrt(problem_.stiffness / problem_.mass);
   const double zeta = problem_.damping / (2.0 * problem_.mass * w);
@@ -123,13 +123,13 @@ bool PlainPhase::is_regular() const {
   return std::abs(zeta - 1.0) > 1e-3 && (zeta > 1e-2 || !resonant);
 }
 
-double PlainPhase::net_force() const {
+double PlainInterval::net_force() const {
   double force = problem_.constant - problem_.stiffness * from_.x;
   for (const auto& harmonic : problem_.harmonics) force += harmonic.phasor.real();
   return force;
 }
 
-void PlainPhase::add_guards() {
+void PlainInterval::add_guards() {
   const int direction = from_.direction;
   if (direction == 0) {
     for (const int side : {1, -1}) {
@@ -149,7 +149,7 @@ void PlainPhase::add_guards() {
   for (std::size_t i = 0; i < friction_.contacts.size(); ++i) add_contact_guards(i);
 }
 
-void PlainPhase::add_spring_guard(int side) {
+void PlainInterval::add_spring_guard(int side) {
   const double edge = friction_.edge(side);
   if (!std::isfinite(edge)) return;
   Guard guard{.event = {.what = NextEvent::What::spring, .side = side},
@@ -161,7 +161,7 @@ void PlainPhase::add_spring_guard(int side) {
   guards_.push_back(guard);
 }
 
-void PlainPhase::add_contact_guards(std::size_t index) {
+void PlainInterval::add_contact_guards(std::size_t index) {
   const DampedContact& c = friction_.contacts[index];
   if (c.side != 0) {
     // side (v - stretch')
@@ -198,11 +198,11 @@ void PlainPhase::add_contact_guards(std::size_t index) {
   }
 }
 
-bool PlainPhase::begins_with_double_root() const {
+bool PlainInterval::begins_with_double_root() const {
   return std::any_of(guards_.begin(), guards_.end(), [](const Guard& guard) { return guard.zeros >= 2; });
 }
 
-ExponentialSum PlainPhase::sum(const Guard& g) const {
+ExponentialSum PlainInterval::sum(const Guard& g) const {
   ExponentialSum f;
   auto constant = static_cast<Real>(g.constant);
   if (from_.direction == 0) {
@@ -226,8 +226,9 @@ ExponentialSum PlainPhase::sum(const Guard& g) const {
 }
 
 /// An error of the guard over its slope at the root. An error of the force grows to one of the velocity, and that
-/// to one of the position, until the oscillator turns. At the start there are those that the last phase has left.
-double PlainPhase::uncertainty(const Guard& g, const ExponentialSum& f, double s) const {
+/// to one of the position, until the reversal of the oscillator. At the start there are those that the interval
+/// before has left.
+double PlainInterval::uncertainty(const Guard& g, const ExponentialSum& f, double s) const {
   const double growing = std::min(s, 1.0 / rate());
   const double velocity =
       s > 0.0 ? rounding * std::abs(from_.v) + force_error_ / problem_.mass * growing : start_velocity_error();
@@ -243,7 +244,7 @@ double PlainPhase::uncertainty(const Guard& g, const ExponentialSum& f, double s
   return std::min({error / slope, std::sqrt(2.0 * error / bend), std::cbrt(6.0 * error / twist)});
 }
 
-std::vector<NextEvent> PlainPhase::next_events(double horizon) const {
+std::vector<NextEvent> PlainInterval::next_events(double horizon) const {
   std::vector<ExponentialSum> sums;
   std::vector<NextEvent> events;
   for (const Guard& guard : guards_) {
@@ -273,7 +274,7 @@ std::vector<NextEvent> PlainPhase::next_events(double horizon) const {
   return events;
 }
 
-double PlainPhase::position(double s) const {
+double PlainInterval::position(double s) const {
   return from_.direction == 0 ? from_.x : static_cast<double>(sum({.by_position = 1.0}).at(static_cast<Real>(s)));
 }
 
