@@ -14,7 +14,6 @@ extern const std::string_view mechanisms_js;
 extern const std::string_view stress_js;
 extern const std::string_view views_js;
 extern const std::string_view page_js;
-extern const std::string_view uPlot_iife_min_js;
-extern const std::string_view uPlot_min_css;
+extern const std::string_view d3_min_js;
 
 }  // namespace dualdamp::cli::assets

@@ -1,21 +1,23 @@
-// One kind of chart: curves and points over any x, drawn by uPlot in its mode for unordered data.
+// One kind of chart: lines, points and cells over any x, drawn as SVG by d3 (copyright 2010-2016 Michael Bostock, BSD 3-clause license).
 //
 // A series is {label, x, y, kind, colour}: kind "line", "dashed", "points", "open" (excluded data), "bars" (with
 // `low` and `high`), "cells" (of a grid whose lines are `lines.x` and `lines.y`). Series of one label share a key of the legend.
-// Drag zooms, a double click or the button shows all; with the keyboard +, -, 0 and the arrows.
+// A drag with the mouse zooms; a double click or the button shows all; keys: +, -, 0 and the arrows.
 
 const charts = [];
 
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 /** Of a series: by number, or a colour of the page by its name. */
-const colour = (which) => ink(typeof which === "string" ? which : `--c${which % 7}`);
+const colour = (which) => `var(${typeof which === "string" ? which : `--c${which % 7}`})`;
+
+const isNumber = (value) => value !== null && Number.isFinite(value);
 
 /** Smallest and largest of the finite numbers, with a little room; a factor of room on a logarithmic axis. */
 function extent(lists, isLog) {
   let low = Infinity;
   let high = -Infinity;
   for (const list of lists) for (const value of list) {
-    if (value === null || !Number.isFinite(value)) continue;
+    if (!isNumber(value)) continue;
     if (value < low) low = value;
     if (value > high) high = value;
   }
@@ -35,75 +37,18 @@ function isGeometric(list) {
   return Math.abs(Math.log((steps[1] / steps[0]) / (steps[steps.length - 1] / steps[steps.length - 2]))) < 0.2;
 }
 
-/** Where cell number i of the grid lines ends on the screen: half way to the neighbours. */
-function sides(places, i) {
-  const before = i > 0 ? (places[i] + places[i - 1]) / 2 : places[i] - (places[1] - places[0]) / 2;
-  const after = i + 1 < places.length ? (places[i] + places[i + 1]) / 2 : places[i] + (places[i] - places[i - 1]) / 2;
-  return [before, after - before];
-}
-
-function drawSeries(spec) {
-  return (u, index) => {
-    uPlot.orient(u, index, (series, xs, ys, scaleX, scaleY, toX, toY, left, top, width, height) => {
-      const { ctx } = u;
-      const px = window.devicePixelRatio;
-      const at = (i) => [toX(xs[i], scaleX, width, left), toY(ys[i], scaleY, height, top)];
-      ctx.save();
-      ctx.beginPath();
-      ctx.rect(left, top, width, height);
-      ctx.clip();
-      ctx.strokeStyle = ctx.fillStyle = colour(spec.colour);
-      ctx.lineWidth = (spec.width ?? 1.6) * px;
-      ctx.lineCap = spec.kind === "dashed" ? "butt" : "round";
-      ctx.beginPath();
-      if (spec.kind === "line" || spec.kind === "dashed") {
-        if (spec.kind === "dashed") ctx.setLineDash([6 * px, 4 * px]);
-        let pen = false;
-        for (let i = 0; i < xs.length; i += 1) {
-          if (xs[i] === null || ys[i] === null) { pen = false; continue; }
-          const [x, y] = at(i);
-          if (!pen) ctx.moveTo(x, y);
-          ctx.lineTo(x, y);
-          pen = true;
-        }
-        ctx.stroke();
-      } else if (spec.kind === "cells") {
-        const [columns, rows] = [spec.lines.x.map((v) => toX(v, scaleX, width, left)), spec.lines.y.map((v) => toY(v, scaleY, height, top))];
-        const [column, row] = [spec.lines.x, spec.lines.y].map((lines) => new Map(lines.map((v, i) => [v, i])));
-        for (let i = 0; i < xs.length; i += 1) {
-          const [x, w] = sides(columns, column.get(xs[i]));
-          const [y, h] = sides(rows, row.get(ys[i]));
-          ctx.fillRect(x, y, w + Math.sign(w) * 0.5, h + Math.sign(h) * 0.5);
-        }
-      } else {
-        const radius = (spec.size ?? 3) * px;
-        for (let i = 0; i < xs.length; i += 1) {
-          if (xs[i] === null || ys[i] === null) continue;
-          const [x, y] = at(i);
-          if (spec.kind === "bars") {
-            ctx.moveTo(x, toY(spec.low[i], scaleY, height, top));
-            ctx.lineTo(x, toY(spec.high[i], scaleY, height, top));
-          }
-          ctx.moveTo(x + radius, y);
-          ctx.arc(x, y, radius, 0, 2 * Math.PI);
-        }
-        if (spec.kind === "open") ctx.stroke(); else { ctx.stroke(); ctx.fill(); }
-      }
-      ctx.restore();
-    });
-    return null;
-  };
-}
-
 /** x and y in readable units, the axes' labels with them. */
 function scaled(spec) {
-  const x = readable(spec.x.unit, largest(spec.series.map((s) => s.x)));
-  const y = readable(spec.y.unit, largest(spec.series.map((s) => s.y)));
+  const axisOf = (axis, lists) => {
+    const { unit, factor } = readable(axis.unit, largest(lists));
+    const shown = unit && unit !== "1" ? unit : "";
+    return { unit: shown, factor, text: axis.label + (shown ? ` [${shown}]` : ""), log: axis.log ?? false, whole: axis.whole ?? false };
+  };
+  const x = axisOf(spec.x, spec.series.map((s) => s.x));
+  const y = axisOf(spec.y, spec.series.map((s) => s.y));
   const times = (list, factor) => list?.map((v) => (v === null ? null : v * factor));
-  const label = (axis, { unit }) => axis.label + (unit && unit !== "1" ? ` [${unit}]` : "");
   return {
-    xLabel: label(spec.x, x), yLabel: label(spec.y, y), xLog: spec.x.log ?? false, yLog: spec.y.log ?? false,
-    xWhole: spec.x.whole ?? false, yWhole: spec.y.whole ?? false,
+    x, y,
     series: spec.series.map((s) => ({
       ...s, x: times(s.x, x.factor), y: times(s.y, y.factor), low: times(s.low, y.factor), high: times(s.high, y.factor),
       lines: s.lines && { x: times(s.lines.x, x.factor), y: times(s.lines.y, y.factor) },
@@ -120,7 +65,13 @@ function decades([low, high]) {
   return list.filter((v) => v >= low && v <= high);
 }
 
-const wholeSteps = [1, 2, 5].map((n) => [n, 10 * n, 100 * n, 1000 * n, 1e4 * n, 1e5 * n]).flat().sort((a, b) => a - b);
+/** Where an axis has its labels: some `count` round numbers. */
+function ticksOf(axis, range, count) {
+  const places = axis.log ? decades(range) : [];
+  if (places.length > 2) return places;
+  const round = d3.scale.linear().domain(range).ticks(count);
+  return axis.whole ? round.filter(Number.isInteger) : round;
+}
 
 /** The labels of an axis, with as many digits as its steps need to differ. */
 function tickTexts(splits) {
@@ -130,81 +81,171 @@ function tickTexts(splits) {
   return splits.map((v) => (v === null ? "" : Math.abs(v) < 1e-12 * Math.abs(last - first) ? "0" : short(v, digits)));
 }
 
-function options(shape, ranges, width, height) {
-  const axis = (label, side, isLog, isWhole, range) => ({
-    // uPlot's own go astray between the powers of ten.
-    ...(isLog ? { splits: () => decades(range()), filter: (u, splits) => splits } : {}),
-    ...(isWhole ? { incrs: wholeSteps } : {}),
-    label, labelSize: 22, space: side ? 34 : 80,
-    size: (u, texts) => (side ? Math.max(40, 22 + 7 * Math.max(0, ...(texts ?? []).map((text) => text?.length ?? 0))) : 34), stroke: () => ink("--soft"), font: "12px system-ui", labelFont: "13px system-ui",
-    grid: { stroke: () => ink("--line"), width: 1 }, ticks: { stroke: () => ink("--line"), width: 1 },
-    values: (u, splits) => tickTexts(splits),
+/** A place on the screen to a hundredth of a pixel; what lies far outside the chart stays a moderate number. */
+const pixel = (v) => Math.max(-1e5, Math.min(1e5, Math.round(100 * v) / 100));
+
+/** The points of a series on the screen: [x, y, index], null where there is none. */
+function places(s, scales) {
+  return s.x.map((x, i) => {
+    if (!isNumber(x) || !isNumber(s.y[i])) return null;
+    const at = [scales.x(x), scales.y(s.y[i])];
+    return at.every(Number.isFinite) ? [...at.map(pixel), i] : null;
   });
+}
+
+/** Where cell number i of the grid lines begins and ends on the screen: half way to the neighbours. */
+function sides(lines, i) {
+  const before = i > 0 ? (lines[i] + lines[i - 1]) / 2 : lines[i] - (lines[1] - lines[0]) / 2;
+  const after = i + 1 < lines.length ? (lines[i] + lines[i + 1]) / 2 : lines[i] + (lines[i] - lines[i - 1]) / 2;
+  return before < after ? [before, after] : [after, before];
+}
+
+function cellsPath(s, scales) {
+  const [columns, rows] = ["x", "y"].map((k) => s.lines[k].map((v) => scales[k](v)));
+  const [column, row] = ["x", "y"].map((k) => new Map(s.lines[k].map((v, i) => [v, i])));
+  return s.x.map((x, i) => {
+    const [left, right] = sides(columns, column.get(x)).map(pixel);
+    const [top, bottom] = sides(rows, row.get(s.y[i])).map(pixel);
+    return `M${left},${top}H${right}V${bottom}H${left}Z`;
+  }).join("");
+}
+
+/** A ring around a point. */
+const circle = ([x, y], r) => `M${x - r},${y}a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0`;
+
+/** The path of a series, the whole of it: 5,000 points are one element of the page. */
+function pathOf(s, scales) {
+  if (s.kind === "cells") return cellsPath(s, scales);
+  const at = places(s, scales);
+  if (s.kind === "line" || s.kind === "dashed") return d3.svg.line().defined((p) => p !== null)(at);
+  const bar = ([x, , i]) => `M${x},${pixel(scales.y(s.low[i]))}V${pixel(scales.y(s.high[i]))}`;
+  const marks = at.filter((p) => p !== null);
+  return marks.map((p) => (s.kind === "bars" ? bar(p) : "") + circle(p, s.size ?? 3)).join("");
+}
+
+/** How each kind looks. */
+function styleOf(s) {
+  const paint = colour(s.colour);
+  const line = { stroke: paint, "stroke-width": s.width ?? 1.6, fill: "none" };
   return {
-    mode: 2, width, height, legend: { show: false }, padding: [8, 12, 0, 0],
-    scales: { x: { time: false, distr: shape.xLog ? 3 : 1, range: () => ranges.x }, y: { distr: shape.yLog ? 3 : 1, range: () => ranges.y } },
-    axes: [axis(shape.xLabel, false, shape.xLog, shape.xWhole, () => ranges.x), axis(shape.yLabel, true, shape.yLog, shape.yWhole, () => ranges.y)],
-    cursor: { drag: { x: false, y: false, setScale: false }, points: { show: false }, x: false, y: false },
-    series: [{}, ...shape.series.map((s) => ({
-      label: s.label, show: true, stroke: () => colour(s.colour), paths: drawSeries(s), points: { show: false },
-      facets: [{ scale: "x", auto: true }, { scale: "y", auto: true }],
-    }))],
-  };
+    line: { ...line, "stroke-linejoin": "round" }, dashed: { ...line, "stroke-dasharray": "6 4" }, open: line,
+    points: { stroke: paint, "stroke-width": 1, fill: paint }, bars: { ...line, fill: paint },
+    cells: { stroke: paint, "stroke-width": 0.5, fill: paint },
+  }[s.kind];
+}
+
+/** Axes with their grid; returns the scales and the inner size. */
+function drawAxes(svg, shape, ranges, width, height) {
+  const yTicks = ticksOf(shape.y, ranges.y, Math.max(3, Math.round(height / 45)));
+  const yTexts = tickTexts(yTicks);
+  const left = 36 + 7 * Math.max(2, ...yTexts.map((text) => text.length));
+  const inner = { left, top: 8, width: width - left - 14, height: height - 8 - 44 };
+  const scale = (k, span) => (shape[k].log ? d3.scale.log() : d3.scale.linear()).domain(ranges[k]).range(span);
+  const scales = { x: scale("x", [0, inner.width]), y: scale("y", [inner.height, 0]) };
+  const xTicks = ticksOf(shape.x, ranges.x, Math.max(2, Math.round(inner.width / 85)));
+  const place = svg.append("g").attr("transform", `translate(${left},8)`);
+  const axis = (k, orient, ticks, texts, size) => place.append("g").attr("class", "axis").call(
+    d3.svg.axis().scale(scales[k]).orient(orient).tickValues(ticks).tickFormat((v, i) => texts[i]).innerTickSize(-size).outerTickSize(0).tickPadding(7));
+  axis("x", "bottom", xTicks, tickTexts(xTicks), inner.height).attr("transform", `translate(0,${inner.height})`);
+  axis("y", "left", yTicks, yTexts, inner.width);
+  const label = (text, transform) => place.append("text").attr("class", "label").attr("transform", transform).text(text);
+  label(shape.x.text, `translate(${inner.width / 2},${inner.height + 40})`);
+  label(shape.y.text, `translate(${14 - left},${inner.height / 2}) rotate(-90)`);
+  return { place, scales, inner };
 }
 
 /** The point nearest to a place on the screen, for the readout. */
-function nearest(u, shape, left, top) {
+function nearest(shape, scales, hidden, [left, top]) {
   let best = null;
-  shape.series.forEach((s, index) => {
-    if (!u.series[index + 1].show) return;
-    for (let i = 0; i < s.x.length; i += 1) {
-      if (s.x[i] === null || s.y[i] === null) continue;
-      const d = Math.hypot(u.valToPos(s.x[i], "x") - left, u.valToPos(s.y[i], "y") - top);
-      if (!best || d < best.d) best = { d, s, x: s.x[i], y: s.y[i] };
+  for (const s of shape.series) {
+    if (hidden.has(s.label)) continue;
+    for (const p of places(s, scales)) {
+      const d = p === null ? Infinity : Math.hypot(p[0] - left, p[1] - top);
+      if (d < (best?.d ?? 40)) best = { d, s, p, x: s.x[p[2]], y: s.y[p[2]] };
     }
-  });
-  return best && best.d < 40 ? best : null;
+  }
+  return best;
 }
 
+const withUnit = (value, { unit }) => short(value) + (unit ? ` ${unit}` : "");
+
 /** Zoom and pan: `ranges` is what the scales show. */
-function navigation(u, ranges, full, plot, redraw) {
+function navigation(shape, ranges, full, redraw) {
   const set = (x, y) => { ranges.x = x; ranges.y = y; redraw(); };
-  const all = () => set(full.x, full.y);
   // Both act on what the axis is linear in.
   const moved = (k, change) => {
-    const isLog = u.scales[k].distr === 3;
+    const isLog = shape[k].log;
     return change(ranges[k].map((v) => (isLog ? Math.log(v) : v))).map((v) => (isLog ? Math.exp(v) : v));
   };
   const zoom = (factor) => set(...["x", "y"].map((k) => moved(k, ([a, b]) => [a, b].map((v) => (a + b) / 2 + (v - (a + b) / 2) * factor))));
   const pan = (dx, dy) => set(...[["x", dx], ["y", dy]].map(([k, by]) => moved(k, ([a, b]) => [a + by * (b - a), b + by * (b - a)])));
+  return { set, zoom, pan, all: () => set(full.x, full.y) };
+}
+
+function listenToKeys(plot, { zoom, pan, all }) {
   const keys = {
     "+": () => zoom(0.7), "=": () => zoom(0.7), "-": () => zoom(1 / 0.7), 0: all,
     ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
   };
-  plot.onkeydown = (event) => {
+  plot.addEventListener("keydown", (event) => {
     if (!keys[event.key] || event.ctrlKey || event.metaKey) return;
     event.preventDefault();
     keys[event.key]();
+  });
+  plot.addEventListener("dblclick", all);
+}
+
+/** A drag with the mouse selects what to show; a finger scrolls the page. */
+function listenToDrags({ place, scales }, set) {
+  const brush = d3.svg.brush().x(scales.x).y(scales.y);
+  brush.on("brushend", () => {
+    const [[x0, y0], [x1, y1]] = brush.extent();
+    const isDrag = Math.abs(scales.x(x1) - scales.x(x0)) > 8 && Math.abs(scales.y(y1) - scales.y(y0)) > 8;
+    if (isDrag) set([x0, x1], [y0, y1]); else place.select(".brush").call(brush.clear());
+  });
+  place.append("g").attr("class", "brush").call(brush).on("touchstart.brush", null).selectAll(".resize").remove();
+}
+
+/** Values under the mouse, with their units, and a ring around their point. */
+function listenToMouse(plot, readout, { place, scales }, shape, hidden) {
+  const ring = place.append("circle").attr({ class: "ring", r: 6 }).style("display", "none");
+  plot.onmousemove = ({ clientX, clientY }) => {
+    const corner = place.node().getScreenCTM();
+    const found = nearest(shape, scales, hidden, [(clientX - corner.e) / corner.a, (clientY - corner.f) / corner.d]);
+    ring.style("display", found ? null : "none");
+    if (found) ring.attr({ cx: found.p[0], cy: found.p[1] });
+    readout.textContent = found ? `${found.s.label}: ${withUnit(found.x, shape.x)}, ${withUnit(found.y, shape.y)}` : "";
   };
-  plot.ondblclick = all;
-  let from = null;
-  u.over.addEventListener("pointerdown", (event) => { from = { x: event.offsetX, y: event.offsetY, pointer: event.pointerType }; });
-  u.over.addEventListener("pointermove", (event) => {
-    if (!from || from.pointer === "touch") return;
-    const [l, t] = [Math.min(from.x, event.offsetX), Math.min(from.y, event.offsetY)];
-    u.setSelect({ left: l, top: t, width: Math.abs(event.offsetX - from.x), height: Math.abs(event.offsetY - from.y) }, false);
-  });
-  u.over.addEventListener("pointerup", (event) => {
-    if (!from) return;
-    const [w, h] = [Math.abs(event.offsetX - from.x), Math.abs(event.offsetY - from.y)];
-    if (from.pointer !== "touch" && w > 8 && h > 8) {
-      const sorted = (a, b) => (a < b ? [a, b] : [b, a]);
-      set(sorted(u.posToVal(from.x, "x"), u.posToVal(event.offsetX, "x")), sorted(u.posToVal(from.y, "y"), u.posToVal(event.offsetY, "y")));
-    }
-    from = null;
-    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-  });
-  return { all, zoom };
+}
+
+/** The keys of the legend show and hide series; `hidden` holds the labels of those that are hidden. */
+function fillLegend(legend, shape, hidden, redraw) {
+  const labels = [...new Set(shape.series.map((s) => s.label))];
+  if (labels.length < 2) return;
+  legend.replaceChildren(...labels.map((label) => {
+    const paint = colour(shape.series.find((s) => s.label === label).colour);
+    const key = make("button", { type: "button", "aria-pressed": "true" }, make("i", { style: `background:${paint}` }), label);
+    key.addEventListener("click", () => {
+      if (!hidden.delete(label)) hidden.add(label);
+      key.setAttribute("aria-pressed", String(!hidden.has(label)));
+      redraw();
+    });
+    return key;
+  }));
+}
+
+/** The drawing itself, as wide as its place in the page. */
+function drawPlot(plot, shape, ranges, hidden, isWide) {
+  const width = Math.max(240, plot.clientWidth);
+  const height = Math.round(Math.min(420, Math.max(260, width * (isWide ? 0.4 : 0.62))));
+  plot.replaceChildren();
+  const svg = d3.select(plot).append("svg").attr({ viewBox: `0 0 ${width} ${height}`, width, height });
+  const drawn = drawAxes(svg, shape, ranges, width, height);
+  const clip = `clip${(drawPlot.count = (drawPlot.count ?? 0) + 1)}`;
+  drawn.place.append("clipPath").attr("id", clip).append("rect").attr({ width: drawn.inner.width, height: drawn.inner.height });
+  const series = drawn.place.append("g").attr("clip-path", `url(#${clip})`);
+  for (const s of shape.series) if (!hidden.has(s.label)) series.append("path").attr({ class: "series", d: pathOf(s, drawn.scales) }).style(styleOf(s));
+  return drawn;
 }
 
 /** A figure with a chart; spec {title, note, x: {label, unit, log, whole}, y likewise, series, wide}. */
@@ -212,50 +253,34 @@ function chart(spec) {
   const used = spec.series.filter((s) => s.y.some((v) => v !== null)).map((s, i) => ({ kind: "line", colour: i, ...s }));
   if (used.length === 0) return null;
   const shape = scaled({ ...spec, series: used });
-  const full = { x: extent(shape.series.map((s) => s.x), shape.xLog), y: extent(shape.series.flatMap((s) => [s.y, s.low ?? [], s.high ?? []]), shape.yLog) };
-  const ranges = { ...full };
+  const full = { x: extent(shape.series.map((s) => s.x), shape.x.log), y: extent(shape.series.flatMap((s) => [s.y, s.low ?? [], s.high ?? []]), shape.y.log) };
+  const [ranges, hidden] = [{ ...full }, new Set()];
   const count = used.reduce((sum, s) => sum + s.x.length, 0);
   const plot = make("div", {
     class: "plot", tabindex: 0, role: "img",
-    "aria-label": `${spec.title}: ${shape.yLabel} over ${shape.xLabel}, ${count} points. Keys: plus and minus zoom, arrows move, 0 shows all.`,
+    "aria-label": `${spec.title}: ${shape.y.text} over ${shape.x.text}, ${count} points. Keys: plus and minus zoom, arrows move, 0 shows all.`,
   });
   const readout = make("div", { class: "readout", "aria-hidden": true });
   const legend = make("div", { class: "legend" });
-  const tools = make("span", { class: "tools" });
-  const figure = make("figure", { class: spec.wide ? "wide" : null },
+  const draw = () => {
+    const drawn = drawPlot(plot, shape, ranges, hidden, spec.wide);
+    listenToDrags(drawn, move.set);
+    listenToMouse(plot, readout, drawn, shape, hidden);
+  };
+  const move = navigation(shape, ranges, full, draw);
+  listenToKeys(plot, move);
+  fillLegend(legend, shape, hidden, draw);
+  const button = (text, label, action) => {
+    const element = make("button", { type: "button", "aria-label": `${label}: ${spec.title}` }, text);
+    element.addEventListener("click", action);
+    return element;
+  };
+  const tools = make("span", { class: "tools" }, button("+", "zoom in", () => move.zoom(0.7)), " ",
+    button("−", "zoom out", () => move.zoom(1 / 0.7)), " ", button("all", "show all", move.all));
+  charts.push(draw);
+  return make("figure", { class: spec.wide ? "wide" : null },
     make("figcaption", {}, make("span", { class: "row" }, spec.title, tools), spec.note ? make("small", {}, spec.note) : null),
     plot, readout, legend);
-  const draw = () => {
-    plot.replaceChildren();
-    const width = Math.max(240, plot.clientWidth);
-    const u = new uPlot(options(shape, ranges, width, Math.min(420, Math.max(260, width * (spec.wide ? 0.4 : 0.62)))),
-      [null, ...shape.series.map((s) => [s.x, s.y])], plot);
-    const redraw = () => { u.setScale("x", { min: ranges.x[0], max: ranges.x[1] }); u.setScale("y", { min: ranges.y[0], max: ranges.y[1] }); };
-    const { all, zoom } = navigation(u, ranges, full, plot, redraw);
-    const button = (text, label, action) => {
-      const element = make("button", { type: "button", "aria-label": `${label}: ${spec.title}` }, text);
-      element.addEventListener("click", action);
-      return element;
-    };
-    tools.replaceChildren(button("+", "zoom in", () => zoom(0.7)), " ", button("−", "zoom out", () => zoom(1 / 0.7)), " ", button("all", "show all", all));
-    u.over.addEventListener("mousemove", (event) => {
-      const found = nearest(u, shape, event.offsetX, event.offsetY);
-      readout.textContent = found ? `${found.s.label}: ${short(found.x)}, ${short(found.y)}` : "";
-    });
-    const labels = [...new Set(shape.series.map((s) => s.label))];
-    legend.replaceChildren(...(labels.length < 2 ? [] : labels.map((label) => {
-      const colourOf = colour(shape.series.find((s) => s.label === label).colour);
-      const key = make("button", { type: "button", "aria-pressed": "true" }, make("i", { style: `background:${colourOf}` }), label);
-      key.addEventListener("click", () => {
-        const show = key.getAttribute("aria-pressed") !== "true";
-        key.setAttribute("aria-pressed", String(show));
-        shape.series.forEach((s, i) => { if (s.label === label) u.setSeries(i + 1, { show }); });
-      });
-      return key;
-    })));
-  };
-  charts.push(draw);
-  return figure;
 }
 
 function drawAll() {

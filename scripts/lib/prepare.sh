@@ -18,18 +18,16 @@ fail() {
   exit 69
 }
 
-# missing_packages KIND...: the packages of these kinds that are not installed. An npm from elsewhere will do:
-# Debian's cannot stand beside it.
+# missing_packages KIND...: the packages of these kinds that are not installed.
 missing_packages() {
   local wanted present
   wanted=$(awk -v kinds=" $* " '!/^#/ && index(kinds, " " $2 " ") { print $1 }' "$root/scripts/packages.txt")
   # shellcheck disable=SC2086
   present=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p')
-  if command -v npm >/dev/null; then present+=$'\nnpm'; fi
   grep -vxF -f <(printf '%s\n' "$present") <<<"$wanted" | tr '\n' ' '
 }
 
-# ensure_packages KIND...: installs what is missing.
+# ensure_packages KIND...: as root installs what is missing. Nobody else's machine is changed: others are told what to run.
 ensure_packages() {
   if ! command -v dpkg-query >/dev/null; then
     say "this is not Debian: scripts/packages.txt names what has to be installed"
@@ -37,14 +35,14 @@ ensure_packages() {
   fi
   local missing
   missing=$(missing_packages "$@")
+  missing=${missing% }
   [ -n "$missing" ] || return 0
-  local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || fail "missing packages; run as root: apt-get install $missing"
-    as_root=(sudo)
+    say "missing packages: $missing"
+    fail "install them with: sudo apt-get install --no-install-recommends $missing"
   fi
-  say "installing ${missing% }"
-  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 -y)
+  say "installing $missing"
+  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 -y)
   "${apt[@]}" update >&2 </dev/null || say "the package lists could not be refreshed; trying with those at hand"
   # shellcheck disable=SC2086
   "${apt[@]}" install --no-install-recommends $missing >&2 </dev/null || fail "could not install: $missing"

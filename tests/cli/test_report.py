@@ -19,15 +19,25 @@ PROGRAM = str(Path(sys.argv[1]).resolve())
 ROOT = Path(sys.argv[2]).resolve()
 BROWSER = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
 
-# Says of each chart how many of its pixels are not empty.
+# Says of each chart how many pixels of line are drawn in it.
 PROBE = """<script>
-for (const canvas of document.querySelectorAll(".plot canvas")) {
-  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  let inked = 0;
-  for (let i = 3; i < data.length; i += 4) if (data[i] > 0) inked += 1;
-  canvas.dataset.inked = inked;
-}
+for (const plot of document.querySelectorAll(".plot"))
+  plot.dataset.inked = Math.round([...plot.querySelectorAll("path.series")].reduce((sum, path) => sum + path.getTotalLength(), 0));
 </script>"""
+
+# Helpers of the tests that use a chart as a reader does.
+HANDS = """
+  const plot = document.querySelector(".plot");
+  const at = (x, y) => {
+    const { left, top } = plot.querySelector(".brush .background").getBoundingClientRect();
+    return { clientX: left + x, clientY: top + y, bubbles: true, cancelable: true, view: window };
+  };
+  const mouse = (type, x, y, target) => (target ?? plot.querySelector(".brush .background")).dispatchEvent(new MouseEvent(type, at(x, y)));
+  const drag = (x0, y0, x1, y1) => { mouse("mousedown", x0, y0); mouse("mousemove", x1, y1, window); mouse("mouseup", x1, y1, window); };
+  const ticks = (n) => [...plot.querySelectorAll(".axis")[n].querySelectorAll("text")].map((text) => text.textContent);
+  const numbers = (n) => ticks(n).map((text) => Number(text.replace("−", "-")));
+  const press = (key) => plot.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+"""
 
 # One of each kind, with the number of charts it shows at least.
 EXAMPLES = {
@@ -88,7 +98,7 @@ class Page(unittest.TestCase):
         inked = [int(count) for count in re.findall(r'data-inked="(\d+)"', dom)]
         self.assertGreaterEqual(len(inked), charts)
         for count in inked:
-            self.assertGreater(count, 500, "a chart is empty")
+            self.assertGreater(count, 15, "a chart is empty")
         result = json.loads((out / "result.json").read_text())["result"]
         shown = re.findall(r'data-path="([^"]+)" data-value="([^"]*)"', dom)
         for path, value in shown:
@@ -165,6 +175,89 @@ class Page(unittest.TestCase):
         paths = [path for path, _ in shown]
         for path in ("mechanisms[0].chi2", "mechanisms[2].misfit", "effects[0].bend", "explained.bend"):
             self.assertIn(path, paths)
+
+    def use(self, name, actions, **options):
+        return self.ask(name, "(() => {" + HANDS + actions + "})()", **options)
+
+    def test_a_drag_zooms_and_a_double_click_shows_all(self):
+        before, zoomed, reset, clicked = self.use("simulate", """
+            const all = numbers(0);
+            drag(100, 60, 300, 160);
+            const zoomed = numbers(0);
+            plot.dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
+            const reset = numbers(0);
+            drag(100, 60, 103, 62);
+            return [all, zoomed, reset, numbers(0)];""")
+        self.assertLess(zoomed[-1] - zoomed[0], 0.5 * (before[-1] - before[0]))
+        self.assertEqual(reset, before)
+        self.assertEqual(clicked, before, "a click is no drag")
+
+    def test_buttons_and_keys_zoom_and_move(self):
+        before, smaller, moved, reset = self.use("simulate", """
+            const span = () => [numbers(0)[0], numbers(0).at(-1)];
+            const all = span();
+            document.querySelector(".tools button[aria-label^='zoom in']").click();
+            const smaller = span();
+            for (let i = 0; i < 5; i += 1) press("ArrowRight");
+            const moved = span();
+            press("0");
+            return [all, smaller, moved, span()];""")
+        self.assertLess(smaller[1] - smaller[0], before[1] - before[0])
+        self.assertGreater(moved[0], smaller[0])
+        self.assertEqual(reset, before)
+
+    def test_the_readout_says_values_with_units(self):
+        near, far = self.use("simulate", """
+            const { left, top } = plot.querySelector(".brush .background").getBoundingClientRect();
+            const path = plot.querySelector("path.series");
+            const [x, y] = path.getAttribute("d").match(/^M([-\\d.]+),([-\\d.]+)/).slice(1).map(Number);
+            const readout = plot.parentElement.querySelector(".readout");
+            mouse("mousemove", x, y);
+            const near = readout.textContent;
+            mouse("mousemove", x + 3, 5);
+            return [near, readout.textContent];""")
+        self.assertEqual(near, "mass x: 0 s, 0 mm")
+        self.assertEqual(far, "")
+
+    def test_a_map_has_cells_of_each_category_on_logarithmic_axes(self):
+        frequencies, amplitudes, cells, line = self.use("regime_map", """
+            const paths = [...plot.querySelectorAll("path.series")];
+            return [ticks(0), ticks(1), paths.slice(0, 4).map((path) => path.getAttribute("d").split("M").length - 1), paths[4].style.fill];""")
+        self.assertEqual(frequencies, ["1", "2", "5", "10"])
+        self.assertEqual(amplitudes, ["1", "2", "5", "10", "20", "50", "100"])
+        self.assertGreater(min(cells), 3)
+        self.assertGreater(sum(cells), 3000)
+        self.assertEqual(line, "none")
+
+    def test_bars_reach_from_low_to_high(self):
+        path = self.ask("formula", """pathOf({ kind: "bars", x: [1, 2], y: [5, null], low: [4, null], high: [7, null], size: 2 },
+            { x: (v) => 10 * v, y: (v) => 100 - v })""")
+        self.assertEqual(path, "M10,96V93M8,95a2,2 0 1,0 4,0a2,2 0 1,0 -4,0")
+
+    def test_a_key_of_the_legend_hides_its_series(self):
+        self.assertEqual(self.use("simulate", """
+            const count = () => plot.querySelectorAll("path.series").length;
+            const key = plot.parentElement.querySelector(".legend button");
+            const seen = [count()];
+            for (let i = 0; i < 2; i += 1) { key.click(); seen.push(count(), key.getAttribute("aria-pressed")); }
+            return seen;"""), [3, 2, "false", 3, "true"])
+
+    def test_dark_pages_have_light_lines(self):
+        light, dark = self.use("simulate", """
+            const paint = () => getComputedStyle(plot.querySelector("path.series")).stroke;
+            return ["light", "dark"].map((theme) => { document.documentElement.dataset.theme = theme; return paint(); });""")
+        self.assertEqual((light, dark), ("rgb(0, 114, 178)", "rgb(86, 180, 233)"))
+
+    def test_charts_are_drawn_for_the_width_of_the_sheet(self):
+        sheet, drawn, back = self.use("simulate", """
+            const width = () => plot.querySelector("svg").getBoundingClientRect().width;
+            const screen = width();
+            dispatchEvent(new Event("beforeprint"));
+            const paper = [document.querySelector("main").clientWidth, width()];
+            dispatchEvent(new Event("afterprint"));
+            return [...paper, width() === screen];""", size="1280,900")
+        self.assertTrue(0.9 * sheet < drawn <= sheet, (sheet, drawn))
+        self.assertTrue(back)
 
     def test_a_title_cannot_become_markup(self):
         scenario = self.folder / "markup.yaml"
