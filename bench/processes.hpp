@@ -3,7 +3,7 @@
 ///
 /// Work is handed out one item at a time to whichever process asks, by a counter that process 0 keeps; which
 /// process does what is left to chance and must not matter. Source: the MPI standard, one-sided communication.
-/// Errors: `std::runtime_error` when MPI fails.
+/// Errors: `std::runtime_error` when MPI fails; `core::InputError` when `mpirun` starts a program that was built without MPI.
 
 #include <cstddef>
 #include <memory>

@@ -14,7 +14,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # SuiteSparse lists twenty files, QUIET or not
 find_package(Ceres REQUIRED)
-find_package(MPI REQUIRED COMPONENTS CXX)
+find_package(MPI QUIET COMPONENTS CXX)  # optional: several processes share a campaign
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)

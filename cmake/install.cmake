@@ -2,6 +2,11 @@
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dualdamp)
+if(TARGET MPI::MPI_CXX)
+  set(DUALDAMP_MPI TRUE)
+else()
+  set(DUALDAMP_MPI FALSE)
+endif()
 configure_package_config_file(cmake/dualdamp-config.cmake.in ${PROJECT_BINARY_DIR}/dualdamp-config.cmake
   INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/dualdamp-config-version.cmake COMPATIBILITY SameMinorVersion)

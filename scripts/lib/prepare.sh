@@ -48,16 +48,25 @@ ensure_packages() {
   "${apt[@]}" install --no-install-recommends $missing >&2 </dev/null || fail "could not install: $missing"
 }
 
-# Configures when that was never done, when the presets changed, or when the tree has moved since.
+# The packages of the list that are installed: optional ones are looked for when configuring.
+installed_packages() {
+  # shellcheck disable=SC2046
+  dpkg-query -W -f='${db:Status-Status} ${Package}\n' $(awk '!/^#/ { print $1 }' "$root/scripts/packages.txt") 2>/dev/null | sed -n 's/^installed //p'
+}
+
+# Configures when that was never done, when the presets or the installed packages changed, or when the tree has moved since.
 configure() {
-  local tree=$root/build/$1 fresh=()
+  local tree=$root/build/$1 fresh=() packages
+  packages=$(installed_packages)
+  if [ "$packages" != "$(cat "$tree/.packages" 2>/dev/null)" ]; then rm -f "$tree/build.ninja"; fi
   if [ -f "$tree/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$tree/CMakeCache.txt"; then
     fresh=(--fresh)
   elif [ -f "$tree/build.ninja" ] && [ ! "$root/CMakePresets.json" -nt "$tree/build.ninja" ]; then
     return 0
   fi
   say "configuring build/$1"
-  (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$tree/configure.log" 2>&1 </dev/null && return 0
+  (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$tree/configure.log" 2>&1 </dev/null &&
+    printf '%s' "$packages" >"$tree/.packages" && return 0
   tail -n 40 "$tree/configure.log" >&2
   return 1
 }
