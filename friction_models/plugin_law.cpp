@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <span>
 
@@ -55,10 +54,21 @@ struct Destroyer {
   }
 };
 
-/// One law of the library with its parameters.
-class PluginLaw final : public LawModel {
+/// One law of the library with its parameters. Its abilities are those whose functions the table has.
+class PluginLaw final : public LawModel,
+                        public ModalAbility,
+                        public StickingAbility,
+                        public StateAbility,
+                        public DissipationAbility {
  public:
   PluginLaw(const Table& table, void* law) : table_(table), owned_(law, Destroyer{table.destroy}) {}
+
+  [[nodiscard]] Abilities abilities() const override {
+    return {.modal = table_.states > 0 || table_.jump != nullptr ? this : nullptr,
+            .sticking = table_.static_limit != nullptr ? this : nullptr,
+            .states = table_.states > 0 ? this : nullptr,
+            .dissipation = table_.dissipation != nullptr ? this : nullptr};
+  }
 
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
     std::array<double, max_plugin_states> rates{};
@@ -70,14 +80,18 @@ class PluginLaw final : public LawModel {
     const dualdamp_instant instant = outside(now, direction);
     call(table_, "respond", table_.respond, law(), memory.mode, memory.state.data(), &instant, &force,
          rates.data());
-    // Too large is an answer: a step that looked too far ahead is then made shorter.
+    // A value that is too large is an answer: a step that looked too far ahead is then made shorter.
     const bool is_number =
         !std::isnan(force) && std::ranges::none_of(rates, [](double r) { return std::isnan(r); });
     if (!is_number) refuse_nan("respond", memory, now);
     return force;
   }
+  void scales(const Memory&, std::span<double> out) const override {
+    call(table_, "scales", table_.scales, law(), out.data());
+    const auto is_size = [](double scale) { return std::isfinite(scale) && scale > 0.0; };
+    if (!std::ranges::all_of(out, is_size)) fail(table_, "scales() gave a size that is not above 0");
+  }
 
-  [[nodiscard]] bool is_modal() const override { return table_.states > 0 || table_.jump != nullptr; }
   [[nodiscard]] Memory start(const Instant& now) const override {
     Memory memory{.state = std::vector<double>(table_.states)};
     if (table_.start != nullptr) {
@@ -104,9 +118,7 @@ class PluginLaw final : public LawModel {
     check_memory("jump", memory);
   }
 
-  [[nodiscard]] bool holds_mass() const override { return table_.static_limit != nullptr; }
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const override {
-    if (table_.static_limit == nullptr) return 0.0;
     double limit = 0.0;
     const dualdamp_instant instant = outside(now, Direction::none);
     call(table_, "static_limit", table_.static_limit, law(), memory.mode, memory.state.data(), &instant, &limit);
@@ -115,34 +127,13 @@ class PluginLaw final : public LawModel {
     return limit;
   }
 
-  [[nodiscard]] bool is_affine() const override { return false; }
-  [[nodiscard]] Affine affine_force(const Memory&, const Instant&, Direction) const override { return {}; }
-  [[nodiscard]] Affine affine_limit(const Memory&, const Instant&) const override { return {}; }
-  void affine_guards(const Memory&, const Instant&, Direction, std::vector<Affine>&) const override {}
-
-  [[nodiscard]] bool has_rates() const override { return table_.states > 0; }
-  void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> out) const override {
-    static_cast<void>(respond(memory, now, direction, out));
-  }
-  void scales(const Memory&, std::span<double> out) const override {
-    if (table_.states == 0) return;
-    call(table_, "scales", table_.scales, law(), out.data());
-    const auto is_size = [](double scale) { return std::isfinite(scale) && scale > 0.0; };
-    if (!std::ranges::all_of(out, is_size)) fail(table_, "scales() gave a size that is not above 0");
-  }
-  [[nodiscard]] double delay() const override { return 0.0; }
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const override {
-    if (table_.dissipation == nullptr) return force(memory, now, direction) * now.v;
     double power = 0.0;
     const dualdamp_instant instant = outside(now, direction);
     call(table_, "dissipation", table_.dissipation, law(), memory.mode, memory.state.data(), &instant, &power);
     if (std::isnan(power)) refuse_nan("dissipation", memory, now);
     return power;
   }
-  [[nodiscard]] bool advances() const override { return false; }
-  void advance(Memory&, const Instant&, const Instant&, double, Direction) const override {}
-  [[nodiscard]] double next_change(const Memory&) const override { return std::numeric_limits<double>::infinity(); }
-  [[nodiscard]] std::string_view aperiodic() const override { return {}; }
 
  private:
   static dualdamp_instant outside(const Instant& now, Direction direction) {
@@ -156,7 +147,7 @@ class PluginLaw final : public LawModel {
             .limit_vanished = m.vanished};
   }
 
-  /// Not the law's fault where it was asked about no number.
+  /// It is not the law's fault when it was asked about values that are no numbers.
   void refuse_nan(const char* function, const Memory& memory, const Instant& now) const {
     const std::array<double, 3> place = {now.t, now.x, now.v};
     if (!all_finite(memory.state) || !all_finite(place)) return;

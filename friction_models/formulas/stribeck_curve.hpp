@@ -39,14 +39,14 @@ class StribeckCurve {
 
   /// N, modifiers included.
   [[nodiscard]] double level(const Instant& now, double speed) const {
-    const double kinetic = now.limit_now(kinetic_);
-    return kinetic + (now.limit_now(static_) - kinetic) * share(speed / velocity_);
+    const double kinetic = now.force_limit_now(kinetic_);
+    return kinetic + (now.force_limit_now(static_) - kinetic) * share(speed / velocity_);
   }
   /// The same to divide by, for kinetic > 0.
   [[nodiscard]] double divisor(const Instant& now, double speed) const {
     return friction::divisor(level(now, speed), kinetic_);
   }
-  [[nodiscard]] double static_level(const Instant& now) const { return now.limit_now(static_); }
+  [[nodiscard]] double static_level(const Instant& now) const { return now.force_limit_now(static_); }
   /// Nominal [N].
   [[nodiscard]] double kinetic() const { return kinetic_; }
   /// m/s

@@ -37,7 +37,7 @@ std::vector<std::string> BoucWen::warnings(const ParameterValues& values) {
 }
 
 void BoucWen::rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const {
-  const double yield = divisor(now.limit_now(limit_), limit_) / stiffness_;
+  const double yield = divisor(now.force_limit_now(limit_), limit_) / stiffness_;
   const double power = continued_power(memory.mode * memory.state[0] / yield, exponent_);
   rates[0] = now.v * (1.0 - power * (beta_share_ * sign(direction) * memory.mode + 1.0 - beta_share_));
 }

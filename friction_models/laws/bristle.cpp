@@ -35,13 +35,13 @@ const std::vector<Parameter>& Bristle::parameters() {
 }
 
 bool Bristle::has_length(const Instant& now) const {
-  const Affine limit = now.limit(snap_distance_);
+  const Affine limit = now.force_limit(snap_distance_);
   return limit.constant != 0.0 || limit.rate != 0.0;
 }
 
 double Bristle::draw_place(Memory& memory, const Instant& now) const {
   const auto number = static_cast<std::uint64_t>(memory.indices[0]++);
-  return now.x + now.limit_now(snap_distance_) * (2.0 * draws_.uniform(number) - 1.0);
+  return now.x + now.force_limit_now(snap_distance_) * (2.0 * draws_.uniform(number) - 1.0);
 }
 
 Memory Bristle::start(const Instant& now) const {
@@ -60,7 +60,7 @@ Affine Bristle::affine_force(const Memory& memory, const Instant& now, Direction
 void Bristle::affine_guards(const Memory& memory, const Instant& now, Direction,
                             std::vector<Affine>& guards) const {
   if (!has_length(now)) return;
-  const Affine limit = now.limit(snap_distance_);
+  const Affine limit = now.force_limit(snap_distance_);
   guards.push_back(limit - Affine{.constant = -memory.state.front(), .position = 1.0});
   guards.push_back(limit + Affine{.constant = -memory.state.back(), .position = 1.0});
 }
@@ -71,7 +71,7 @@ void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Directio
   if (trigger.cause < 0) return;
   // All of this side that are beyond the limit snap together: many after it fell, and those that stand in one
   // place.
-  const double limit = same_place * now.limit_now(snap_distance_);
+  const double limit = same_place * now.force_limit_now(snap_distance_);
   const bool rear = trigger.cause == 0;
   do {
     const double place = draw_place(memory, now);

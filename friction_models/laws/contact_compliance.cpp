@@ -34,16 +34,16 @@ const std::vector<Parameter>& ContactCompliance::parameters() {
 }
 
 Affine ContactCompliance::affine_force(const Memory& memory, const Instant& now, Direction) const {
-  if (std::abs(memory.mode) == slipping) return memory.mode * now.limit(kinetic_);
+  if (std::abs(memory.mode) == slipping) return memory.mode * now.force_limit(kinetic_);
   return {.constant = -stiffness_ * memory.state[0], .position = stiffness_, .velocity = damping_};
 }
 
 Affine ContactCompliance::break_away(const Memory& memory, const Instant& now, int side) const {
-  return now.limit(memory.mode == side * halted ? kinetic_ : static_);
+  return now.force_limit(memory.mode == side * halted ? kinetic_ : static_);
 }
 
 ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory, const Instant& now) const {
-  const Affine level = memory.mode * now.limit(kinetic_);
+  const Affine level = memory.mode * now.force_limit(kinetic_);
   const double rate = level.rate / stiffness_;
   const double settled = (level.constant - damping_ * rate) / stiffness_;
   return {settled, rate, memory.state[0] - settled, stiffness_ / damping_};
@@ -51,12 +51,12 @@ ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory
 
 /// A damped slider, and one under a varying limit, stop at a guard of their own.
 bool ContactCompliance::slider_stops_by_itself(const Instant& now) const {
-  return is_damped() || stops_by_itself(now.limit(kinetic_), stiffness_);
+  return is_damped() || stops_by_itself(now.force_limit(kinetic_), stiffness_);
 }
 
 /// Of a slider that slips, taken positive towards its side.
 Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now) const {
-  if (!is_damped()) return dragged_speed(now.limit(kinetic_), memory.mode, stiffness_);
+  if (!is_damped()) return dragged_speed(now.force_limit(kinetic_), memory.mode, stiffness_);
   const Relaxation u = relaxation(memory, now);
   // Stretch is a difference of positions: a fast spring turns its rounding into speed.
   const double rounded = u.decay * (std::abs(now.x) + std::abs(memory.state[0]) + std::abs(u.settled));
@@ -90,7 +90,7 @@ void ContactCompliance::slide(Memory& memory, const Instant& now, int side) cons
 }
 
 void ContactCompliance::stop_slider(Memory& memory, const Instant& now, int next_mode) const {
-  const double u = is_damped() ? memory.state[0] : memory.mode * now.limit_now(kinetic_) / stiffness_;
+  const double u = is_damped() ? memory.state[0] : memory.mode * now.force_limit_now(kinetic_) / stiffness_;
   memory.mode = next_mode;
   memory.state = {now.x - u};
 }
@@ -107,7 +107,7 @@ void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now
       return;
     case Trigger::limit_change:
       // A damped spring follows its new limit without a halt; one that had no limit begins anew.
-      if (now.limit_now(static_) == 0.0) {
+      if (now.force_limit_now(static_) == 0.0) {
         memory = start(now);
       } else if (slips && !is_damped()) {
         stop_slider(memory, now, memory.mode * halted);
@@ -122,14 +122,14 @@ void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now
 void ContactCompliance::rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const {
   std::ranges::fill(rates, 0.0);
   if (std::abs(memory.mode) == slipping && is_damped()) {
-    rates[0] = (memory.mode * now.limit_now(kinetic_) - stiffness_ * memory.state[0]) / damping_;
+    rates[0] = (memory.mode * now.force_limit_now(kinetic_) - stiffness_ * memory.state[0]) / damping_;
   }
 }
 
 double ContactCompliance::dissipation(const Memory& memory, const Instant& now, Direction) const {
   if (std::abs(memory.mode) != slipping) return damping_ * now.v * now.v;
   const double speed = value(slider_speed(memory, now), now);
-  const double slider = now.limit_now(kinetic_) * speed;
+  const double slider = now.force_limit_now(kinetic_) * speed;
   const double stretching = now.v - memory.mode * speed;
   return slider + damping_ * stretching * stretching;
 }

@@ -22,9 +22,9 @@ class Coulomb {
   Coulomb(double kinetic, double static_level) : kinetic_(kinetic), static_(static_level) {}
 
   [[nodiscard]] Affine affine_force(const Memory&, const Instant& now, Direction direction) const {
-    return sign(direction) * now.limit(kinetic_);
+    return sign(direction) * now.force_limit(kinetic_);
   }
-  [[nodiscard]] Affine affine_limit(const Memory&, const Instant& now) const { return now.limit(static_); }
+  [[nodiscard]] Affine affine_limit(const Memory&, const Instant& now) const { return now.force_limit(static_); }
 
  private:
   double kinetic_;

@@ -29,7 +29,7 @@ const std::vector<Parameter>& Dahl::parameters() {
 }
 
 void Dahl::rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const {
-  const double kinetic = divisor(now.limit_now(kinetic_), kinetic_);
+  const double kinetic = divisor(now.force_limit_now(kinetic_), kinetic_);
   const double room = 1.0 - sign(direction) * sigma0_ * memory.state[0] / kinetic;
   rates[0] = now.v * (exponent_ == 1.0 ? room : std::copysign(std::pow(std::abs(room), exponent_), room));
 }

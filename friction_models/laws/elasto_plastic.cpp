@@ -38,7 +38,7 @@ ElastoPlastic::ElastoPlastic(const ParameterValues& values)
 double ElastoPlastic::plastic_share(const Instant& now, double stretch, double level) const {
   const double largest = level / bristles_.sigma0;
   if (stretch >= largest) return 1.0;
-  const double least = now.limit_now(elastic_force_) / bristles_.sigma0;
+  const double least = now.force_limit_now(elastic_force_) / bristles_.sigma0;
   return 0.5 * std::sin(std::numbers::pi * (stretch - (largest + least) / 2.0) / (largest - least)) + 0.5;
 }
 
@@ -58,7 +58,7 @@ double ElastoPlastic::respond(const Memory& memory, const Instant& now, Directio
 void ElastoPlastic::guards(const Memory& memory, const Instant& now, Direction direction,
                            std::vector<double>& values) const {
   if (direction == Direction::none) return;
-  const double room = now.limit_now(elastic_force_) - sign(direction) * bristles_.sigma0 * memory.state[0];
+  const double room = now.force_limit_now(elastic_force_) - sign(direction) * bristles_.sigma0 * memory.state[0];
   values.push_back(memory.mode == elastic ? room : -room);
 }
 

@@ -69,7 +69,7 @@ double NormalVibration::respond(const Memory& memory, const Instant& now, Direct
   rates[0] = speed;
   rates[1] =
       (normal - rider_.weight + lift) / rider_.normal_mass - 2.0 * rider_.normal_damping_ratio * frequency_ * speed;
-  return sign(direction) * now.limit_now(rider_.mu * normal);
+  return sign(direction) * now.force_limit_now(rider_.mu * normal);
 }
 
 LawEntry normal_vibration_entry() {

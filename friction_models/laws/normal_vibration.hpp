@@ -50,7 +50,7 @@ class NormalVibration {
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const;
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const {
-    return now.limit_now(rider_.mu_static * normal_force(memory));
+    return now.force_limit_now(rider_.mu_static * normal_force(memory));
   }
   void guards(const Memory& memory, const Instant&, Direction, std::vector<double>& values) const {
     const double gap = memory.state[0] - rider_.static_approach;

@@ -84,7 +84,7 @@ double RateState::respond(const Memory& memory, const Instant& now, Direction di
   rates[0] = contact_.evolution == Evolution::aging ? pace * (std::exp(-psi) - speed_ratio)
                                                     : -pace * (entropy(speed_ratio) + speed_ratio * psi);
   const double exponent = (contact_.mu0 + contact_.b * psi) / contact_.a;
-  return now.limit_now(contact_.normal_force) * contact_.a * asinh_scaled(0.5 * ratio, exponent);
+  return now.force_limit_now(contact_.normal_force) * contact_.a * asinh_scaled(0.5 * ratio, exponent);
 }
 
 LawEntry rate_state_entry() {

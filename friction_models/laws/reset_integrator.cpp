@@ -30,14 +30,14 @@ const std::vector<Parameter>& ResetIntegrator::parameters() {
 }
 
 Affine ResetIntegrator::affine_force(const Memory& memory, const Instant& now, Direction) const {
-  if (memory.mode != 0) return memory.mode * now.limit(kinetic_);
+  if (memory.mode != 0) return memory.mode * now.force_limit(kinetic_);
   const double bond = (1.0 + static_gain_) * stiffness_;
   return {.constant = -bond * memory.state[0], .position = bond, .velocity = damping_};
 }
 
 void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Direction direction,
                                     std::vector<Affine>& guards) const {
-  const Affine limit = now.limit(kinetic_);
+  const Affine limit = now.force_limit(kinetic_);
   if (memory.mode == 0) {
     // Minus a limit of nearly its own slope over position little of it is left, but all of its rounding.
     const double held = stiffness_ * memory.state[0];
@@ -50,7 +50,7 @@ void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Di
 }
 
 void ResetIntegrator::hold(Memory& memory, const Instant& now) const {
-  memory.state = {now.x - memory.mode * now.limit_now(kinetic_) / stiffness_};
+  memory.state = {now.x - memory.mode * now.force_limit_now(kinetic_) / stiffness_};
   memory.mode = 0;
 }
 
@@ -59,11 +59,11 @@ void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, 
   switch (trigger.cause) {
     case Trigger::direction_change:
       // Under a varying limit the bond's end stops at a guard of its own.
-      if (slips && sign(direction) != memory.mode && !stops_by_itself(now.limit(kinetic_), stiffness_))
+      if (slips && sign(direction) != memory.mode && !stops_by_itself(now.force_limit(kinetic_), stiffness_))
         hold(memory, now);
       return;
     case Trigger::limit_change:
-      if (now.limit_now(kinetic_) == 0.0) memory = start(now);
+      if (now.force_limit_now(kinetic_) == 0.0) memory = start(now);
       if (memory.mode != 0) hold(memory, now);
       return;
     default:

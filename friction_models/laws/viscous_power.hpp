@@ -28,7 +28,7 @@ class ViscousPower {
 
   [[nodiscard]] double force(const Memory&, const Instant& now, Direction direction) const {
     const double ratio = sign(direction) * now.v / velocity_;
-    return sign(direction) * now.limit_now(coefficient_) * continued_power(ratio, exponent_);
+    return sign(direction) * now.force_limit_now(coefficient_) * continued_power(ratio, exponent_);
   }
 
  private:

@@ -26,7 +26,7 @@ class ViscousSaturating {
       : coefficient_(coefficient), velocity_(saturation_velocity) {}
 
   [[nodiscard]] double force(const Memory&, const Instant& now, Direction direction) const {
-    const double limit = now.limit_now(coefficient_ * velocity_);
+    const double limit = now.force_limit_now(coefficient_ * velocity_);
     return sign(direction) * limit * saturated(sign(direction) * now.v / velocity_);
   }
 

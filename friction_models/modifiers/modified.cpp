@@ -1,397 +1,284 @@
 #include "friction_models/modifiers/modified.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "friction_models/modifiers/fluctuation.hpp"
+#include "friction_models/modifiers/force_limits.hpp"
 
 namespace dualdamp::friction {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Modifiers {
-  double drift = 0.0;  ///< 1/s
-  double slope = 0.0;  ///< N/m
-  double ratio = 0.0;
-  double correlation_time = infinity;    ///< s
-  double correlation_length = infinity;  ///< m
-  std::uint64_t seed = 0;
-  double warming_power = infinity;  ///< W
-  double warming_time = infinity;   ///< s
-
-  [[nodiscard]] bool warms() const { return warming_power < infinity; }
-  [[nodiscard]] bool fluctuates() const { return ratio != 0.0; }
-  [[nodiscard]] bool varies_over_position() const { return correlation_length < infinity; }
-  [[nodiscard]] bool does_nothing() const { return drift == 0.0 && slope == 0.0 && !fluctuates() && !warms(); }
-};
-
-/// What the wrapper remembers beside the law. The level of the present cell is no state that a driver may displace,
-/// so all but the power goes into Memory::indices, behind those of the law; the power is the last state.
-struct Course {
-  bool drift_ended = false;
-  int cell = 0;        ///< of the fluctuation, over time or position
-  double level = 0.0;  ///< n in this cell
-  int side = 1;        ///< sign of x
-  int vanished = 0;    ///< limits that are zero, the smallest nominal ones first
-  double power = 0.0;  ///< dissipated of late [W]
-};
-
-constexpr std::size_t course_size = 6;
-
 /// Beyond rounding, relative.
 constexpr double clearly = 1e-12;
 
-Memory joined(Memory memory, const Course& course, bool warms) {
-  if (warms) memory.state.push_back(course.power);
-  const auto level = std::bit_cast<std::array<int, 2>>(course.level);
-  memory.indices.insert(memory.indices.end(), {course.drift_ended ? 1 : 0, course.cell, level[0], level[1],
-                                               course.side, course.vanished});
-  return memory;
-}
-
-/// The memory of the law, and the course.
-std::pair<Memory, Course> split(const Memory& memory, bool warms) {
-  std::pair<Memory, Course> parts{memory, {}};
-  const auto own = memory.indices.end() - static_cast<std::ptrdiff_t>(course_size);
-  parts.first.indices.resize(memory.indices.size() - course_size);
-  parts.second = {.drift_ended = own[0] != 0,
-                  .cell = own[1],
-                  .level = std::bit_cast<double>(std::array<int, 2>{own[2], own[3]}),
-                  .side = own[4],
-                  .vanished = own[5]};
-  if (warms) {
-    parts.second.power = memory.state.back();
-    parts.first.state.pop_back();
-  }
-  return parts;
-}
-
-class ModifiedLaw final : public LawModel {
+/// What a modified law remembers, in its parts: the memory of the law inside, and the power that it turned to heat
+/// of late, which under warming is the last state.
+class Parts {
  public:
-  ModifiedLaw(Law law, const Modifiers& modifiers, std::vector<double> limits)
-      : law_(std::move(law)), modifiers_(modifiers), limits_(std::move(limits)), fluctuation_(modifiers.seed) {
-    std::ranges::sort(limits_);
-    const auto repeated = std::ranges::unique(limits_);
-    limits_.erase(repeated.begin(), repeated.end());
+  Parts(const Memory& memory, bool warms) : whole_(memory) {
+    if (!warms) return;
+    own_ = memory;
+    power_ = own_->state.back();
+    own_->state.pop_back();
   }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
 
+  [[nodiscard]] const Memory& inner() const { return own_ ? *own_ : whole_; }
+  [[nodiscard]] const ModifierCourse& course() const { return whole_.course; }
+  [[nodiscard]] double power() const { return power_; }  ///< W
+
+ private:
+  const Memory& whole_;
+  std::optional<Memory> own_;
+  double power_ = 0.0;
+};
+
+/// The same taken apart for a change. The law inside does not keep the course.
+struct OpenParts {
+  Memory& inner;
+  ModifierCourse course;
+  double power = 0.0;
+};
+
+class ModifiedLaw final : public LawModel,
+                          public ModalAbility,
+                          public StickingAbility,
+                          public AffineAbility,
+                          public StateAbility,
+                          public AdvanceAbility,
+                          public DissipationAbility,
+                          public ScheduleAbility,
+                          public AperiodicAbility {
+ public:
+  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits)
+      : law_(std::move(law)), limits_(settings, std::move(limits)) {}
+
+  [[nodiscard]] Abilities abilities() const override;
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
-    const auto [inner, course] = parted(memory);
-    if (is_gone(course)) return 0.0;
-    return law_.force(inner, modify(inner, course, now, direction), direction);
+    const Parts parts = parts_of(memory);
+    if (limits_.are_gone(parts.course())) return 0.0;
+    return law_.force(parts.inner(), modify(parts, now, direction), direction);
   }
 
-  [[nodiscard]] bool is_modal() const override { return true; }
   [[nodiscard]] Memory start(const Instant& now) const override;
   void guards(const Memory& memory, const Instant& now, Direction direction,
               std::vector<double>& values) const override {
-    const auto [inner, course] = parted(memory);
-    for (const Affine& guard : own_guards(course, now)) values.push_back(value(guard, now));
-    if (!is_gone(course)) law_.guards(inner, modify(inner, course, now, direction), direction, values);
+    const Parts parts = parts_of(memory);
+    for (const Affine& guard : limits_.guards(parts.course(), parts.power(), now))
+      values.push_back(value(guard, now));
+    if (!limits_.are_gone(parts.course()))
+      law_.guards(parts.inner(), modify(parts, now, direction), direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override;
 
-  [[nodiscard]] bool holds_mass() const override { return law_.holds_mass(); }
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const override {
-    const auto [inner, course] = parted(memory);
-    return law_.static_limit(inner, levels(course, now));
+    const Parts parts = parts_of(memory);
+    return law_.static_limit(parts.inner(), limits_.at(parts.course(), parts.power(), now));
   }
 
-  /// Power dissipated is no affine function of the motion.
-  [[nodiscard]] bool is_affine() const override { return law_.is_affine() && !modifiers_.warms(); }
+  // The four below are not asked of a law that warms.
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction direction) const override {
-    const auto [inner, course] = parted(memory);
-    if (is_gone(course)) return {};
-    return law_.affine_force(inner, modify(inner, course, now, direction), direction);
+    if (limits_.are_gone(memory.course)) return {};
+    return law_.affine_force(memory, limits_.at(memory.course, 0.0, now), direction);
   }
   [[nodiscard]] Affine affine_limit(const Memory& memory, const Instant& now) const override {
-    const auto [inner, course] = parted(memory);
-    return law_.affine_limit(inner, levels(course, now));
+    return law_.affine_limit(memory, limits_.at(memory.course, 0.0, now));
   }
   void affine_guards(const Memory& memory, const Instant& now, Direction direction,
                      std::vector<Affine>& guards) const override {
-    const auto [inner, course] = parted(memory);
-    for (const Affine& guard : own_guards(course, now)) guards.push_back(guard);
-    if (!is_gone(course)) law_.affine_guards(inner, modify(inner, course, now, direction), direction, guards);
+    for (const Affine& guard : limits_.guards(memory.course, 0.0, now)) guards.push_back(guard);
+    if (!limits_.are_gone(memory.course))
+      law_.affine_guards(memory, limits_.at(memory.course, 0.0, now), direction, guards);
+  }
+  void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
+               Direction direction) const override {
+    if (limits_.are_gone(memory.course)) return;
+    law_.advance(memory, limits_.at(memory.course, 0.0, begin), limits_.at(memory.course, 0.0, end), duration,
+                 direction);
   }
 
-  [[nodiscard]] bool has_rates() const override { return law_.has_rates() || modifiers_.warms(); }
-  void rates(const Memory& memory, const Instant& now, Direction direction,
-             std::span<double> rates) const override {
-    static_cast<void>(respond(memory, now, direction, rates));
-  }
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const override;
   void scales(const Memory& memory, std::span<double> scales) const override {
-    const std::span<double> inner = scales.first(scales.size() - (modifiers_.warms() ? 1 : 0));
-    law_.scales(parted(memory).first, inner);
-    if (modifiers_.warms()) scales.back() = modifiers_.warming_power;
+    const std::span<double> inner = scales.first(scales.size() - (warms() ? 1 : 0));
+    law_.scales(parts_of(memory).inner(), inner);
+    if (warms()) scales.back() = limits_.settings().warming_power;
   }
-  [[nodiscard]] double delay() const override { return law_.delay(); }
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const override {
-    const auto [inner, course] = parted(memory);
-    return is_gone(course) ? 0.0 : law_.dissipation(inner, modify(inner, course, now, direction), direction);
-  }
-  [[nodiscard]] bool advances() const override { return law_.advances(); }
-  void advance(Memory& memory, const Instant& begin, const Instant& end, double duration,
-               Direction direction) const override {
-    auto [inner, course] = parted(memory);
-    if (is_gone(course)) return;
-    const Instant from = modify(inner, course, begin, direction);
-    law_.advance(inner, from, modify(inner, course, end, direction), duration, direction);
-    memory = joined(std::move(inner), course, modifiers_.warms());
+    const Parts parts = parts_of(memory);
+    if (limits_.are_gone(parts.course())) return 0.0;
+    return law_.dissipation(parts.inner(), modify(parts, now, direction), direction);
   }
 
   [[nodiscard]] double next_change(const Memory& memory) const override {
-    const auto [inner, course] = parted(memory);
-    return std::min({law_.next_change(inner), drift_end(course), cell_end(course)});
+    return std::min(law_.next_change(parts_of(memory).inner()), limits_.next_change(memory.course));
   }
-  [[nodiscard]] std::string_view aperiodic() const override {
-    if (modifiers_.fluctuates() && !modifiers_.varies_over_position())
-      return "its force limits fluctuate at random";
-    return modifiers_.drift != 0.0 ? "its force limits drift" : law_.aperiodic();
-  }
+  [[nodiscard]] std::string_view aperiodic() const override;
 
  private:
-  [[nodiscard]] std::pair<Memory, Course> parted(const Memory& memory) const {
-    return split(memory, modifiers_.warms());
-  }
-  [[nodiscard]] double fluctuation(const Course& course) const {
-    return std::max(0.0, 1.0 + modifiers_.ratio * course.level);
-  }
-  /// No limit is left: there is no contact, until one returns.
-  [[nodiscard]] bool is_gone(const Course& course) const {
-    if (modifiers_.slope == 0.0) return course.drift_ended || fluctuation(course) == 0.0;
-    return !limits_.empty() && static_cast<std::size_t>(course.vanished) == limits_.size();
-  }
-  /// The limits now; how fast they move as far as warming has no part in it.
-  [[nodiscard]] Instant levels(const Course& course, Instant now) const;
-  [[nodiscard]] Instant modify(const Memory& inner, const Course& course, const Instant& now,
+  [[nodiscard]] bool warms() const { return limits_.settings().warms(); }
+  [[nodiscard]] Parts parts_of(const Memory& memory) const { return {memory, warms()}; }
+
+  /// The instant as the law inside sees it.
+  [[nodiscard]] Instant modify(const Memory& inner, const ModifierCourse& course, double power, const Instant& now,
                                Direction direction) const;
-  [[nodiscard]] double warming_rate(const Memory& inner, const Course& course, const Instant& now,
-                                    Direction direction) const;
+  [[nodiscard]] Instant modify(const Parts& parts, const Instant& now, Direction direction) const {
+    return modify(parts.inner(), parts.course(), parts.power(), now, direction);
+  }
+  [[nodiscard]] Instant modify(const OpenParts& parts, const Instant& now, Direction direction) const {
+    return modify(parts.inner, parts.course, parts.power, now, direction);
+  }
+  [[nodiscard]] double warming_rate(const Memory& inner, const ModifierCourse& course, double power,
+                                    const Instant& now, Direction direction) const;
 
-  [[nodiscard]] double drift_end(const Course& course) const {
-    return modifiers_.drift < 0.0 && !course.drift_ended ? -1.0 / modifiers_.drift : infinity;
-  }
-  [[nodiscard]] double cell_end(const Course& course) const {
-    if (modifiers_.varies_over_position()) return infinity;
-    return (course.cell + 1) * (modifiers_.correlation_time / Fluctuation::cells_per_correlation);
-  }
-  /// Cell 0 lies about x = 0, which is a guard of the slope.
-  [[nodiscard]] double cell_width() const {
-    return modifiers_.correlation_length / Fluctuation::cells_per_correlation;
-  }
-
-  [[nodiscard]] std::vector<Affine> own_guards(const Course& course, const Instant& now) const;
-  [[nodiscard]] int vanished_limits(const Course& course, const Instant& now) const;
-  [[nodiscard]] Instant unclamped(Course course, const Instant& now) const {
-    course.vanished = 0;
-    return levels(course, now);
-  }
-
-  void settle(Memory& inner, const Instant& now, Direction direction) const;
-  void pass_kink(Memory& inner, Course& course, int guard, const Instant& now, Direction direction) const;
-  void change_by_schedule(Memory& inner, Course& course, const Instant& now, Direction direction) const;
-  void step_to(Course next, Memory& inner, Course& course, const Instant& now, Direction direction) const;
+  void look_again(OpenParts& parts, const Instant& now, Direction direction) const;
+  void settle(OpenParts& parts, const Instant& now, Direction direction) const;
+  void pass_guard(OpenParts& parts, int guard, const Instant& now, Direction direction) const;
+  void change_by_schedule(OpenParts& parts, const Instant& now, Direction direction) const;
+  void step_to(ModifierCourse next, OpenParts& parts, const Instant& now, Direction direction) const;
 
   Law law_;
-  Modifiers modifiers_;
-  std::vector<double> limits_;
-  Fluctuation fluctuation_;
+  ForceLimits limits_;
 };
 
+Abilities ModifiedLaw::abilities() const {
+  // The power turned to heat is no affine function of the motion.
+  const bool is_affine = law_.is_affine() && !warms();
+  return {.modal = this,
+          .sticking = law_.holds_mass() ? this : nullptr,
+          .affine = is_affine ? this : nullptr,
+          .states = law_.has_rates() || warms() ? this : nullptr,
+          .advance = is_affine && law_.advances() ? this : nullptr,
+          .dissipation = this,
+          .delay = law_.abilities().delay,
+          .schedule = this,
+          .aperiodic = this};
+}
+
 Memory ModifiedLaw::start(const Instant& now) const {
-  Course course{.level = fluctuation_.first(), .side = now.x < 0.0 ? -1 : 1};
-  if (modifiers_.varies_over_position()) {
-    constexpr double farthest = 1e9;  // an int holds this and a way beyond it
-    course.cell = static_cast<int>(std::clamp(std::round(now.x / cell_width()), -farthest, farthest));
-    course.level = fluctuation_.at(course.cell);
-  }
-  return joined(law_.start(levels(course, now)), course, modifiers_.warms());
+  const ModifierCourse course = limits_.start(now);
+  Memory memory = law_.start(limits_.at(course, 0.0, now));
+  memory.course = course;
+  if (warms()) memory.state.push_back(0.0);
+  return memory;
 }
 
-Instant ModifiedLaw::levels(const Course& course, Instant now) const {
-  double factor = course.drift_ended ? 0.0 : fluctuation(course);
-  if (modifiers_.warms()) factor *= std::exp(-course.power / modifiers_.warming_power);
-  now.modification = {
-      .factor = (1.0 + modifiers_.drift * now.t) * factor,
-      .factor_rate = modifiers_.drift * factor,
-      .slope = course.side * modifiers_.slope,
-      .vanished = course.vanished == 0 ? -1.0 : limits_[static_cast<std::size_t>(course.vanished) - 1]};
-  return now;
+std::string_view ModifiedLaw::aperiodic() const {
+  const ModifierSettings& settings = limits_.settings();
+  if (settings.fluctuates() && !settings.varies_over_position()) return "its force limits fluctuate at random";
+  return settings.drift != 0.0 ? "its force limits drift" : law_.aperiodic();
 }
 
-Instant ModifiedLaw::modify(const Memory& inner, const Course& course, const Instant& now,
+Instant ModifiedLaw::modify(const Memory& inner, const ModifierCourse& course, double power, const Instant& now,
                             Direction direction) const {
-  Instant modified = levels(course, now);
-  if (!modifiers_.warms()) return modified;
-  const double rate = warming_rate(inner, course, modified, direction);
-  modified.modification.factor_rate -= modified.modification.factor * rate / modifiers_.warming_power;
+  Instant modified = limits_.at(course, power, now);
+  if (!warms()) return modified;
+  const double rate = warming_rate(inner, course, power, modified, direction);
+  modified.modification.factor_rate -= modified.modification.factor * rate / limits_.settings().warming_power;
   return modified;
 }
 
-/// d(power)/dt [W/s]. The heat of a stretched spring that relaxes with its limit, of second order in the
-/// compliance, is left out: that would take the rate that is sought.
-double ModifiedLaw::warming_rate(const Memory& inner, const Course& course, const Instant& now,
-                                 Direction direction) const {
-  const double heat = is_gone(course) ? 0.0 : law_.dissipation(inner, now, direction);
-  return (heat - course.power) / modifiers_.warming_time;
+/// d(power)/dt [W/s]. A stretched spring gives off heat when it relaxes with its force limit; that heat is left
+/// out: it is of second order in the compliance, and it depends on the rate that is to be found.
+double ModifiedLaw::warming_rate(const Memory& inner, const ModifierCourse& course, double power,
+                                 const Instant& now, Direction direction) const {
+  const double heat = limits_.are_gone(course) ? 0.0 : law_.dissipation(inner, now, direction);
+  return (heat - power) / limits_.settings().warming_time;
 }
 
 double ModifiedLaw::respond(const Memory& memory, const Instant& now, Direction direction,
                             std::span<double> rates) const {
-  const auto [inner, course] = parted(memory);
+  const Parts parts = parts_of(memory);
   std::ranges::fill(rates, 0.0);
-  const Instant modified = modify(inner, course, now, direction);
-  if (modifiers_.warms()) {
-    rates.back() = warming_rate(inner, course, levels(course, now), direction);
+  const Instant modified = modify(parts, now, direction);
+  if (warms()) {
+    const Instant unwarmed = limits_.at(parts.course(), parts.power(), now);
+    rates.back() = warming_rate(parts.inner(), parts.course(), parts.power(), unwarmed, direction);
     rates = rates.first(rates.size() - 1);
   }
-  return is_gone(course) ? 0.0 : law_.respond(inner, modified, direction, rates);
+  return limits_.are_gone(parts.course()) ? 0.0 : law_.respond(parts.inner(), modified, direction, rates);
 }
 
-/// They come before those of the law, which must not see limits below zero: x within its cell; x on its side; and
-/// for limits that fall with |x|: the smallest not yet zero, the largest zero already.
-std::vector<Affine> ModifiedLaw::own_guards(const Course& course, const Instant& now) const {
-  std::vector<Affine> guards;
-  if (modifiers_.varies_over_position()) {
-    const double high = (course.cell + 0.5) * cell_width();
-    const double low = (course.cell - 0.5) * cell_width();
-    guards.push_back({.constant = high, .position = -1.0});
-    guards.push_back({.constant = -low, .position = 1.0});
-  }
-  if (modifiers_.slope == 0.0) return guards;
-  guards.push_back({.position = static_cast<double>(course.side)});
-  if (modifiers_.slope > 0.0) return guards;
-  const Instant all = unclamped(course, now);
-  const auto zero = static_cast<std::size_t>(course.vanished);
-  if (zero < limits_.size()) guards.push_back(all.limit(limits_[zero]));
-  if (zero > 0) guards.push_back(-1.0 * all.limit(limits_[zero - 1]));
-  return guards;
+/// The law decides again under the force limits of the present course.
+void ModifiedLaw::look_again(OpenParts& parts, const Instant& now, Direction direction) const {
+  law_.jump(parts.inner, {Trigger::limit_change}, modify(parts, now, direction), direction);
 }
 
-/// How many limits a step leaves at zero; the others go there at a guard.
-int ModifiedLaw::vanished_limits(const Course& course, const Instant& now) const {
-  if (modifiers_.slope >= 0.0) return course.vanished;
-  const Instant all = unclamped(course, now);
-  return static_cast<int>(
-      std::ranges::count_if(limits_, [&](double limit) { return all.limit_now(limit) <= 0.0; }));
+/// At a guard of the force limits: x enters another cell, or the limits go on from the same value.
+void ModifiedLaw::pass_guard(OpenParts& parts, int guard, const Instant& now, Direction direction) const {
+  const ModifierCourse next = limits_.after_guard(parts.course, guard);
+  const ForceLimits::Ending ending = limits_.ending(guard);
+  if (ending == ForceLimits::Ending::cell) return step_to(next, parts, now, direction);
+  // A limit that no longer moves may end a slip otherwise than one that does.
+  if (ending == ForceLimits::Ending::force_limit) look_again(parts, now, direction);
+  parts.course = next;
 }
 
-/// At a guard of the wrapper: x enters another cell, or the limits go on from the same value.
-void ModifiedLaw::pass_kink(Memory& inner, Course& course, int guard, const Instant& now,
-                            Direction direction) const {
-  if (modifiers_.varies_over_position()) {
-    if (guard < 2) {
-      Course next = course;
-      next.cell += guard == 0 ? 1 : -1;
-      next.level = fluctuation_.at(next.cell);
-      return step_to(next, inner, course, now, direction);
-    }
-    guard -= 2;
-  }
-  if (guard == 0) {
-    course.side = -course.side;
-    return;
-  }
-  // A limit that no longer moves may end a slip otherwise than one that does: the law looks again.
-  law_.jump(inner, {Trigger::limit_change}, modify(inner, course, now, direction), direction);
-  const bool vanishes = guard == 1 && static_cast<std::size_t>(course.vanished) < limits_.size();
-  course.vanished += vanishes ? 1 : -1;
+/// At a time of the schedule, that of the law or that of the force limits.
+void ModifiedLaw::change_by_schedule(OpenParts& parts, const Instant& now, Direction direction) const {
+  const double own = law_.next_change(parts.inner);
+  const double due = std::min(own, limits_.next_change(parts.course));
+  if (own == due) law_.jump(parts.inner, {Trigger::scheduled}, modify(parts, now, direction), direction);
+  step_to(limits_.after_change(parts.course, due), parts, now, direction);
 }
 
-/// At a time of the schedule.
-void ModifiedLaw::change_by_schedule(Memory& inner, Course& course, const Instant& now, Direction direction) const {
-  const double due = std::min({law_.next_change(inner), drift_end(course), cell_end(course)});
-  if (law_.next_change(inner) == due)
-    law_.jump(inner, {Trigger::scheduled}, modify(inner, course, now, direction), direction);
-  Course next = course;
-  if (drift_end(course) == due) next.drift_ended = true;
-  if (cell_end(course) == due) {
-    ++next.cell;
-    next.level = fluctuation_.after(course.level, next.cell);
-  }
-  step_to(next, inner, course, now, direction);
+/// The force limits change by a step.
+void ModifiedLaw::step_to(ModifierCourse next, OpenParts& parts, const Instant& now, Direction direction) const {
+  next.vanished = limits_.vanished(next, parts.power, now);
+  // Under a limit that falls, what slides goes on sliding.
+  const bool rises = limits_.fluctuation(next) > limits_.fluctuation(parts.course);
+  if (rises || next.vanished != parts.course.vanished) look_again(parts, now, direction);
+  parts.course = next;
+  if (!limits_.are_gone(next)) settle(parts, modify(parts, now, direction), direction);
 }
 
-/// The limits change by a step.
-void ModifiedLaw::step_to(Course next, Memory& inner, Course& course, const Instant& now,
-                          Direction direction) const {
-  next.vanished = vanished_limits(next, now);
-  // What slides goes on sliding under a limit that falls.
-  const bool looks_again = fluctuation(next) > fluctuation(course) || next.vanished != course.vanished;
-  if (looks_again) law_.jump(inner, {Trigger::limit_change}, modify(inner, course, now, direction), direction);
-  course = next;
-  if (!is_gone(course)) settle(inner, modify(inner, course, now, direction), direction);
-}
-
-/// After a step: the law's guards that are clearly violated. So laws that step together need no more events than
-/// one.
-void ModifiedLaw::settle(Memory& inner, const Instant& now, Direction direction) const {
+/// After a step: the law passes those of its guards that are clearly violated. So laws that step together need no
+/// more events than one.
+void ModifiedLaw::settle(OpenParts& parts, const Instant& now, Direction direction) const {
+  if (!law_.is_affine()) return;
   std::vector<Affine> guards;
   for (int repeats = 0; repeats < 4; ++repeats) {
     guards.clear();
-    law_.affine_guards(inner, now, direction, guards);
+    law_.affine_guards(parts.inner, now, direction, guards);
     const auto violated = std::ranges::find_if(guards, [&](const Affine& g) {
       const double size = std::abs(g.constant) + std::abs(g.position * now.x) + std::abs(g.velocity * now.v);
       return value(g, now) < -clearly * size;
     });
     if (violated == guards.end()) return;
-    law_.jump(inner, {static_cast<int>(violated - guards.begin())}, now, direction);
+    law_.jump(parts.inner, {static_cast<int>(violated - guards.begin())}, now, direction);
   }
 }
 
 void ModifiedLaw::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
-  auto [inner, course] = parted(memory);
-  const int own = static_cast<int>(own_guards(course, now).size());
+  OpenParts parts{.inner = memory, .course = memory.course};
+  if (warms()) {
+    parts.power = memory.state.back();
+    memory.state.pop_back();
+  }
+  const int own = static_cast<int>(limits_.guards(parts.course, parts.power, now).size());
   if (trigger.cause == Trigger::scheduled) {
-    change_by_schedule(inner, course, now, direction);
+    change_by_schedule(parts, now, direction);
   } else if (trigger.cause >= 0 && trigger.cause < own) {
-    pass_kink(inner, course, trigger.cause, now, direction);
+    pass_guard(parts, trigger.cause, now, direction);
   } else {
     const int cause = trigger.cause < 0 ? trigger.cause : trigger.cause - own;
-    law_.jump(inner, {cause}, modify(inner, course, now, direction), direction);
+    law_.jump(memory, {cause}, modify(parts, now, direction), direction);
   }
-  memory = joined(std::move(inner), course, modifiers_.warms());
-}
-
-Modifiers modifiers_of(const ParameterValues& values) {
-  Modifiers modifiers;
-  if (values.has("drift")) modifiers.drift = values.number("drift");
-  if (values.has("position_slope")) modifiers.slope = values.number("position_slope");
-  if (values.has("fluctuation")) {
-    const ParameterValues& fluctuation = values.record("fluctuation");
-    modifiers.ratio = fluctuation.number("ratio");
-    modifiers.seed = fluctuation.seed("seed");
-    const bool over_position = fluctuation.has("correlation_length");
-    if (modifiers.fluctuates() && over_position)
-      modifiers.correlation_length = fluctuation.number("correlation_length");
-    if (modifiers.fluctuates() && !over_position)
-      modifiers.correlation_time = fluctuation.number("correlation_time");
-  }
-  if (values.has("warming")) {
-    const ParameterValues& warming = values.record("warming");
-    modifiers.warming_power = warming.number("power");
-    modifiers.warming_time = warming.number("time_constant");
-  }
-  return modifiers;
+  memory.course = parts.course;
+  if (warms()) memory.state.push_back(parts.power);
 }
 
 }  // namespace
 
 Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits) {
-  const Modifiers modifiers = modifiers_of(values);
-  if (modifiers.does_nothing()) return law;
-  return Law(std::make_shared<const ModifiedLaw>(law, modifiers, std::move(limits)));
+  const ModifierSettings settings(values);
+  if (settings.do_nothing()) return law;
+  return Law(std::make_shared<const ModifiedLaw>(law, settings, std::move(limits)));
 }
 
 }  // namespace dualdamp::friction

@@ -127,6 +127,11 @@ bool is_affine(const Function& f, const std::vector<double>& z, Random& random) 
   return true;
 }
 
+std::array<double, 5> numbers_of(const friction::ModifierCourse& course) {
+  return {course.drift_ended ? 1.0 : 0.0, static_cast<double>(course.cell), course.level,
+          static_cast<double>(course.side), static_cast<double>(course.vanished)};
+}
+
 /// The driver differentiates forms and jumps by evaluating them at displaced states and positions.
 void examine_displaced(const LawHost& host, bool with_jumps, Random& random, Faults& faults) {
   const std::vector<double>& state = host.memory().state;
@@ -155,6 +160,7 @@ void examine_displaced(const LawHost& host, bool with_jumps, Random& random, Fau
         std::vector<double> result = memory.state;
         result.push_back(memory.mode);
         for (const int index : memory.indices) result.push_back(index);
+        for (const double part : numbers_of(memory.course)) result.push_back(part);
         return result;
       };
       if (!is_affine(jumped, place, random)) faults.add("a jump is not affine in states, position and speed");

@@ -1,0 +1,135 @@
+#pragma once
+/// How to write a law: a copyable class with a force, and the members of those abilities that it has. The compiler
+/// finds them by the concepts below; nothing is registered and nothing is inherited. Every member is const and
+/// pure: the same arguments give the same results.
+///
+///     class Coulomb {
+///      public:
+///       [[nodiscard]] Affine affine_force(const Memory&, const Instant& now, Direction direction) const;
+///       [[nodiscard]] Affine affine_limit(const Memory&, const Instant& now) const;
+///     };
+///
+/// A law states either the affine members (affine_force, affine_limit, affine_guards) or the plain ones (force,
+/// static_limit, guards): plain values follow from affine ones.
+
+#include <concepts>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "friction_models/affine.hpp"
+#include "friction_models/instant.hpp"
+#include "friction_models/memory.hpp"
+
+namespace dualdamp::friction {
+
+/// A force that is affine in every mode [N].
+template <class L>
+concept AffineForce = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+  { law.affine_force(memory, now, direction) } -> std::same_as<Affine>;
+};
+/// A force of any other kind [N].
+template <class L>
+concept OwnForce = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+  { law.force(memory, now, direction) } -> std::same_as<double>;
+};
+/// A force that contains the rates of the law's own states. Fills in the rates [unit of the state per s] and
+/// returns the force [N].
+template <class L>
+concept RespondingLaw =
+    requires(const L& law, const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) {
+      { law.respond(memory, now, direction, rates) } -> std::same_as<double>;
+    };
+
+/// What every law provides: a force in one of these forms.
+template <class L>
+concept FrictionLaw = std::copyable<L> && (AffineForce<L> || OwnForce<L> || RespondingLaw<L>);
+
+/// Remembers something: modes or states. Gives what it remembers at the start.
+template <class L>
+concept ModalLaw = requires(const L& law, const Instant& now) {
+  { law.start(now) } -> std::same_as<Memory>;
+};
+
+/// Changes its mode, for the reason that the trigger names. It decides by mode, trigger and direction, not by
+/// values.
+template <class L>
+concept JumpingLaw =
+    requires(const L& law, Memory& memory, const Instant& now, Direction direction, Trigger trigger) {
+      { law.jump(memory, trigger, now, direction) } -> std::same_as<void>;
+    };
+
+/// Has guards, each > 0 while the mode holds. Appends them.
+template <class L>
+concept AffineGuards = requires(const L& law, const Memory& memory, const Instant& now, Direction direction,
+                                std::vector<Affine>& guards) {
+  { law.affine_guards(memory, now, direction, guards) } -> std::same_as<void>;
+};
+template <class L>
+concept Guards = requires(const L& law, const Memory& memory, const Instant& now, Direction direction,
+                          std::vector<double>& values) {
+  { law.guards(memory, now, direction, values) } -> std::same_as<void>;
+};
+
+/// Makes the mass stick, up to this static force limit [N].
+template <class L>
+concept AffineLimit = requires(const L& law, const Memory& memory, const Instant& now) {
+  { law.affine_limit(memory, now) } -> std::same_as<Affine>;
+};
+template <class L>
+concept StaticLimit = requires(const L& law, const Memory& memory, const Instant& now) {
+  { law.static_limit(memory, now) } -> std::same_as<double>;
+};
+template <class L>
+concept HoldsMass = AffineLimit<L> || StaticLimit<L>;
+
+/// Affine in every mode, which gives the exact engine.
+template <class L>
+concept AffineLaw = AffineForce<L> && (!HoldsMass<L> || AffineLimit<L>) && (!Guards<L> || AffineGuards<L>);
+
+/// Has states that move between events. Fills in their rates [unit of the state per s].
+template <class L>
+concept StateLaw =
+    requires(const L& law, const Memory& frozen, const Instant& now, Direction direction, std::span<double> rates) {
+      { law.rates(frozen, now, direction, rates) } -> std::same_as<void>;
+    };
+
+/// Says, of states that move, the size of each in a motion that slips, > 0: errors are measured against it. A state
+/// without a size is a position, of the size of the motion.
+template <class L>
+concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<double> scales) {
+  { law.scales(memory, scales) } -> std::same_as<void>;
+};
+
+/// Depends on the velocity a fixed time ago. Gives that time [s], > 0.
+template <class L>
+concept DelayedLaw = requires(const L& law) {
+  { law.delay() } -> std::same_as<double>;
+};
+
+/// Stores energy. Gives the power that it turns to heat [W], which is then not force times velocity.
+template <class L>
+concept DissipatingLaw = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
+  { law.dissipation(memory, now, direction) } -> std::same_as<double>;
+};
+
+/// Is affine and has states that move. Moves them to the end of an interval of `duration` [s].
+template <class L>
+concept AdvancingLaw =
+    requires(const L& law, Memory& memory, const Instant& now, double duration, Direction direction) {
+      { law.advance(memory, now, now, duration, direction) } -> std::same_as<void>;
+    };
+
+/// Changes its mode at times that are known in advance. Gives the next one [s].
+template <class L>
+concept ScheduledLaw = requires(const L& law, const Memory& memory) {
+  { law.next_change(memory) } -> std::same_as<double>;
+};
+
+/// Says why no motion under this law is periodic; empty when a motion may be periodic.
+template <class L>
+concept AperiodicLaw = requires(const L& law) {
+  { law.aperiodic() } -> std::convertible_to<std::string_view>;
+};
+
+}  // namespace dualdamp::friction

@@ -1,0 +1,81 @@
+#pragma once
+/// How modifiers move the force limits of a law (`modified.hpp` has the equation): the force limits at an instant,
+/// the guards and times at which their course changes, and the course after each change. Nothing here knows the
+/// law.
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "friction_models/law.hpp"
+#include "friction_models/modifiers/fluctuation.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::friction {
+
+struct ModifierSettings {
+  double drift = 0.0;  ///< 1/s
+  double slope = 0.0;  ///< N/m
+  double ratio = 0.0;  ///< standard deviation of the fluctuation relative to the force limit
+  double correlation_time = std::numeric_limits<double>::infinity();    ///< s
+  double correlation_length = std::numeric_limits<double>::infinity();  ///< m
+  std::uint64_t seed = 0;
+  double warming_power = std::numeric_limits<double>::infinity();  ///< W
+  double warming_time = std::numeric_limits<double>::infinity();   ///< s
+
+  ModifierSettings() = default;
+  /// From the parameters of a law; without a modifier among them it does nothing.
+  explicit ModifierSettings(const ParameterValues& values);
+
+  [[nodiscard]] bool warms() const { return warming_power < std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] bool fluctuates() const { return ratio != 0.0; }
+  [[nodiscard]] bool varies_over_position() const {
+    return correlation_length < std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] bool do_nothing() const { return drift == 0.0 && slope == 0.0 && !fluctuates() && !warms(); }
+};
+
+class ForceLimits {
+ public:
+  /// `nominal`: the force limits [N] of a law that supports `position_slope`, in any order.
+  ForceLimits(const ModifierSettings& settings, std::vector<double> nominal);
+
+  [[nodiscard]] const ModifierSettings& settings() const { return settings_; }
+
+  [[nodiscard]] ModifierCourse start(const Instant& now) const;
+  /// `now` with the modification of the force limits. `power`: what the law turned to heat of late [W].
+  [[nodiscard]] Instant at(const ModifierCourse& course, double power, Instant now) const;
+  /// No force limit is left: there is no contact, until one returns.
+  [[nodiscard]] bool are_gone(const ModifierCourse& course) const;
+
+  /// When the course changes next, whatever the motion does [s].
+  [[nodiscard]] double next_change(const ModifierCourse& course) const;
+  /// The course after that change, due at this time.
+  [[nodiscard]] ModifierCourse after_change(const ModifierCourse& course, double due) const;
+
+  /// > 0 while the course stays: x within its cell; x on its side; and of force limits that fall with |x| the
+  /// smallest one that is not yet zero, and minus the largest one that is zero.
+  [[nodiscard]] std::vector<Affine> guards(const ModifierCourse& course, double power, const Instant& now) const;
+  /// What ends at a guard, by its index.
+  enum class Ending { cell, side, force_limit };
+  [[nodiscard]] Ending ending(int guard) const;
+  /// The course after that guard.
+  [[nodiscard]] ModifierCourse after_guard(const ModifierCourse& course, int guard) const;
+
+  /// How many force limits are zero after a step of all of them.
+  [[nodiscard]] int vanished(const ModifierCourse& course, double power, const Instant& now) const;
+  /// The factor of the fluctuation, >= 0.
+  [[nodiscard]] double fluctuation(const ModifierCourse& course) const;
+
+ private:
+  [[nodiscard]] double drift_end(const ModifierCourse& course) const;
+  [[nodiscard]] double cell_end(const ModifierCourse& course) const;
+  [[nodiscard]] double cell_width() const;
+  [[nodiscard]] int cell_guards() const { return settings_.varies_over_position() ? 2 : 0; }
+
+  ModifierSettings settings_;
+  std::vector<double> nominal_;  ///< ascending, each once [N]
+  Fluctuation fluctuation_;
+};
+
+}  // namespace dualdamp::friction
