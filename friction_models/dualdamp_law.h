@@ -6,18 +6,18 @@
  * exception. docs/plugins.md writes a law in thirty minutes; docs/plugins/bliman_sorine/ is a complete one.
  *
  * A law. The mass has position x [m] and velocity v [m/s]; the law gives the force F [N], F > 0 opposing v > 0. It
- * may remember a mode (0 to modes - 1) and continuous states. The program owns the mass: its motion, what happens
- * at v = 0 and, for a law with a static limit, its sticking. x and v are continuous across a mode change.
+ * may remember a mode (0 to modes - 1) and continuous states. The program computes the motion of the mass, what
+ * happens at v = 0 and, for a law with a static limit, sticking. x and v are continuous across a mode change.
  *
  * Pure functions. What a law remembers is in the mode and the states that it is given; the same arguments give the
  * same results. Several threads call one law at the same time, so it holds its parameters and nothing that changes.
  *
- * Frozen direction. Between events the direction of slip is frozen: write direction * v where the formula has |v|,
- * and direction where it has sgn v. A step may look beyond v = 0, where direction and the sign of v differ, and a
- * little beyond a guard; the formula must stay smooth there.
+ * Frozen direction. Between events the direction of slip does not change: write direction * v where the formula has
+ * |v|, and direction where it has sgn v. The program may evaluate the formula a little beyond v = 0, where direction
+ * and the sign of v differ, and a little beyond a guard; the formula must stay smooth there.
  *
  * Force limits. A law asks for each of its force limits with dualdamp_limit(): modifiers (drift, fluctuation, ...)
- * act there and stay out of the law.
+ * act there, and the law does not know them.
  *
  * Versions. The program refuses a table of another DUALDAMP_LAW_ABI. Members are only ever added at the end, with
  * a new version.
@@ -71,7 +71,7 @@ struct dualdamp_instant {
   double t;      /* s */
   double x;      /* m */
   double v;      /* m/s */
-  int direction; /* of slip: -1 or 1; 0: the mass rests */
+  int direction; /* of slip: -1 or 1; 0: the mass sticks */
   double limit_factor;
   double limit_offset;   /* N */
   double limit_vanished; /* N: limits up to this are zero */
@@ -116,7 +116,7 @@ struct dualdamp_law_table {
 
   /* Optional. Mode and states in which it begins; without it mode 0 and states 0. */
   int (*start)(const void* law, const struct dualdamp_instant* now, int* mode, double* states);
-  /* Optional. The force up to which the law holds the mass at rest [N], >= 0. Without it the law does not. */
+  /* Optional. The static limit: the force up to which the law makes the mass stick [N], >= 0. */
   int (*static_limit)(const void* law, int mode, const double* states, const struct dualdamp_instant* now,
                       double* limit);
   /* Required with guards. Values > 0 while the mode holds; it ends when one reaches 0 from above. A guard that has
@@ -126,7 +126,7 @@ struct dualdamp_law_table {
    * now->direction is the new one. It decides by mode, cause and direction, not by values, and is called again
    * while a guard is below 0 in the new mode. */
   int (*jump)(const void* law, int cause, const struct dualdamp_instant* now, int* mode, double* states);
-  /* Optional. The power turned to heat [W], where that is not F v since the law stores energy. */
+  /* Optional. The power turned to heat [W], of a law that stores energy; without it that is F v. */
   int (*dissipation)(const void* law, int mode, const double* states, const struct dualdamp_instant* now,
                      double* power);
 };

@@ -14,6 +14,7 @@
 
 namespace dualdamp::friction {
 
+/// The engine that runs the law by itself, without `warming`.
 enum class EngineKind { exact, smooth };
 
 struct LawEntry {
@@ -28,15 +29,15 @@ struct LawEntry {
   std::string_view caution{};                 ///< what the literature warns of, in one sentence; empty: nothing
   std::string_view sources{};                 ///< keys in `docs/refs.bib`
   std::vector<std::string_view> modifiers{};  ///< names of those it supports
-  /// Its own and, once in `laws()`, those of its modifiers.
+  /// Its own; in `laws()` also those of its modifiers.
   std::vector<Parameter> parameters{};
   /// Laws in parallel that make up this one. `values` complete.
   std::function<std::vector<Law>(const ParameterValues& values)> make{};
-  /// What its table cannot say: rules between values that each are in range. `values` complete. May be absent.
+  /// Rules between values that are each in range. `values` complete. May be absent.
   std::function<std::vector<ParameterFault>(const ParameterValues& values)> check{};
-  /// What to warn of with these complete values.
+  /// Warnings about these complete values. May be absent.
   std::function<std::vector<std::string>(const ParameterValues& values)> warnings{};
-  std::vector<std::string_view> limits{};  ///< parameters that modifiers act on, where the entry says so
+  std::vector<std::string_view> limits{};  ///< of a plugin: the parameters on which modifiers act
   std::optional<core::Plugin> plugin{};    ///< the library it comes from; none: it is built in
 };
 

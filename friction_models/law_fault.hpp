@@ -1,5 +1,5 @@
 #pragma once
-/// A law broke its contract while it was at work: what was computed with it is worth nothing.
+/// A law broke its contract while a motion was computed. The results are not valid.
 
 #include <stdexcept>
 

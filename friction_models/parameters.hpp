@@ -1,6 +1,6 @@
 #pragma once
-/// Parameters of a law, stated once: the scenario reader, the schema, `dualdamp laws`, the range checks and the
-/// documentation all come from this table.
+/// Parameters of a law, stated once in a table. The scenario reader, the schema, `dualdamp laws`, the range checks
+/// and the documentation use this table.
 ///
 ///     {.name = "elements", .kind = ParameterKind::list, .fields = {stiffness, limit}, .meaning = "..."},
 ///     {.name = "count", .kind = ParameterKind::count, .instead_of = "elements", .range = {.low = 1.0}, ...},
@@ -53,7 +53,7 @@ class ParameterValues {
   Map values_;
 };
 
-/// The interval a parameter must lie in; ends are included unless marked open.
+/// The range of values that a parameter may have; ends are included unless marked open.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -88,8 +88,9 @@ struct Parameter {
   std::optional<ParameterValues::Value> fallback{};  ///< default
   std::string_view same_as{};                        ///< default is the value of this earlier parameter
   bool is_optional = false;                          ///< may be absent and then has no value
-  /// Part of the other form of the law, which does without this earlier parameter: refused beside it, and without
-  /// it required unless it has a default. That earlier parameter is required where no part of the other form is.
+  /// A law may have two forms: one with the parameter named here, which is earlier in the table, and one with this
+  /// parameter instead. Beside the earlier one this parameter is refused. Without the earlier one this parameter is
+  /// required, unless it has a default. The earlier one is required where no parameter of this form is given.
   std::string_view instead_of{};
   std::string_view not_beside{};  ///< refused beside this earlier parameter, unless that is 0
   Range range{};
@@ -110,13 +111,13 @@ struct Parameter {
 /// The parameters of the form that does without `name`; empty when there is no other form.
 [[nodiscard]] std::vector<std::string> names_instead_of(const std::vector<Parameter>& table, std::string_view name);
 
-/// One complaint about one parameter; the reader turns it into a located diagnostic.
+/// One fault of one parameter; the reader gives it its place in the file.
 struct ParameterFault {
   std::string name;  ///< with the way to it: "elements[2].limit"
   std::string message;
   std::string allowed;
   std::string found;
-  bool is_missing = false;  ///< it is about a value that is not there
+  bool is_missing = false;  ///< the value is not there
 };
 
 /// Fills in the defaults of `values` and returns every fault: missing, unknown, of the wrong kind, not finite, out

@@ -1,12 +1,12 @@
 #pragma once
 /// Laws from outside the tree: shared libraries that speak the C interface of `dualdamp_law.h`.
 ///
-/// A library is loaded once, checked, and its law joins laws(); from then on it is a law like any other:
-/// parameters, schema, listing, modifiers and conformance suite work on it. It is never unloaded.
+/// A library is loaded once and checked; its law then joins laws() and is treated like any other: parameters,
+/// schema, listing, modifiers and conformance suite apply to it. It is never unloaded.
 ///
 /// Errors. A file that is no such library, or whose table breaks the interface: core::InputError, which says what
 /// is wrong. A law that breaks its contract while a motion is computed (a status other than 0, NaN, a mode it did
-/// not declare, an exception that should not have crossed): LawFault. A crash of the library is one of the program.
+/// not declare, an exception): LawFault. A crash of the library crashes the program.
 
 #include <string>
 

@@ -21,7 +21,8 @@ using Table = dualdamp_law_table;
   throw LawFault("law '" + std::string(table.name) + "' of a plugin: " + what);
 }
 
-/// Calls a function of the library and returns its status. An exception that the interface forbids ends here.
+/// Calls a function of the library and returns its status. The interface forbids exceptions; one becomes a
+/// LawFault.
 template <class Function, class... Arguments>
 int status_of(const Table& table, const char* name, Function function, Arguments... arguments) {
   try {
@@ -49,7 +50,7 @@ struct Destroyer {
     try {
       destroy(law);
     } catch (...) {
-      return;  // nobody is left to be told
+      return;  // there is nobody to report to
     }
   }
 };

@@ -1,7 +1,7 @@
 #pragma once
-/// A law of a plugin at work: the functions of its table behind the law contract. What the interface forbids (an
-/// exception, NaN, a mode that is not declared, a status other than 0) ends as a LawFault that names law and
-/// function.
+/// A law of a plugin: the functions of its table as a law of the contract, with the abilities whose functions the
+/// table has. What the interface forbids (an exception, NaN, a mode that is not declared, a status other than 0)
+/// becomes a LawFault that names the law and the function.
 
 #include <cstddef>
 #include <optional>
@@ -19,14 +19,14 @@ inline constexpr std::size_t max_plugin_text = 1000;
 
 /// What create() answers to values in range.
 struct Created {
-  std::optional<Law> law;  ///< none: it refuses them
+  std::optional<Law> law;  ///< none: it refuses the values
   std::string message;     ///< why, or what it warns of
 };
 
 /// `table`, checked, must outlive the law; `values` complete.
 [[nodiscard]] Created create_law(const dualdamp_law_table& table, const ParameterValues& values);
 
-/// A text of a library, at most `size` characters, made harmless for a terminal.
+/// A text of a library, at most `size` characters, with every character that is not printable ASCII replaced.
 [[nodiscard]] std::string printable(const char* text, std::size_t size);
 
 }  // namespace dualdamp::friction

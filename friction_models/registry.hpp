@@ -11,14 +11,15 @@ namespace dualdamp::friction {
 
 [[nodiscard]] const std::vector<LawEntry>& laws();
 
-/// Adds a law from outside, whose name is new; the parameters of its modifiers join its own. To be called when the
-/// program starts, before anything is read by laws() and while no other thread runs: entries move.
+/// Adds a law from outside, whose name is new; the parameters of its modifiers are added to its own. Entries move
+/// in memory: call it when the program starts, before any other use of laws() and while no other thread runs.
 void add_law(LawEntry entry);
 
 /// nullptr when there is no such law.
 [[nodiscard]] const LawEntry* find_law(std::string_view name);
 
-/// Fills in the defaults of `values` and returns every fault by the law's table; without one, those by its `check`.
+/// Fills in the defaults of `values` and returns every fault that the law's table shows; where it shows none, those
+/// that its `check` finds.
 [[nodiscard]] std::vector<ParameterFault> complete(const LawEntry& law, ParameterValues& values);
 
 }  // namespace dualdamp::friction

@@ -1,5 +1,5 @@
 #pragma once
-/// A massless slider that a spring drags along, the spring stretched to the slider's limit.
+/// A massless slider that slides at its force limit, dragged by a spring.
 
 #include <cmath>
 
@@ -7,18 +7,20 @@
 
 namespace dualdamp::friction {
 
-/// Speed of the slider, positive towards `side` (+1 or -1): its spring is stretched by limit/stiffness, so it lags
-/// behind the mass while its limit grows. It slides as long as that is positive.
+/// Speed of the slider, positive in the direction `side` (+1 or -1) of the force. Its spring is stretched by
+/// limit/stiffness, so the slider is slower than the mass while the force limit grows. It slides as long as its
+/// speed is positive.
 [[nodiscard]] constexpr Affine dragged_speed(const Affine& limit, int side, double stiffness) {
   return {.constant = -limit.rate / stiffness, .velocity = side - limit.position / stiffness};
 }
 
-/// Otherwise the slider stops exactly when the mass does.
+/// The slider stops at a guard of its own; otherwise it stops exactly when the mass does.
 [[nodiscard]] inline bool stops_by_itself(const Affine& limit, double stiffness) {
   return limit.rate != 0.0 || std::abs(limit.position) >= stiffness;
 }
 
-/// A step of the limit downward makes a slider slide whose mass moves back: it then stops at once.
+/// The slider slides against the motion of the mass, after a step of the force limit downward; it then stops at
+/// once.
 [[nodiscard]] constexpr bool is_left_behind(int side, Direction direction) { return sign(direction) == -side; }
 
 }  // namespace dualdamp::friction

@@ -1,5 +1,6 @@
 #pragma once
-/// What smooth laws share: formulas that stay finite and smooth a little beyond the phase they are frozen for.
+/// What smooth laws share: formulas that stay finite and smooth a little beyond the interval for which the
+/// direction of slip is frozen.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ namespace dualdamp::friction {
 /// r/(1 + r) for r >= 0. Below zero the same formula, ended by its tangent at -1/2 before the pole at -1.
 [[nodiscard]] inline double saturated(double r) { return r > -0.5 ? r / (1.0 + r) : 4.0 * r + 1.0; }
 
-/// A force level to divide by: modifiers may take it to zero, where the rate must stay a number.
+/// A force level to divide by. Modifiers may take the level to zero; the quotient must stay a number there.
 [[nodiscard]] inline double divisor(double level, double nominal) { return std::max(level, 1e-9 * nominal); }
 
 }  // namespace dualdamp::friction

@@ -4,9 +4,9 @@
 ///   level(u) = kinetic + (static - kinetic) h(u/stribeck_velocity)     [N]
 ///   h(r) = exp(-r^exponent)  gaussian      exp(-r)  exponential      1/(1 + r^2)  lorentz
 ///
-/// Speeds of slip are u = sign(direction) v: >= 0 while the direction holds. For u < 0 the formula goes on as an
-/// analytic one, so that a step may overrun the reversal that ends its phase. An exponent below 1 gives an infinite
-/// slope at rest, which the integrator pays for with small steps.
+/// The speed of slip is u = sign(direction) v, which is >= 0 throughout an interval. For u < 0 the formula is
+/// continued analytically, so that a step may go beyond the reversal that ends its interval. An exponent below 1
+/// gives an infinite slope at v = 0, which costs the integrator small steps.
 ///
 /// Source: armstrong1994, bo1982 in `docs/refs.bib`. Shared by all laws with such a level.
 

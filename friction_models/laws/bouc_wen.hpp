@@ -1,15 +1,16 @@
 #pragma once
-/// Bouc and Wen's hysteretic spring: a share alpha of it stays elastic, the rest yields at a limit.
+/// Bouc and Wen's hysteretic spring: a share alpha of its stiffness stays elastic, the rest yields at a force
+/// limit.
 ///
 ///   F  = stiffness (alpha x + (1 - alpha) z)       [N]
 ///   z' = v (1 - |z/z0|^exponent (b sgn(v z) + 1 - b)),   z0 = limit/stiffness
 ///
-/// alpha is `ratio`, b `beta_share`: beta/(beta + gamma) in the usual letters, with A = 1. b = 1/2: unloading is
-/// elastic. A large exponent gives contact_compliance; exponent 1 with b = 1 dahl. b >= 1/2 is passive, below 1/2
-/// unloading gives out work (erlicher2004). A loop does not close where it began: after unloading and reloading the
-/// force is lower at the same place (no return-point memory), unlike `iwan`.
+/// alpha is `ratio`, b is `beta_share`: beta/(beta + gamma) in the usual letters, with A = 1. With b = 1/2
+/// unloading is elastic. A large exponent gives contact_compliance; exponent 1 with b = 1 gives dahl. The law is
+/// passive for b >= 1/2; below 1/2 unloading gives out work (erlicher2004). A loop of unloading and reloading does
+/// not close: the force is lower when the mass is back at the same place (no return-point memory, unlike `iwan`).
 ///
-/// The mode is the side of z, so that |z| is analytic; 0: nothing has moved yet.
+/// The mode is the sign of z, so that |z| is analytic; 0: the mass has not moved yet.
 ///
 /// Source: bouc1967, wen1976, erlicher2004 in `docs/refs.bib`. Smooth engine. Cost: a power a call, an event a
 /// stroke.
@@ -43,11 +44,11 @@ class BoucWen {
   }
   void jump(Memory& memory, Trigger trigger, const Instant&, Direction direction) const;
   void scales(const Memory&, std::span<double> scales) const { scales[0] = limit_ / stiffness_; }
-  /// F v less what both springs store.
+  /// F v minus the power that both springs store.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:
-  enum : int { unmoved = 0 };  ///< else the side, +1 or -1
+  enum : int { unmoved = 0 };  ///< else the sign of z
 
   double limit_;
   double stiffness_;

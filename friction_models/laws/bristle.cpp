@@ -69,8 +69,8 @@ void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Directio
   std::vector<double>& places = memory.state;
   if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(places, now.x);
   if (trigger.cause < 0) return;
-  // All of this side that are beyond the limit snap together: many after it fell, and those that stand in one
-  // place.
+  // All bristles at this end that are beyond the limit snap together: those in one place, and those that a fall of
+  // the limit has put beyond it.
   const double limit = same_place * now.force_limit_now(snap_distance_);
   const bool rear = trigger.cause == 0;
   do {

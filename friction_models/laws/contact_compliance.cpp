@@ -49,16 +49,16 @@ ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory
   return {settled, rate, memory.state[0] - settled, stiffness_ / damping_};
 }
 
-/// A damped slider, and one under a varying limit, stop at a guard of their own.
+/// A damped slider, and a slider under a force limit that varies, stop at a guard of their own.
 bool ContactCompliance::slider_stops_by_itself(const Instant& now) const {
   return is_damped() || stops_by_itself(now.force_limit(kinetic_), stiffness_);
 }
 
-/// Of a slider that slips, taken positive towards its side.
+/// Speed of a slider that slips, positive in the direction of the force.
 Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now) const {
   if (!is_damped()) return dragged_speed(now.force_limit(kinetic_), memory.mode, stiffness_);
   const Relaxation u = relaxation(memory, now);
-  // Stretch is a difference of positions: a fast spring turns its rounding into speed.
+  // The stretch is a difference of positions. A large decay multiplies its rounding error.
   const double rounded = u.decay * (std::abs(now.x) + std::abs(memory.state[0]) + std::abs(u.settled));
   return memory.mode * Affine{.constant = -u.rate,
                               .velocity = 1.0,
@@ -71,7 +71,7 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
                                       std::vector<Affine>& guards) const {
   if (std::abs(memory.mode) != slipping) {
     Affine force = affine_force(memory, now, direction);
-    // Minus a limit of nearly its own slope over position little of it is left, but all of its rounding.
+    // The difference from a force limit of nearly the same slope over position is small; its rounding error is not.
     force.cancelled = std::abs(force.constant);
     guards.push_back(break_away(memory, now, 1) - force);
     guards.push_back(break_away(memory, now, -1) + force);
@@ -106,7 +106,8 @@ void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now
       }
       return;
     case Trigger::limit_change:
-      // A damped spring follows its new limit without a halt; one that had no limit begins anew.
+      // A damped spring relaxes to its new force limit without a halt. Where there was no force limit the contact
+      // starts unstretched.
       if (now.force_limit_now(static_) == 0.0) {
         memory = start(now);
       } else if (slips && !is_damped()) {

@@ -1,18 +1,19 @@
 #pragma once
-/// Contact compliance: a massless slider with Coulomb friction behind a contact spring, and a damper beside the
-/// spring (Jenkins, Prandtl; elastic-perfectly-plastic). The slider stands at a, the spring is stretched by u.
+/// Contact compliance: a massless slider with Coulomb friction in series with a contact spring, and a damper in
+/// parallel with the spring (Jenkins, Prandtl; elastic-perfectly-plastic). The slider is at a, the stretch of the
+/// spring is u.
 ///
 ///   stuck      u = x - a, a held        f = contact_stiffness u + contact_damping v,   |f| < static      [N]
-///   slipping   f = +-kinetic, side s
+///   slipping   f = s kinetic, s = +-1
 ///     without damping   u = s kinetic/contact_stiffness; ends when v = 0
 ///     with damping      u' = (s kinetic - contact_stiffness u)/contact_damping; ends when the slider's speed
 ///                       v - u' is 0, not when v is
 ///
-/// With static > kinetic the slider jumps at break-away: the force falls to kinetic, x and v stay. The spring
-/// starts unstretched. Limits that grow or fall end a slip where the slider stops, which is then not where the mass
-/// does; a step of the limits upward halts a sliding spring, which breaks away again at the kinetic limit, for no
-/// time passed in which static friction could build up. Holds for contacts whose asperities deform elastically
-/// before sliding.
+/// With static > kinetic the slider jumps at break-away: the force falls to kinetic, x and v do not change. The
+/// spring starts unstretched. Under force limits that vary with time or position the slip ends when the slider
+/// stops, which is not the instant at which the mass stops. A step of the force limits upward halts a slider that
+/// slides; it breaks away again at the kinetic limit, because no time has passed in which static friction could
+/// build up. Holds for contacts whose asperities deform elastically before sliding.
 ///
 /// Source: liang2004identifying, jenkins1962 in `docs/refs.bib`. Exact engine; with damping not under
 /// limits that vary with position. Cost: two events a stroke.
@@ -43,9 +44,11 @@ class ContactCompliance {
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration, Direction) const;
 
  private:
-  /// Modes; slipping and halted times the side, +1 or -1. State: stuck and halted a; slipping u if damped, or none.
+  /// Modes; slipping and halted are multiplied by the direction of the force, +1 or -1. State: a when stuck or
+  /// halted; u when slipping with damping; none when slipping without.
   enum : int { stuck = 0, slipping = 1, halted = 2 };
-  /// The stretched spring of a damped contact that slips: settled + rate s + relaxing exp(-decay s).
+  /// The stretch of the spring of a damped contact that slips, as a function of time s since the interval began:
+  /// settled + rate s + relaxing exp(-decay s).
   struct Relaxation {
     double settled = 0.0;
     double rate = 0.0;

@@ -22,7 +22,7 @@ const std::vector<Parameter>& Coulomb::parameters() {
 LawEntry coulomb_entry() {
   return {.name = "coulomb",
           .summary = "constant force against the motion, static limit at rest",
-          .equation = "slip: F = kinetic sgn v;  rest: F = pull while |pull| <= static",
+          .equation = "slip: F = kinetic sgn v;  stick: F = pull while |pull| <= static",
           .sources = "coulomb1785, denhartog1931",
           .modifiers = all_modifiers(),
           .parameters = Coulomb::parameters(),

@@ -1,11 +1,12 @@
 #pragma once
-/// Coulomb friction, with a static limit that may exceed the kinetic level.
+/// Coulomb friction, with a static force limit that may exceed the kinetic level.
 ///
 ///   slip   F = kinetic sgn v                       [N]
-///   rest   F = pull while |pull| <= static         [N]
+///   stick  F = pull while |pull| <= static         [N]
 ///
-/// Viscous friction is the oscillator's damper. Holds for dry contact at speeds where the level does not depend on
-/// speed. Source: coulomb1785, denhartog1931 in `docs/refs.bib`. Exact engine. Cost: none beyond the driver's.
+/// The viscous part of friction is not in this law: it is the damper of the oscillator. Holds for dry contact at
+/// speeds where the level does not depend on speed. Source: coulomb1785, denhartog1931 in `docs/refs.bib`. Exact
+/// engine. Cost: none beyond the driver's.
 
 #include <vector>
 

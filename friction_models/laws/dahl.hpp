@@ -1,12 +1,13 @@
 #pragma once
-/// Dahl: bristles of mean deflection z that give way as friction nears its kinetic level. The force depends on the
-/// path, not on the speed.
+/// Dahl: bristles of mean deflection z that yield as the force approaches the kinetic level. The force depends on
+/// the path, not on the speed.
 ///
 ///   F = sigma0 z,   z' = v |1 - sigma0 z sgn v/kinetic|^exponent sgn(1 - sigma0 z sgn v/kinetic)     [N]
 ///
-/// exponent 1 between displacements +-A, a = sigma0 A/kinetic: peak force kinetic tanh a, work a cycle 4 kinetic A
-/// (1 - tanh(a)/a). sigma0 -> infinity is coulomb. Its force tends to the kinetic level and never passes it: no
-/// break-away, no level that falls with speed. Holds for rolling bearings and contacts before gross sliding.
+/// With exponent 1, between displacements +-A and with a = sigma0 A/kinetic: peak force kinetic tanh a, work of a
+/// loop 4 kinetic A (1 - tanh(a)/a). For sigma0 -> infinity the law becomes coulomb. The force tends to the kinetic
+/// level and never exceeds it: there is no break-away and no level that falls with speed. Holds for rolling
+/// bearings and for contacts before gross sliding.
 ///
 /// Exponents below 1 (0: elastic-perfectly-plastic, which is contact_compliance) reach the kinetic level within a
 /// finite distance with an infinite curvature and are refused.
@@ -34,7 +35,7 @@ class Dahl {
   }
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const;
   void scales(const Memory&, std::span<double> scales) const { scales[0] = kinetic_ / sigma0_; }
-  /// F v less what the bristles store, sigma0 z z'.
+  /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

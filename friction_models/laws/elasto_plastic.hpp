@@ -1,6 +1,6 @@
 #pragma once
-/// Elasto-plastic bristles: LuGre with a range of deflections in which they do not give way, so that a load that
-/// stays within it moves the mass and brings it back.
+/// Elasto-plastic bristles: LuGre with an elastic range of deflections. After a load that stays within this range
+/// the mass returns to its place.
 ///
 ///   z' = v (1 - alpha sigma0 sgn(v) z/g(v))
 ///   F  = sigma0 z + sigma1 z' + sigma2 v           [N], g as in `lugre`
@@ -8,12 +8,12 @@
 ///           (1 + sin(pi (|z| - (z_m + z_ba)/2)/(z_m - z_ba)))/2              z_ba < |z| < z_m = g(v)/sigma0
 ///           1                                                               |z| >= z_m
 ///
-/// z_ba is `elastic_limit`, below kinetic/sigma0. No drift under loads below sigma0 z_ba, where LuGre creeps.
-/// sigma0 z_ba is a force limit, which modifiers change with the others. As lugre it gives out work where sigma2 <
-/// sigma1 (static - kinetic)/kinetic.
+/// z_ba is `elastic_limit`, below kinetic/sigma0. Under loads below sigma0 z_ba the mass does not drift, as it does
+/// under LuGre. sigma0 z_ba is a force limit, which modifiers change with the others. As lugre the law may give out
+/// work where sigma2 < sigma1 (static - kinetic)/kinetic.
 ///
-/// Modes: elastic, alpha = 0; and yielding, sgn(v) z > z_ba. At z_m alpha has a continuous slope and no event: z
-/// comes near it without end in a long slip.
+/// Modes: elastic, alpha = 0; and yielding, sgn(v) z > z_ba. z_m is no event: the slope of alpha is continuous
+/// there, and in a long slip z approaches z_m asymptotically.
 ///
 /// Source: dupont2002 in `docs/refs.bib`. Smooth engine. Cost: an exponential and a sine a call.
 
@@ -30,7 +30,7 @@ namespace dualdamp::friction {
 class ElastoPlastic {
  public:
   static const std::vector<Parameter>& parameters();
-  /// An elastic limit beyond kinetic/sigma0.
+  /// The fault of an elastic limit that is not below kinetic/sigma0.
   static std::vector<ParameterFault> check(const ParameterValues& values);
 
   /// elastic_limit: m, > 0 and < kinetic/sigma0.
@@ -47,7 +47,7 @@ class ElastoPlastic {
     memory.mode = trigger.cause >= 0 && memory.mode == elastic ? yielding : elastic;
   }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
-  /// F v less what the bristles store, sigma0 z z'.
+  /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

@@ -53,7 +53,7 @@ LawEntry friction_lag_entry() {
   return {.name = "friction_lag",
           .summary = "force against the motion at a level that follows the speed late",
           .equation =
-              "slip: F = level sgn v;  rest: F = pull while |pull| <= level, level = g(|w|), w' = (v - w)/lag, or "
+              "slip: F = level sgn v;  stick: F = pull while |pull| <= level, level = g(|w|), w' = (v - w)/lag, or "
               "with delay g(|v(t - lag)|), g as the level of stribeck",
           .engine = EngineKind::smooth,
           .states = "late velocity w; with delay the velocities of the last lag",

@@ -1,15 +1,15 @@
 #pragma once
-/// Friction with memory: Coulomb's law at a level that follows the speed late.
+/// Friction with memory: Coulomb's law with a level that depends on an earlier speed.
 ///
 ///   slip   F = level sgn v                         [N]
-///   rest   F = pull while |pull| <= level          [N]
+///   stick  F = pull while |pull| <= level          [N]
 ///
-///   FrictionLag        level = level(|w|),  w' = (v - w)/lag at rest too, w = v at first
-///   DelayedFriction    level = level(|v(t - lag)|), at rest too; before the start the velocity is the initial one
+///   FrictionLag        level = level(|w|),  w' = (v - w)/lag, also while sticking; w = v at the start
+///   DelayedFriction    level = level(|v(t - lag)|), also while sticking; v before the start: the initial one
 ///
-/// level(u): the Stribeck curve of `stribeck_curve.hpp`; without lag this is `stribeck`. As the level falls with
-/// speed, friction is higher while the mass accelerates than while it decelerates, and after a stop the static
-/// limit is regained in a time of about `lag`.
+/// level(u): the Stribeck curve of `stribeck_curve.hpp`; without lag the law is `stribeck`. Since the level falls
+/// with speed, friction is higher while the mass accelerates than while it decelerates. After a stop the static
+/// limit comes back within a time of about `lag`.
 ///
 /// Source: rice1983 (a state that relaxes), hess1990 (the delay, measured) in `docs/refs.bib`. Smooth engine. Cost:
 /// one exponential a call, one look into the past for the delay.
@@ -40,7 +40,7 @@ class FrictionLag {
   }
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const { return level(memory, now); }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.velocity(); }
-  /// |w|: the level has a kink where w changes its sign, some time after v does.
+  /// |w|: the level has a kink where w changes its sign, which happens some time after v changes its sign.
   void guards(const Memory& memory, const Instant&, Direction, std::vector<double>& values) const {
     if (memory.mode != 0) values.push_back(memory.mode * memory.state[0]);
   }

@@ -1,18 +1,19 @@
 #pragma once
-/// Generalized Maxwell slip: elements in parallel, each a spring k_i that sticks until its force reaches its share
-/// of a level that falls with speed, and then follows that level with a delay.
+/// Generalized Maxwell slip: elements in parallel. Each is a spring k_i that sticks until its force reaches its
+/// share of a level that falls with speed; its force then approaches that level gradually.
 ///
 ///   F = sum F_i                                                                    [N]
 ///   stuck      F_i' = k_i v                     until sgn(v) F_i = share_i s(v)
 ///   slipping   F_i' = attraction (share_i sgn v - F_i/s(v))      until v = 0
 ///   s(v) = kinetic + (static - kinetic) exp(-(v/stribeck_velocity)^2)              [N]
 ///
-/// Shares add to 1, so a steady slip has F = s(v) sgn v. The attraction [N/s] sets how fast the force of a slipping
-/// element follows the level: at a rate of attraction/s. Only loading starts a slip: an element that still pushes
-/// with the motion is let down stuck, however low the level at that speed. With static = kinetic it is `iwan`.
+/// The shares add to 1, so a steady slip has F = s(v) sgn v. The attraction [N/s] sets how fast the force of a
+/// slipping element approaches its level: at the rate attraction/s(v) [1/s]. Only loading starts a slip: an element
+/// whose force still acts with the motion stays stuck until it is unloaded, however low the level at that speed.
+/// With static = kinetic the law is `iwan`.
 ///
-/// With static above kinetic it may give out work: an element that slips near rest gains force without a motion to
-/// pay for it.
+/// With static above kinetic the law may give out work: the force of an element that slips at low speed grows
+/// although the mass hardly moves.
 ///
 /// Source: lampaert2003, albender2005 in `docs/refs.bib`. Smooth engine. Cost: an event for each element and
 /// stroke; a state for each element.
@@ -35,7 +36,7 @@ class GeneralizedMaxwellSlip {
   };
 
   static const std::vector<Parameter>& parameters();
-  /// Shares that do not add to 1.
+  /// The fault of shares that do not add to 1.
   static std::vector<ParameterFault> check(const ParameterValues& values);
   /// That these values are not passive.
   static std::vector<std::string> warnings(const ParameterValues& values);
@@ -51,7 +52,7 @@ class GeneralizedMaxwellSlip {
   void guards(const Memory& memory, const Instant& now, Direction direction, std::vector<double>& values) const;
   void jump(Memory& memory, Trigger trigger, const Instant&, Direction) const;
   void scales(const Memory&, std::span<double> scales) const;
-  /// F v less what the springs store.
+  /// F v minus the power that the springs store.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

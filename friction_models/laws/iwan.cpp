@@ -12,18 +12,19 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// Slip distances this close, relative, are one: rounding of f/k must not tell elements apart.
+/// Slip distances that differ by less than this, relative, count as equal: they may differ by the rounding of f/k.
 constexpr double equal = 1e-12;
 
-/// The stack of segments in a Memory. Mode: the direction in which elements slide, 0 when none does. Indices: from
-/// the bottom up, two for each segment. State: the turning point of each. All below the top's first element slide.
+/// The stack of segments in a Memory. Mode: the direction in which elements slide, 0 when none does. Indices: two
+/// for each segment, from the bottom up. State: the reversal point of each segment. All elements before the first
+/// one of the top segment slide.
 class Segments {
  public:
   struct Segment {
-    int first = 0;  ///< its elements: from here to where the one below it begins
-    int end = 0;
-    int direction = 0;  ///< in which they slid before they stuck; 0: they never did
-    double turn = 0.0;  ///< x there [m]
+    int first = 0;          ///< of its elements
+    int end = 0;            ///< one behind its last element
+    int direction = 0;      ///< in which they slid before they stuck; 0: they have not slid yet
+    double reversal = 0.0;  ///< x at which they stuck [m]
   };
 
   Segments(const Memory& memory, int elements) : memory_(memory), elements_(elements) {}
@@ -43,10 +44,10 @@ class Segments {
   int elements_;
 };
 
-void push(Memory& memory, int first, int direction, double turn) {
+void push(Memory& memory, int first, int direction, double reversal) {
   memory.indices.push_back(first);
   memory.indices.push_back(direction);
-  memory.state.push_back(turn);
+  memory.state.push_back(reversal);
 }
 
 void pop(Memory& memory) {
@@ -140,25 +141,25 @@ Affine Iwan::affine_force(const Memory& memory, const Instant&, Direction) const
   Affine force{.constant = memory.mode * limit_below_[sliding],
                .position = stiffness_below_.back() - stiffness_below_[sliding]};
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const auto [first, end, direction, turn] = segments[i];
+    const auto [first, end, direction, reversal] = segments[i];
     const auto from = static_cast<std::size_t>(first);
     const auto to = static_cast<std::size_t>(end);
-    // k (x - a) with a = turn - direction d, summed.
+    // The sum of k (x - a), a = reversal - direction d.
     force.constant += direction * (limit_below_[to] - limit_below_[from]) -
-                      (stiffness_below_[to] - stiffness_below_[from]) * turn;
+                      (stiffness_below_[to] - stiffness_below_[from]) * reversal;
   }
   return force;
 }
 
-/// Only the stuck element of the smallest slip distance can be next.
+/// The next element to slide is the stuck one of the smallest slip distance.
 void Iwan::affine_guards(const Memory& memory, const Instant&, Direction direction,
                          std::vector<Affine>& guards) const {
   const Segments segments(memory, count());
   if (direction == Direction::none || segments.empty()) return;
   const Segments::Segment top = segments.top();
-  const double side = sign(direction);
+  const double s = sign(direction);
   const double distance = slip_distance_[static_cast<std::size_t>(top.first)];
-  guards.push_back({.constant = (1.0 - side * top.direction) * distance + side * top.turn, .position = -side});
+  guards.push_back({.constant = (1.0 - s * top.direction) * distance + s * top.reversal, .position = -s});
 }
 
 void Iwan::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
@@ -167,7 +168,7 @@ void Iwan::jump(Memory& memory, Trigger trigger, const Instant& now, Direction d
   if (trigger.cause < 0) return;
   const Segments::Segment top = Segments(memory, count()).top();
   memory.mode = static_cast<int>(direction);
-  // Back at a turning point on this side: the loop closes, and its elements slide on together.
+  // Back at a reversal point of this direction: the loop closes, and its elements slide together.
   if (top.direction == memory.mode || top.first + 1 == top.end) {
     pop(memory);
   } else {

@@ -4,17 +4,20 @@
 ///
 ///   F = sum over stuck elements of k_i (x - a_i) + s sum over sliding elements of f_i     [N]
 ///
-/// s is the direction of motion, a_i where slider i stands. While the mass moves on one way the elements slide one
-/// after the other in the order of their slip distances d_i = f_i/k_i; when it turns all stick, with a_i = x_r - s
-/// d_i after sliding in direction s up to x_r. So the places of all sliders are known from the turning points that
-/// are still remembered, each for the elements from one slip distance to another: a stack of segments, the most
-/// recent turn on top with the smallest distances. This is Masing's rule and return-point memory at work: moving in
-/// direction s from a turn after sliding to the other side an element slides again at a distance of 2 d_i, and when
-/// the mass comes back to an earlier turning point on its own side the loop closes and the whole segment slides at
-/// once.
+/// s is the direction of slip, a_i the position of slider i. While the mass moves in one direction the elements
+/// start to slide one after the other, in the order of their slip distances d_i = f_i/k_i. When the mass reverses
+/// at x_r, all elements stick; those that slid in direction s then have a_i = x_r - s d_i. So the positions of all
+/// sliders follow from the reversal points that are still remembered. They are kept as a stack of segments: a
+/// segment is a range of elements that stuck at the same reversal, and the latest reversal, with the smallest slip
+/// distances, is on top.
 ///
-/// The springs start unstretched. Source: iwan1966, masing1926 in `docs/refs.bib`. Exact engine. Cost: an event for
-/// each element and stroke; an event costs no more with more elements, only with more loops open at the time.
+/// This gives Masing's rule and return-point memory. After a reversal an element that slid before slides again, in
+/// the other direction, at a distance of 2 d_i. When the mass returns to an earlier reversal point of the same
+/// direction, the loop closes and all elements of that segment slide together.
+///
+/// The springs start unstretched. Source: iwan1966, masing1926 in `docs/refs.bib`. Exact engine. Cost: one event
+/// for each element and stroke; the cost of an event grows with the number of open loops, not with that of
+/// elements.
 
 #include <vector>
 

@@ -1,18 +1,18 @@
 #pragma once
-/// LuGre: bristles of mean deflection z between the surfaces, which give way at a level that falls with speed.
+/// LuGre: bristles of mean deflection z between the surfaces, which yield at a level that falls with speed.
 ///
 ///   z' = v - sigma0 |v| z/g(v)
 ///   F  = sigma0 z + sigma1 z' + sigma2 v           [N]
 ///   g(v) = kinetic + (static - kinetic) exp(-(v/stribeck_velocity)^2)     [N]
 ///
-/// g is a force here; the paper of 1995 prints sigma0 g in its place. At constant speed z = g sgn v/sigma0 and F =
-/// g sgn v + sigma2 v. A contact that moves little is a spring sigma0 with a damper sigma1 + sigma2; it never holds
-/// the mass.
+/// Here g is a force; the paper of 1995 writes sigma0 g for it. At constant speed z = g sgn v/sigma0 and F = g sgn
+/// v + sigma2 v. For small displacements the contact is a spring sigma0 with a damper sigma1 + sigma2; the mass
+/// never sticks.
 ///
-/// Two known faults of the model. Under a load that oscillates below break-away about a mean z creeps on, so the
-/// mass drifts (dupont2002; `elasto_plastic` does not). And it gives out work where sigma2 < sigma1 (static -
-/// kinetic)/kinetic: a spring loaded slowly beyond the kinetic level is let go in a fast stroke, where sigma1 z'
-/// pushes (barabanov2000: the condition is necessary and sufficient).
+/// The model has two known faults. Under a load that oscillates below break-away about a mean value the mass drifts
+/// (dupont2002; under `elasto_plastic` it does not). And the law may give out more work than it took in, if and
+/// only if sigma2 < sigma1 (static - kinetic)/kinetic (barabanov2000): bristles that were loaded slowly beyond the
+/// kinetic level and are released in a fast stroke push the mass by sigma1 z'.
 ///
 /// Source: canudas1995, barabanov2000, dupont2002 in `docs/refs.bib`. Smooth engine; z is fast, at a rate of sigma0
 /// |v|/g. Cost: one exponential a call.
@@ -49,7 +49,7 @@ class Lugre {
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const;
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
-  /// F v less what the bristles store, sigma0 z z'.
+  /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

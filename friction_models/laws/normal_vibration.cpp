@@ -78,7 +78,7 @@ LawEntry normal_vibration_entry() {
       .summary = "Coulomb friction under a normal load that vibrates, lifted by slip",
       .equation =
           "F = mu N sgn v, N = weight (1 - y/h0)^2 while y < h0;  normal_mass y'' + d y' = N - weight + lift "
-          "|v|/(1 + |v|/lift_velocity);  rest: F = pull while |pull| <= mu_static N",
+          "|v|/(1 + |v|/lift_velocity);  stick: F = pull while |pull| <= mu_static N",
       .engine = EngineKind::smooth,
       .states = "separation y and its rate, and whether the contact is open",
       .sources = "tolstoi1967, oden1985",

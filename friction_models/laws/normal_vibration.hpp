@@ -1,14 +1,14 @@
 #pragma once
 /// Coulomb friction under a normal load that vibrates: a rider on a nonlinear contact spring, lifted by slip.
 ///
-///   N = weight (1 - y/h0)^2 while y < h0, else 0   [N]   y: separation above the one at rest, h0 = static_approach
+///   N = weight (1 - y/h0)^2 while y < h0, else 0   [N]   y: separation beyond the static one, h0 = static_approach
 ///   normal_mass y'' + d y' = N - weight + lift |v|/(1 + |v|/lift_velocity)
 ///   slip   F = mu N sgn v                          [N]
-///   rest   F = pull while |pull| <= mu_static N    [N]
+///   stick  F = pull while |pull| <= mu_static N    [N]
 ///
 /// d = 2 normal_damping_ratio sqrt(k normal_mass), k = 2 weight/h0 the stiffness of small vibrations. The contact
-/// may open; it then has no friction. At constant speed N = weight - lift: a level that falls with speed, late by a
-/// period of the contact. Without lift it is coulomb exactly.
+/// may open; it then has no friction. At constant speed N = weight - lift: the level falls with speed, with a lag
+/// of about one period of the contact. Without lift the law is exactly coulomb.
 ///
 /// A reduction of our own: the contact spring of exponent 2 and the free normal motion are those of oden1985, that
 /// slip lifts the rider is the finding of tolstoi1967. Tangential bristles are left out

@@ -1,18 +1,20 @@
 #pragma once
-/// Rate and state: friction that answers a change of speed at once and, over a distance of slip, the other way.
+/// Rate and state: when the speed grows, friction grows at once, and then falls over a distance of slip.
 ///
 ///   F = a N asinh(v/(2 V0) exp((mu0 + b psi)/a))   [N]
-///   psi' = (V0/Dc) (exp(-psi) - |v|/V0)            aging: contacts grow with time, at rest too
-///   psi' = -(|v|/Dc) (ln(|v|/V0) + psi)            slip: they change with slip only
+///   psi' = (V0/Dc) (exp(-psi) - |v|/V0)            aging: contacts grow with time, also at v = 0
+///   psi' = -(|v|/Dc) (ln(|v|/V0) + psi)            slip: contacts change with slip only
 ///
 /// N = normal_force, Dc = slip_distance, V0 = reference_velocity; psi = ln(V0 theta/Dc) for the state theta of the
-/// papers, 0 at first: steady sliding at V0. asinh makes the logarithm odd and finite at v = 0; for v >> V0
-/// exp(-mu0/a), F = N (mu0 + a ln(v/V0) + b psi). Steady sliding, psi = -ln(|v|/V0): F = N (mu0 + (a - b)
-/// ln(v/V0)). With b > a friction falls with speed in the end, and slip driven at V through a spring becomes
-/// stick-slip below the stiffness N (b - a)/Dc (1 + m V^2/(N a Dc)), where a mass at rest creeps instead.
+/// papers. It starts at 0, that is with steady sliding at V0. asinh makes the logarithm odd and finite at v = 0;
+/// for v
+/// >> V0 exp(-mu0/a), F = N (mu0 + a ln(v/V0) + b psi). In steady sliding psi = -ln(|v|/V0) and F = N (mu0 + (a -
+/// b) ln(v/V0)). With b > a steady friction falls with speed: slip driven at V through a spring then becomes
+/// stick-slip below the stiffness N (b - a)/Dc (1 + m V^2/(N a Dc)).
 ///
-/// It never holds the mass: at rest it is a dashpot of a N/(2 V0) exp((mu0 + b psi)/a), which for a << mu0 is
-/// beyond all bounds. Measured for |v| far from 0; a motion that turns sees the regularisation.
+/// The mass never sticks, it creeps: near v = 0 the law is a dashpot of a N/(2 V0) exp((mu0 + b psi)/a), which for
+/// a << mu0 is extremely large. The logarithm is measured for |v| far from 0; a motion that reverses depends on the
+/// regularisation by asinh.
 ///
 /// Source: dieterich1979 (aging), ruina1983 (slip), rice1983 (stability), rice2001 (asinh) in `docs/refs.bib`.
 /// Smooth engine, implicit steps. Cost: an exponential, a logarithm and a root a call.

@@ -39,7 +39,7 @@ void ResetIntegrator::affine_guards(const Memory& memory, const Instant& now, Di
                                     std::vector<Affine>& guards) const {
   const Affine limit = now.force_limit(kinetic_);
   if (memory.mode == 0) {
-    // Minus a limit of nearly its own slope over position little of it is left, but all of its rounding.
+    // The difference from a force limit of nearly the same slope over position is small; its rounding error is not.
     const double held = stiffness_ * memory.state[0];
     const Affine stretched{.constant = -held, .position = stiffness_, .cancelled = std::abs(held)};
     guards.push_back(limit - stretched);
@@ -58,7 +58,7 @@ void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, 
   const bool slips = memory.mode != 0;
   switch (trigger.cause) {
     case Trigger::direction_change:
-      // Under a varying limit the bond's end stops at a guard of its own.
+      // Under a force limit that varies the end of the bond stops at a guard of its own.
       if (slips && sign(direction) != memory.mode && !stops_by_itself(now.force_limit(kinetic_), stiffness_))
         hold(memory, now);
       return;

@@ -3,11 +3,11 @@
 /// along.
 ///
 ///   stick   z' = v, |z| < z0            F = (1 + static_gain) stiffness z + damping v     [N]
-///   slip    z = s z0, side s            F = s stiffness z0 = s kinetic
+///   slip    z = s z0, s = +-1           F = s stiffness z0 = s kinetic
 ///
 /// with z0 = kinetic/stiffness. The force falls by static_gain kinetic at break-away and rises by as much when the
-/// mass reverses and the bond holds again. The bond starts unstretched. A numerical stand-in for stick-slip that
-/// needs no rest of the mass; its bond stiffness is a modelling choice.
+/// mass reverses and the bond holds again. The bond starts unstretched. The law is a numerical substitute for
+/// stick-slip in which the mass never sticks; the stiffness of the bond is a modelling choice.
 ///
 /// Source: haessig1991 in `docs/refs.bib`. Exact engine. Cost: two events a stroke.
 
@@ -32,7 +32,8 @@ class ResetIntegrator {
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
 
  private:
-  // Mode: 0 in stick, with the place x - z of the bond's other end as state; the side while slipping, no state.
+  // Mode 0: stick; state: the position x - z of the other end of the bond. Mode +1 or -1: slip in that direction;
+  // no state.
   void hold(Memory& memory, const Instant& now) const;
 
   double kinetic_;

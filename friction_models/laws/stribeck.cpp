@@ -23,7 +23,7 @@ LawEntry stribeck_entry() {
           .summary = "force against the motion that falls with speed, static limit at rest",
           .equation =
               "slip: F = level(|v|) sgn v, level(u) = kinetic + (static - kinetic) h(u/stribeck_velocity);  "
-              "rest: F = pull while |pull| <= static",
+              "stick: F = pull while |pull| <= static",
           .engine = EngineKind::smooth,
           .sources = "stribeck1902, armstrong1994, bo1982",
           .modifiers = all_modifiers(),

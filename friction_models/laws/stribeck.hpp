@@ -2,12 +2,13 @@
 /// Friction whose level falls with speed: Coulomb's law with a Stribeck curve for its level.
 ///
 ///   slip   F = level(|v|) sgn v                    [N]
-///   rest   F = pull while |pull| <= static         [N]
+///   stick  F = pull while |pull| <= static         [N]
 ///
-/// `level`: see `stribeck_curve.hpp`. stribeck_velocity -> 0 is coulomb with static above kinetic. Near rest the
-/// slope of the curve is a negative damping, up to -(static - kinetic) sqrt(2/e)/stribeck_velocity for
-/// exp(-(v/vs)^2): where it exceeds that of the oscillator, smooth slip gives way to stick-slip. Holds for
-/// lubricated contacts at speeds that change slowly: the level follows the speed at once.
+/// `level`: see `stribeck_curve.hpp`. For stribeck_velocity -> 0 the law becomes coulomb with static above kinetic.
+/// At low speed the slope of the curve acts as a negative damping, down to -(static - kinetic)
+/// sqrt(2/e)/stribeck_velocity for exp(-(v/vs)^2). Where its modulus exceeds the damping of the oscillator, steady
+/// slip is unstable and stick-slip follows. The level depends on the present speed only; so the law holds for
+/// lubricated contacts at speeds that change slowly.
 ///
 /// Source: stribeck1902, armstrong1994 in `docs/refs.bib`. Smooth engine. Cost: one exponential a call.
 

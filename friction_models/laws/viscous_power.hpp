@@ -1,11 +1,11 @@
 #pragma once
-/// Viscous friction that goes with a power of speed.
+/// Viscous friction in proportion to a power of the speed.
 ///
 ///   F = coefficient (|v|/reference_velocity)^exponent sgn v            [N]
 ///
-/// 1 is a dashpot, 2 the drag of a fluid at high Reynolds numbers, below 1 a film that thins under shear; towards 0
-/// it becomes Coulomb friction. An exponent below 1 gives an infinite slope at rest, which the integrator pays for
-/// with small steps. It never holds the mass.
+/// Exponent 1: a dashpot; 2: the drag of a fluid at high Reynolds numbers; below 1: a film that thins under shear;
+/// for exponent -> 0 the law becomes Coulomb friction. An exponent below 1 gives an infinite slope at v = 0, which
+/// costs the integrator small steps. The mass never sticks.
 ///
 /// Source: ostwald1925 (films), jacobsen1930 (vibration) in `docs/refs.bib`. Smooth engine. Cost: one power a call,
 /// none for the exponents 1 and 2.

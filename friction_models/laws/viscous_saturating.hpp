@@ -3,8 +3,9 @@
 ///
 ///   F = coefficient v/(1 + |v|/saturation_velocity)                    [N]
 ///
-/// A dashpot of `coefficient` at low speed, the constant force coefficient saturation_velocity at high speed. So a
-/// small saturation velocity at a given product of both is a Coulomb friction made smooth: it never holds the mass.
+/// At low speed a dashpot of `coefficient`; at high speed the constant force coefficient saturation_velocity. With
+/// a small saturation velocity at a given product of both it is a smooth substitute for Coulomb friction, under
+/// which the mass never sticks.
 ///
 /// Source: cross1965 in `docs/refs.bib`, the flow law of Cross with exponent 1 in a film of constant thickness.
 /// Smooth engine. Cost: one division a call.

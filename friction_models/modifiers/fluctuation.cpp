@@ -6,13 +6,13 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// Away from the draws that a law of the same seed makes itself.
+/// Another stream than the one from which a law of the same seed draws.
 constexpr std::uint32_t stream = 1;
 
-/// Cells so far apart do not correlate.
+/// Cells this far apart do not correlate.
 constexpr int block = 512;
 
-/// Between cells `distance` apart.
+/// Of two cells `distance` apart.
 double correlation(int distance) { return std::exp(-distance / Fluctuation::cells_per_correlation); }
 
 }  // namespace

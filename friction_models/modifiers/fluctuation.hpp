@@ -2,12 +2,14 @@
 /// A stationary Ornstein-Uhlenbeck process of mean 0 and variance 1, held on cells of a tenth of its correlation
 /// time or length. Neighbours correlate by rho = exp(-1/10).
 ///
-/// Over time it is walked: n_0 = g_0, n_(i+1) = rho n_i + sqrt(1 - rho^2) g_(i+1), g_i the normal draw i.
+/// Over time it is computed cell by cell: n_0 = g_0, n_(i+1) = rho n_i + sqrt(1 - rho^2) g_(i+1), g_i the normal
+/// draw i.
 ///
-/// Over position the mass comes back to a cell by any way, so each level is found from its number alone, in
-/// Levy's manner: every 512th cell is g_i, since rho^512 = 6e-23 is none; between two cells that are known, h cells
-/// away on either side, the middle one is (n_a + n_b) r/(1 + r^2) + sqrt((1 - r^2)/(1 + r^2)) g_i with r = rho^h,
-/// the law of the process given its ends. At most 11 draws a level.
+/// Over position the mass may reach a cell from either side and more than once, so each level must follow from the
+/// number of its cell alone. This is Levy's construction: every 512th cell has n_i = g_i, because rho^512 = 6e-23
+/// is no correlation. Between two known cells, h cells away on either side, the middle one has (n_a + n_b) r/(1 +
+/// r^2) + sqrt((1 - r^2)/(1 + r^2)) g_i with r = rho^h: the distribution of the process given both ends. At most 11
+/// draws a level.
 ///
 /// Source: uhlenbeck1930, levy1948 in `docs/refs.bib`.
 

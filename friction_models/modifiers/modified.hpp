@@ -3,19 +3,20 @@
 ///
 ///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) L + position_slope |x|)     [N]
 ///
-/// the factors first, the slope after. n: the process of `fluctuation.hpp`, over time, stationary from the start,
-/// or over position, cell 0 about x = 0. p [W] is a state: time_constant p' = P - p, P what the law turns to heat,
-/// p = 0 at first.
+/// the factors first, then the slope. n is the process of `fluctuation.hpp`, either over time, stationary from the
+/// start, or over position, with the middle of cell 0 at x = 0. p [W] is a state: time_constant p' = P - p, where P
+/// is the power that the law turns to heat, and p = 0 at the start.
 ///
-/// The law inside sees `Instant::modification` and stays affine in every mode, unless it warms: between the changes
-/// below limits are affine in t and x. The wrapper adds
-///   times    the ends of cells; the end of a falling drift at t = -1/drift.
-///   guards   the ends of cells over position; x = 0, where the slope changes its sign; a limit that vanishes, or
-///            returns.
-/// Where limits rise by a step the law first gets `Trigger::limit_change` at the old ones. While no limit is left
-/// the law has no force; it begins anew, unstretched, where a limit returns.
+/// The law inside reads its force limits from `Instant::modification`. Between the events below they are affine in
+/// t and x, so an affine law stays affine, unless it warms. The wrapper adds events to those of the law:
+///   times    the end of each cell; the end of a falling drift at t = -1/drift.
+///   guards   the ends of cells over position; x = 0, where the slope changes its sign; a force limit that becomes
+///   zero,
+///            or comes back.
+/// Where force limits rise by a step the law first gets `Trigger::limit_change` under the old ones. While no force
+/// limit is left the law has no force; it starts again, unstretched, where a force limit comes back.
 ///
-/// Cost: a copy of what the law remembers at each call.
+/// Cost: a few operations a call; with warming also a copy of what the law remembers.
 
 #include <vector>
 

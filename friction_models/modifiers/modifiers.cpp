@@ -13,14 +13,14 @@ const std::vector<Parameter>& modifier_parameters() {
       {.name = "position_slope",
        .unit = "N/m",
        .is_optional = true,
-       // The spring relaxes towards a limit that follows x: no affine function of x and v any more.
+       // The spring would relax towards a force limit that depends on x: no affine function of x and v.
        .not_beside = "contact_damping",
        .meaning = "growth of the force limits with the distance from x = 0; they end at 0"},
       {.name = "fluctuation",
        .kind = ParameterKind::record,
        .fields = {{.name = "ratio",
                    .unit = "1",
-                   // A level beyond that is 0 for a sixth of the time: no fluctuation any more.
+                   // Beyond 1 the factor would be 0 for more than a sixth of the time.
                    .range = {.low = 0.0, .high = 1.0},
                    .meaning = "standard deviation relative to the level"},
                   {.name = "correlation_time",

@@ -1,6 +1,6 @@
 #pragma once
-/// Modifiers: what may happen to the force limits of a law beside its own equation (`modified.hpp`). A law entry
-/// names those that it supports; they stand among its parameters. The factors act first, the slope after.
+/// Modifiers: what may change the force limits of a law beside its own equation (`modified.hpp`). The entry of a
+/// law names those that it supports; they are among its parameters. The factors act first, then the slope.
 ///
 ///   drift           limits multiplied by max(0, 1 + drift t)
 ///   position_slope  limits plus position_slope |x|, at least 0
@@ -8,7 +8,7 @@
 ///                   variance 1 over time, correlation exp(-|t|/correlation_time), or over position, correlation
 ///                   exp(-|x|/correlation_length), held on a grid
 ///   warming         limits multiplied by exp(-P/power), P the power that the law turns to heat, averaged with a
-///                   weight that falls as exp(-t/time_constant) into the past; makes the law one of the smooth
+///                   weight that falls as exp(-t/time_constant) into the past; the law then runs on the smooth
 ///                   engine
 
 #include <string_view>
