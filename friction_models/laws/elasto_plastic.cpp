@@ -52,7 +52,7 @@ double ElastoPlastic::respond(const Memory& memory, const Instant& now, Directio
     const double share = plastic_share(now, sign(direction) * z, level);
     rates[0] -= share * bristles_.sigma0 * speed * z / level;
   }
-  return bristles_.sigma0 * z + bristles_.sigma1 * rates[0] + bristles_.sigma2 * now.v;
+  return bristles_.force(z, rates[0], now.v);
 }
 
 void ElastoPlastic::guards(const Memory& memory, const Instant& now, Direction direction,
@@ -64,8 +64,8 @@ void ElastoPlastic::guards(const Memory& memory, const Instant& now, Direction d
 
 double ElastoPlastic::dissipation(const Memory& memory, const Instant& now, Direction direction) const {
   double rate = 0.0;
-  const double force = respond(memory, now, direction, {&rate, 1});
-  return force * now.v - bristles_.sigma0 * memory.state[0] * rate;
+  static_cast<void>(respond(memory, now, direction, {&rate, 1}));
+  return bristles_.heat(memory.state[0], rate, now.v);
 }
 
 LawEntry elasto_plastic_entry() {

@@ -1,6 +1,6 @@
 #pragma once
-/// Elasto-plastic bristles: LuGre with an elastic range of deflections. After a load that stays within this range
-/// the mass returns to its place.
+/// Elasto-plastic bristles: LuGre with an elastic range of deflections (presliding). After a load that stays within
+/// this range the mass returns to its place.
 ///
 ///   z' = v (1 - alpha sigma0 sgn(v) z/g(v))
 ///   F  = sigma0 z + sigma1 z' + sigma2 v           [N], g as in `lugre`
@@ -47,7 +47,6 @@ class ElastoPlastic {
     memory.mode = trigger.cause >= 0 && memory.mode == elastic ? yielding : elastic;
   }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
-  /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

@@ -42,13 +42,13 @@ double Lugre::respond(const Memory& memory, const Instant& now, Direction direct
   const double z = memory.state[0];
   const double speed = sign(direction) * now.v;
   rates[0] = now.v - bristles_.sigma0 * speed * z / curve_.divisor(now, speed);
-  return bristles_.sigma0 * z + bristles_.sigma1 * rates[0] + bristles_.sigma2 * now.v;
+  return bristles_.force(z, rates[0], now.v);
 }
 
 double Lugre::dissipation(const Memory& memory, const Instant& now, Direction direction) const {
   double rate = 0.0;
-  const double force = respond(memory, now, direction, {&rate, 1});
-  return force * now.v - bristles_.sigma0 * memory.state[0] * rate;
+  static_cast<void>(respond(memory, now, direction, {&rate, 1}));
+  return bristles_.heat(memory.state[0], rate, now.v);
 }
 
 LawEntry lugre_entry() {

@@ -34,6 +34,15 @@ class Lugre {
     double sigma0 = 0.0;
     double sigma1 = 0.0;
     double sigma2 = 0.0;
+
+    /// N
+    [[nodiscard]] double force(double z, double rate, double v) const {
+      return sigma0 * z + sigma1 * rate + sigma2 * v;
+    }
+    /// F v minus the power that the bristles store [W].
+    [[nodiscard]] double heat(double z, double rate, double v) const {
+      return force(z, rate, v) * v - sigma0 * z * rate;
+    }
   };
 
   static const std::vector<Parameter>& parameters();
@@ -49,7 +58,6 @@ class Lugre {
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const;
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
-  /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

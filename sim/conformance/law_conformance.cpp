@@ -25,7 +25,7 @@ using friction::Trigger;
 constexpr int strokes = 60;
 constexpr int steps_per_stroke = 40;
 
-/// Affine forms and laws evaluate the same few sums in another order.
+/// An affine form and its law evaluate the same few sums in different orders.
 constexpr double same = 1e-10;
 
 /// The same draws with every standard library.
@@ -73,7 +73,8 @@ std::vector<double> coefficients(const std::vector<Affine>& forms) {
   return list;
 }
 
-/// For each form, the size of its parts that come from the states: their rounding is the form's.
+/// For each form, the size of its parts that come from the states: their rounding is part of the rounding of the
+/// form.
 std::vector<double> shares_of_states(const LawHost& host, const std::vector<Affine>& at_present) {
   std::vector<double> shares(at_present.size());
   for (std::size_t i = 0; i < host.memory().state.size(); ++i) {
@@ -86,7 +87,7 @@ std::vector<double> shares_of_states(const LawHost& host, const std::vector<Affi
   return shares;
 }
 
-/// What the affine forms of `begin` say after s is what the law says at `host`, s later.
+/// The affine forms at `begin`, evaluated at the time of `host`, must equal what the law says at `host`.
 void compare_forms(const LawHost& begin, const LawHost& host, const std::string& when, Faults& faults) {
   const double s = host.now().t - begin.now().t;
   const std::vector<Affine> affine = forms(begin, begin.memory());
@@ -215,7 +216,7 @@ void examine_kink(const LawHost& host, double speed, Faults& faults) {
   }
 }
 
-/// What a law with states that move, or without an affine form, says of one instant.
+/// The checks of one instant of a law that is not affine.
 void examine_response(const LawHost& host, const LawCase& c, Faults& faults) {
   const Law& law = host.law();
   const Memory& memory = host.memory();
@@ -233,12 +234,12 @@ void examine_response(const LawHost& host, const LawCase& c, Faults& faults) {
   const double heat = law.dissipation(memory, host.now(), host.direction());
   const double power = values.back() * host.now().v;
   if (!std::isfinite(heat)) faults.add("the dissipation is not finite");
-  // Without a dissipation of its own it is the power, which a law may give back.
+  // Without a dissipation of its own the law has the power F v here, which may be negative.
   if (c.passive && heat != power && heat < -same * std::abs(power)) faults.add("the dissipation is negative");
   if (host.direction() != Direction::none) examine_kink(host, c.stroke / c.stroke_time, faults);
 }
 
-/// All that can be asked of one step without making it. No event between now and `end`.
+/// The checks of one step, before it is made. No event between now and `end`.
 void examine(const LawHost& host, const Path& path, double end, const LawCase& c, Random& random, Faults& faults) {
   const Law& law = host.law();
   Memory before;  // a copy: a library may write where it must only read
@@ -251,7 +252,7 @@ void examine(const LawHost& host, const Path& path, double end, const LawCase& c
   if (limit > 0.0 && !law.holds_mass()) faults.add("a law that does not hold the mass has a static limit");
   if (!law.is_affine()) return examine_response(host, c, faults);
 
-  compare_forms(host, host, "at the start of a phase", faults);
+  compare_forms(host, host, "at the start of an interval", faults);
   LawHost whole = host;
   whole.go(end, path);
   compare_forms(host, whole, "after advance", faults);
@@ -280,7 +281,8 @@ struct Stroke {
   }
 };
 
-/// Random strokes and rests; the second host sees the mirrored path. Returns the forces.
+/// Random strokes, between which the mass sticks now and then; the second host has the mirrored path. Returns the
+/// forces.
 std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
   Random random(seed);
   LawHost host(c.law, {});
@@ -289,10 +291,10 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
   double exchanged = 0.0;
   double force_size = 0.0;
   for (int i = 0; i < strokes; ++i) {
-    const bool rest = random.chance(0.15);
+    const bool sticks = random.chance(0.15);
     Stroke stroke{host.now(), 0.0, c.stroke_time * random.logarithmic(0.1, 3.0)};
-    if (!rest) stroke.length = random.sign() * c.stroke * random.logarithmic(1e-3, 1.0);
-    const Direction direction = rest                  ? Direction::none
+    if (!sticks) stroke.length = random.sign() * c.stroke * random.logarithmic(1e-3, 1.0);
+    const Direction direction = sticks                ? Direction::none
                                 : stroke.length > 0.0 ? Direction::forward
                                                       : Direction::backward;
     const Path path = stroke;
@@ -300,15 +302,15 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
       const Instant now = stroke(t);
       return Instant{now.t, -now.x, -now.v};
     };
-    host.turn(direction);
-    mirror.turn(opposite(direction));
+    host.change_direction(direction);
+    mirror.change_direction(opposite(direction));
     for (int step = 1; step <= steps_per_stroke; ++step) {
       const double power = host.force() * host.now().v;
       const double from = host.now().t;
       const double to = stroke.begin.t + stroke.duration * step / steps_per_stroke;
       examine(host, path, std::min(to, c.law.next_change(host.memory())), c, random, faults);
-      host.follow(to, path);
-      if (c.odd) mirror.follow(to, mirrored);
+      host.move_along(to, path);
+      if (c.odd) mirror.move_along(to, mirrored);
       for (const LawHost* each : {&host, &mirror}) {
         if (!each->broken()) continue;
         for (const std::string& fault : each->faults()) faults.add(fault);
@@ -318,7 +320,7 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
       exchanged += (std::abs(power) + std::abs(power_after)) / 2.0 * (to - from);
       forces.push_back(host.force());
       force_size = std::max(force_size, std::abs(host.force()));
-      // Of an affine law it is known by the trapezoidal rule only.
+      // The work of an affine law is computed by the trapezoidal rule.
       if (c.passive && host.work() < -(c.law.is_affine() ? 1e-2 : 1e-8) * exchanged)
         faults.add("it gives out more work than it took in");
       if (c.odd && std::abs(host.force() + mirror.force()) > 1e-9 * force_size)
@@ -328,7 +330,7 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
   return forces;
 }
 
-/// A factor on the limits is the law with its limits multiplied.
+/// A factor on the force limits must give the law with its force limits multiplied.
 void examine_factor(const LawCase& c, Faults& faults) {
   const double factor = 0.6;
   Random random(7);
@@ -338,12 +340,12 @@ void examine_factor(const LawCase& c, Faults& faults) {
   for (int i = 0; i < strokes; ++i) {
     Stroke stroke{scaled.now(), random.sign() * c.stroke * random.logarithmic(1e-3, 1.0), c.stroke_time};
     const Direction direction = stroke.length > 0.0 ? Direction::forward : Direction::backward;
-    modified.turn(direction);
-    scaled.turn(direction);
+    modified.change_direction(direction);
+    scaled.change_direction(direction);
     for (int step = 1; step <= steps_per_stroke; ++step) {
       const double to = stroke.begin.t + stroke.duration * step / steps_per_stroke;
-      scaled.follow(to, stroke);
-      modified.follow(to, [stroke, factor](double t) {
+      scaled.move_along(to, stroke);
+      modified.move_along(to, [stroke, factor](double t) {
         Instant now = stroke(t);
         now.modification.factor = factor;
         return now;

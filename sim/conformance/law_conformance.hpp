@@ -4,22 +4,21 @@
 ///
 ///     CHECK(nonconformities(law_case("coulomb", {{"kinetic", 2.0}})) == std::vector<std::string>{});
 ///
-/// The law is led along random paths: strokes with smooth speed, reversals, rests, releases; the suite plays the
-/// driver. On every step it asks for
+/// The mass moves along random paths: strokes with smooth speed, reversals, stops, releases. Every step must have
 ///   * guards on the right side after a mode change, reached within 32 jumps;
-///   * a finite force, the same when asked twice, and a static limit >= 0;
-///   * of a law that is not affine: finite rates, the same by every way of asking; no kink at v = 0 while the
+///   * a finite force, the same at a second call, and a static limit >= 0;
+///   * of a law that is not affine: finite rates, the same from every function; no kink at v = 0 while the
 ///     direction is frozen, |v| being sign(direction) v; a dissipation of its own >= 0 when declared passive;
 ///   * affine form = force, guards and limit, at the start of a step and, by `advance`, at its end;
 ///   * `advance` over two halves = `advance` over the whole, with the rates as its derivative;
 ///   * forms and jumps affine in the states, jumps in position and speed too, with the same branch: the driver
 ///     differentiates them by displacement (jumps of a random law excepted, whose motions are not periodic);
 ///   * work done against it >= 0 from its unstretched start on, when declared passive;
-///   * the mirrored path to give the mirrored force, when declared odd;
-///   * the same path to give the same forces the second time;
-///   * a factor on the limits to act as limits multiplied by it, when the case says how;
-/// and of its parameters, that each is refused with range and value when it is missing, unknown, not finite or out
-/// of range.
+///   * the mirrored force on the mirrored path, when declared odd;
+///   * the same forces on the same path a second time;
+///   * the same effect of a factor on the force limits and of force limits multiplied by it, when the case says
+///   how.
+/// Every parameter must be refused, with range and value, when it is missing, unknown, not finite or out of range.
 
 #include <functional>
 #include <string>
@@ -35,7 +34,7 @@ struct LawCase {
   friction::Law law;
   const std::vector<friction::Parameter>* parameters = nullptr;  ///< none: not examined
   friction::ParameterValues values{};                            ///< as a user gives them
-  double stroke = 0.1;                                           ///< m: strokes up to this visit all modes
+  double stroke = 0.1;                                           ///< m: strokes up to this length reach all modes
   double stroke_time = 0.5;                                      ///< s
   bool odd = true;
   bool passive = true;

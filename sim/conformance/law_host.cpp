@@ -18,7 +18,7 @@ namespace {
 
 constexpr int max_jumps = 32;
 constexpr double tolerance = 1e-12;
-constexpr int max_events = 1000;  ///< within one call of follow
+constexpr int max_events = 1000;  ///< within one call of move_along
 
 /// The states of a law over their scales, with work and heat behind them.
 class StatesOnPath final : public VectorField {
@@ -66,7 +66,7 @@ LawHost::LawHost(const friction::Law& law, const Instant& start)
   settle();
 }
 
-/// The way, with the velocity of old for a law that sees it.
+/// The path, with the past velocity for a law that depends on it.
 Path LawHost::with_past(const Path& way) {
   if (!(law_.delay() > 0.0)) return way;
   strokes_.push_back({now_.t, way});
@@ -85,7 +85,7 @@ std::vector<double> LawHost::guards() const {
   return values;
 }
 
-void LawHost::turn(Direction direction) {
+void LawHost::change_direction(Direction direction) {
   for (const Direction next : {Direction::none, direction}) {
     direction_ = next;
     if (law_.is_modal()) law_.jump(memory_, {}, now_, direction_);
@@ -93,7 +93,7 @@ void LawHost::turn(Direction direction) {
   }
 }
 
-void LawHost::follow(double end, const Path& way) {
+void LawHost::move_along(double end, const Path& way) {
   const Path path = with_past(way);
   for (int events = 0; now_.t < end && !broken_; ++events) {
     if (events > max_events) return give_up("there is no end of events within one step");
@@ -119,17 +119,18 @@ void LawHost::follow(double end, const Path& way) {
 void LawHost::move_to(double x) {
   const Instant from = now_;
   const double length = x - from.x;
-  turn(length > 0.0 ? Direction::forward : length < 0.0 ? Direction::backward : Direction::none);
-  follow(from.t + 1.0, [from, length](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
+  change_direction(length > 0.0 ? Direction::forward : length < 0.0 ? Direction::backward : Direction::none);
+  move_along(from.t + 1.0, [from, length](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
   now_.x = x;
 }
 
-/// The first moment at which a guard is below zero, or `end`. It looks at the end only for whether there is one.
+/// The first instant at which a guard is below zero, or `end`. A guard that is above zero at `end` counts as above
+/// zero all the time.
 double LawHost::time_of_violation(double end, const Path& path) const {
   const auto violated = [&](double t) {
     LawHost trial = *this;
     trial.go(t, path);
-    // Far past the guard a formula may overflow.
+    // Far beyond the guard a formula may overflow.
     return trial.worst_guard() >= 0 || trial.broken();
   };
   if (!violated(end)) return end;
@@ -179,7 +180,7 @@ void LawHost::integrate(double end, const Path& path) {
       t = is_last ? end : t + h;
       y.swap(next);
     } else if (h < 1e-12 * (end - now_.t)) {
-      return give_up("its states are not finite, or cannot be followed");
+      return give_up("its states are not finite, or cannot be integrated");
     }
     h *= std::clamp(0.9 * std::pow(excess, -1.0 / (stepper->order() + 1)), 0.1, 5.0);
   }

@@ -1,6 +1,7 @@
 #pragma once
-/// Plays the driver of one law whose mass is led along a given path; a law with a delay sees the velocity of the
-/// path that long ago, that of the start before it. A copy goes on by itself, so that a step can be tried.
+/// Does for one law what an engine does for all, with a mass that moves along a given path. A law with a delay gets
+/// the velocity of the path that long ago; before the start, the initial velocity. A copy is independent, so that a
+/// step can be tried.
 
 #include <functional>
 #include <string>
@@ -30,17 +31,18 @@ class LawHost {
   /// Done against the law since the start [J]: by the trapezoidal rule for an affine law, exact where its force is
   /// affine in the position between events; integrated with the states for another.
   [[nodiscard]] double work() const { return work_; }
-  /// What of it a law that is not affine says it turned to heat [J].
+  /// The part of it that a law that is not affine says it turned to heat [J].
   [[nodiscard]] double heat() const { return heat_; }
-  /// What the law did wrong, in the order in which it did; it makes no sense to go on when broken.
+  /// What the law did wrong, in the order of the motion. When `broken` the motion cannot go on.
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
   [[nodiscard]] bool broken() const { return broken_; }
 
-  /// The mass comes to rest, and goes on in this direction.
-  void turn(friction::Direction direction);
-  /// Moves the mass to time `end`, through the events of the law in between. One direction only: `turn` first.
-  void follow(double end, const Path& way);
-  /// Moves the mass in a straight line, from rest, in unit time.
+  /// The mass stops, and then moves in this direction; none: it sticks.
+  void change_direction(friction::Direction direction);
+  /// Moves the mass to time `end`, through the events of the law in between. The path must keep the present
+  /// direction.
+  void move_along(double end, const Path& way);
+  /// Moves the mass there at constant speed, in unit time.
   void move_to(double x);
   /// The states from now to `end`, no event in between.
   void go(double end, const Path& path);
@@ -62,7 +64,7 @@ class LawHost {
   friction::Memory memory_;
   friction::Instant now_;
   double first_velocity_ = 0.0;
-  std::vector<Stroke> strokes_;  ///< those followed, for a law with a delay
+  std::vector<Stroke> strokes_;  ///< so far, for a law with a delay
   friction::Direction direction_ = friction::Direction::none;
   double guard_size_ = 0.0;
   double work_ = 0.0;

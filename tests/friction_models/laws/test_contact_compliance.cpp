@@ -146,7 +146,7 @@ TEST_CASE("contact_compliance: the Jenkins loop of any amplitude", "[friction][c
 }
 
 TEST_CASE("contact_compliance: sliding sets in at the speed of Eq (18)", "[friction][contact_compliance]") {
-  // Exact for harmonic x: the mass turns at X and comes back along X cos wt.
+  // Exact for harmonic x: the mass reverses at X and comes back along X cos wt.
   const double omega = 38.5;
   const double X = 4.25e-3;
   const double kinetic = 3.5;
@@ -159,8 +159,8 @@ TEST_CASE("contact_compliance: sliding sets in at the speed of Eq (18)", "[frict
       const double angle = omega * (t - turned);
       return Instant{t, X * std::cos(angle), -X * omega * std::sin(angle)};
     };
-    host.turn(Direction::backward);
-    host.follow(turned + 3.14 / omega, back);
+    host.change_direction(Direction::backward);
+    host.move_along(turned + 3.14 / omega, back);
     const std::optional<double> speed = sim::analytic::transition_velocity(omega, X, kinetic, stiffness);
     REQUIRE(speed.has_value());
     // Bisection finds the break to rounding of the time, 1 s, of a motion that takes 1/omega.

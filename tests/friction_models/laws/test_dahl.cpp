@@ -74,14 +74,14 @@ TEST_CASE("dahl: peak force and work of a loop", "[friction][dahl]") {
 TEST_CASE("dahl: under a step of its limit downward the bristles let go to the new level", "[friction][dahl]") {
   const Law law(Dahl(2.0, 1e4, 1.0));
   sim::LawHost host(law, {});
-  host.turn(friction::Direction::forward);
+  host.change_direction(friction::Direction::forward);
   const auto path = [](double factor) {
     return [=](double t) {
       return friction::Instant{.t = t, .x = 0.01 * t, .v = 0.01, .modification = {.factor = factor}};
     };
   };
-  host.follow(1.0, path(1.0));
+  host.move_along(1.0, path(1.0));
   CHECK(host.force() == Approx(2.0).epsilon(1e-9));
-  host.follow(2.0, path(0.5));
+  host.move_along(2.0, path(0.5));
   CHECK(host.force() == Approx(1.0).epsilon(1e-9));
 }

@@ -60,10 +60,10 @@ TEST_CASE("elasto_plastic: a spring below its elastic limit, lugre's level in a 
   for (const double v : {1e-5, 1e-3, 0.3}) {
     INFO(v);
     const Instant from = host.now();
-    host.turn(Direction::forward);
+    host.change_direction(Direction::forward);
     // z comes to g/sigma0 as exp(-sigma0 x/g).
-    host.follow(from.t + 1e-3 / v,
-                [=](double t) { return Instant{.t = t, .x = from.x + v * (t - from.t), .v = v}; });
+    host.move_along(from.t + 1e-3 / v,
+                    [=](double t) { return Instant{.t = t, .x = from.x + v * (t - from.t), .v = v}; });
     const double r = v / 0.001;
     CHECK(host.force() == Approx(1.0 + 0.5 * std::exp(-r * r) + 0.4 * v).epsilon(1e-9));
   }

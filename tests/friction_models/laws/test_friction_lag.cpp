@@ -66,11 +66,11 @@ TEST_CASE("friction_lag: the level in a steady acceleration from rest", "[fricti
     const Direction direction = side > 0.0 ? Direction::forward : Direction::backward;
     sim::LawHost first(Law(FrictionLag(curve(), lag)), {});
     sim::LawHost delayed(Law(DelayedFriction(curve(), lag)), {});
-    first.turn(direction);
-    delayed.turn(direction);
+    first.change_direction(direction);
+    delayed.change_direction(direction);
     for (const double t : {0.01, 0.03, 0.06}) {
-      first.follow(t, accelerating(side * a));
-      delayed.follow(t, accelerating(side * a));
+      first.move_along(t, accelerating(side * a));
+      delayed.move_along(t, accelerating(side * a));
       const double w = a * (t + lag * std::expm1(-t / lag));
       CHECK(first.force() == Approx(side * level(w)).epsilon(1e-9));
       CHECK(delayed.force() == Approx(side * level(a * std::max(0.0, t - lag))).epsilon(1e-15));
@@ -86,30 +86,30 @@ TEST_CASE("friction_lag: higher while the mass accelerates than while it deceler
   const double half = std::numbers::pi / 20.0;
   for (const double part : {0.05, 0.15, 0.3}) {
     sim::LawHost host(Law(FrictionLag(curve(), lag)), {});
-    host.turn(Direction::forward);
-    host.follow(part * half, path);
+    host.change_direction(Direction::forward);
+    host.move_along(part * half, path);
     const double up = host.force();
-    host.follow((1.0 - part) * half, path);
+    host.move_along((1.0 - part) * half, path);
     INFO(part);
     CHECK(up > host.force() + 1e-3);
   }
   // It stops at less than the static level, which is regained as w = w0 exp(-t/lag) fades.
   sim::LawHost host(Law(FrictionLag(curve(), lag)), {});
-  host.turn(Direction::forward);
-  host.follow(half, path);
+  host.change_direction(Direction::forward);
+  host.move_along(half, path);
   CHECK(host.force() < 2.5);
   const double w = host.memory().state[0];
   const Instant stop = host.now();
-  host.turn(Direction::none);
-  host.follow(half + lag, [&](double t) { return Instant{.t = t, .x = stop.x}; });
+  host.change_direction(Direction::none);
+  host.move_along(half + lag, [&](double t) { return Instant{.t = t, .x = stop.x}; });
   CHECK(host.law().static_limit(host.memory(), host.now()) == Approx(level(w / std::numbers::e)).epsilon(1e-9));
 }
 
 TEST_CASE("friction_lag: the level peaks where w changes its sign", "[friction][friction_lag]") {
   // At 1 m/s for ever, then at -1 m/s: w = 2 exp(-t/lag) - 1 is 0 at lag ln 2, where the level is the static one.
   sim::LawHost host(Law(FrictionLag(curve(), lag)), {.v = 1.0});
-  host.turn(Direction::backward);
-  host.follow(lag, [](double t) { return Instant{.t = t, .x = -t, .v = -1.0}; });
+  host.change_direction(Direction::backward);
+  host.move_along(lag, [](double t) { return Instant{.t = t, .x = -t, .v = -1.0}; });
   CHECK(host.events() == 1);
   CHECK(host.last_event().t == Approx(lag * std::numbers::ln2).epsilon(1e-9));
   CHECK(host.memory().mode == -1);

@@ -51,8 +51,8 @@ sim::LawCase maxwell_slip(const Elements& elements, double static_level, double 
 /// Drags the law by `distance` at this speed, without a stop before.
 void drag(sim::LawHost& host, double speed, double distance) {
   const Instant from = host.now();
-  host.follow(from.t + distance / std::abs(speed),
-              [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
+  host.move_along(from.t + distance / std::abs(speed),
+                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ TEST_CASE("generalized_maxwell_slip: first loading, then the level of steady sli
   for (const double v : {1e-4, 0.01, 0.05}) {
     INFO(v);
     sim::LawHost host(law, {});
-    host.turn(Direction::forward);
+    host.change_direction(Direction::forward);
     drag(host, v, 3e-6);
     CHECK(host.force() == Approx(1e5 * 3e-6).epsilon(1e-12));  // all stuck: below 0.1 x 2 N/4e4
     const double r = v / 0.01;
@@ -86,7 +86,7 @@ TEST_CASE("generalized_maxwell_slip: a slipping element follows the level with a
   // From steady slip at v1 to v2: F_i' = C (share - F_i/s), so F = s2 + (s1 - s2) exp(-C t/s2) whatever the shares.
   const double attraction = 20.0;
   sim::LawHost host(law_of(four, 3.0, attraction), {});
-  host.turn(Direction::forward);
+  host.change_direction(Direction::forward);
   drag(host, 1e-3, 5e-3);
   const double s1 = 2.0 + std::exp(-0.01);
   REQUIRE(host.force() == Approx(s1).epsilon(1e-9));
@@ -117,16 +117,16 @@ TEST_CASE("generalized_maxwell_slip: with static above kinetic a loop can give o
   // kinetic)/k: (static - kinetic)^2/(2 k) is won.
   const double k = 1e4;
   sim::LawHost host(law_of({{k, 1.0}}, 3.0, 1e4), {});
-  host.turn(Direction::forward);
+  host.change_direction(Direction::forward);
   drag(host, 1.0, 0.1);
   REQUIRE(host.force() == Approx(2.0).epsilon(1e-9));
   const double before = host.work();
   drag(host, 1e-9, 1e-11);
   CHECK(host.force() == Approx(3.0).epsilon(1e-9));
-  host.turn(Direction::backward);
+  host.change_direction(Direction::backward);
   drag(host, -1.0, 3.0 / k);
   CHECK(std::abs(host.force()) < 1e-9);
-  host.turn(Direction::forward);
+  host.change_direction(Direction::forward);
   drag(host, 1.0, 3.0 / k);
   CHECK(host.force() == Approx(2.0).epsilon(1e-9));
   CHECK(host.work() - before == Approx(-1.0 / (2.0 * k)).epsilon(1e-5));

@@ -109,12 +109,12 @@ TEST_CASE("iwan: Masing's rule, and the loop of uniform elements", "[friction][i
   sim::LawHost backbone(law, {});
   sim::LawHost loop(law, {});
   loop.move_to(amplitude);
-  const double turn = loop.force();
-  // The branch from a turn is the backbone with both axes doubled.
+  const double at_reversal = loop.force();
+  // The branch after a reversal is the backbone with both axes doubled.
   for (const double way : {1e-5, 6e-5, 1.1e-4, 1.7e-4}) {
     backbone.move_to(way);
     loop.move_to(amplitude - 2.0 * way);
-    CHECK(loop.force() == Approx(turn - 2.0 * backbone.force()).epsilon(1e-10));
+    CHECK(loop.force() == Approx(at_reversal - 2.0 * backbone.force()).epsilon(1e-10));
   }
   loop.move_to(amplitude);
   const double before = loop.work();

@@ -50,8 +50,8 @@ sim::LawCase lugre(const Values& values) {
 void drag(sim::LawHost& host, double speed, double distance) {
   const Instant from = host.now();
   const auto path = [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; };
-  host.turn(speed < 0.0 ? Direction::backward : Direction::forward);
-  host.follow(from.t + distance / std::abs(speed), path);
+  host.change_direction(speed < 0.0 ? Direction::backward : Direction::forward);
+  host.move_along(from.t + distance / std::abs(speed), path);
 }
 
 }  // namespace
@@ -135,14 +135,14 @@ TEST_CASE("lugre: the break-away force falls as the load grows faster", "[fricti
 }
 
 TEST_CASE("lugre: the mass drifts under a load that oscillates below break-away", "[friction][lugre]") {
-  // At rest but for the drift F = sigma0 z = the load, between a and b of the level g: dx = g/sigma0 dr/(1 - r) on
-  // the way up, g/sigma0 dr/(1 + r) down, so each cycle moves the mass by g/sigma0 ln((1 - a^2)/(1 - b^2)). A load
-  // of 0.1 Hz leaves sigma1 v, 0.2 % of the load.
+  // Apart from the drift the mass does not move: F = sigma0 z = the load, between a and b of the level g: dx =
+  // g/sigma0 dr/(1 - r) on the way up, g/sigma0 dr/(1 + r) down, so each period moves the mass by g/sigma0 ln((1 -
+  // a^2)/(1 - b^2)). A load of 0.1 Hz leaves sigma1 v, 0.2 % of the load.
   const Values values{1.0, 1.0, 0.001, {1e5, 316.0, 0.0}};
   const double omega = 0.2 * 3.141592653589793;
   test::ForcedMass mass(values.law(), 1.0, [=](double t) { return 0.3 - 0.3 * std::cos(omega * t); });
   std::vector<double> places;
-  for (int cycle = 0; cycle < 3; ++cycle) {
+  for (int period = 0; period < 3; ++period) {
     for (int i = 0; i < 10'000; ++i) mass.step(1e-3);
     places.push_back(mass.x());
   }

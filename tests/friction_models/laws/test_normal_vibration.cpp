@@ -59,9 +59,9 @@ NormalVibration::Rider jumping() {
 /// Goes on at this speed for this time; 0: at rest.
 void slide(sim::LawHost& host, double speed, double duration) {
   const Instant from = host.now();
-  host.turn(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::none);
-  host.follow(from.t + duration,
-              [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
+  host.change_direction(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::none);
+  host.move_along(from.t + duration,
+                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ sim::LawCase rate_state(const RateState::Contact& contact) {
 /// Slides at this speed for this time.
 void slide(sim::LawHost& host, double speed, double duration) {
   const Instant from = host.now();
-  host.follow(from.t + duration,
-              [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
+  host.move_along(from.t + duration,
+                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ TEST_CASE("rate_state: steady sliding", "[friction][rate_state]") {
       INFO(ratio);
       const double v = ratio * 1e-6;
       sim::LawHost host(Law(RateState(granite(evolution))), {});
-      host.turn(v < 0.0 ? Direction::backward : Direction::forward);
+      host.change_direction(v < 0.0 ? Direction::backward : Direction::forward);
       slide(host, v, 60.0 * 1e-5 / std::abs(v));
       const double known = 10.0 * (0.6 - 0.005 * std::log(std::abs(ratio)));
       CHECK(host.force() == Approx(std::copysign(known, v)).epsilon(1e-9));
@@ -92,7 +92,7 @@ TEST_CASE("rate_state: a step of the speed", "[friction][rate_state]") {
     for (const double r : {0.1, 10.0}) {
       INFO(r);
       sim::LawHost host(Law(RateState(granite(evolution))), {});
-      host.turn(Direction::forward);
+      host.change_direction(Direction::forward);
       slide(host, 1e-6, 1.0);
       const double before = host.force();
       CHECK(before == Approx(6.0).epsilon(1e-12));

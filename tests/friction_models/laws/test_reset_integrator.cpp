@@ -48,7 +48,7 @@ TEST_CASE("reset_integrator: the force falls at break-away and rises when the bo
   host.move_to(0.310);
   CHECK(host.last_event().x == Approx(0.302).epsilon(1e-12));
   CHECK(host.force() == 2.0);
-  host.turn(Direction::backward);
+  host.change_direction(Direction::backward);
   CHECK(host.force() == Approx(3.0).epsilon(1e-12));
   host.move_to(0.308);
   CHECK(std::abs(host.force()) < 1e-10);

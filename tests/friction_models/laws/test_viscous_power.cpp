@@ -48,23 +48,23 @@ TEST_CASE("viscous_power: dashpot, drag, cube, root", "[friction][viscous_power]
   CHECK(Law(ViscousPower(3.0, 1.0, 2.0)).force({}, {}, Direction::none) == 0.0);
 }
 
-TEST_CASE("viscous_power: work of a harmonic cycle", "[friction][viscous_power]") {
-  // jacobsen1930: the integral of C (A w |cos|)^n |cos| A w over a cycle is C A^(n+1) w^n 2 sqrt(pi) G(n/2 +
+TEST_CASE("viscous_power: work of a period of a harmonic motion", "[friction][viscous_power]") {
+  // jacobsen1930: the integral of C (A w |cos|)^n |cos| A w over a period is C A^(n+1) w^n 2 sqrt(pi) G(n/2 +
   // 1)/G(n/2 + 3/2), for n = 1 the pi C w A^2 of a dashpot. The host keeps the work to 1e-11 a step of its method.
   const double amplitude = 0.2;
   const double omega = 3.0;
   for (const double n : {0.5, 1.0, 1.5, 2.0, 3.0}) {
     INFO(n);
     const double quarter = std::numbers::pi / (2.0 * omega);
-    // From x = A on: half a cycle backward, half a cycle forward.
+    // From x = A on: half a period backward, half a period forward.
     const auto path = [=](double t) {
       return Instant{.t = t, .x = amplitude * std::cos(omega * t), .v = -amplitude * omega * std::sin(omega * t)};
     };
     sim::LawHost host(Law(ViscousPower(3.0, 1.0, n)), path(0.0));
-    host.turn(Direction::backward);
-    host.follow(2.0 * quarter, path);
-    host.turn(Direction::forward);
-    host.follow(4.0 * quarter, path);
+    host.change_direction(Direction::backward);
+    host.move_along(2.0 * quarter, path);
+    host.change_direction(Direction::forward);
+    host.move_along(4.0 * quarter, path);
     const double known = 3.0 * std::pow(amplitude, n + 1.0) * std::pow(omega, n) * 2.0 *
                          std::sqrt(std::numbers::pi) * std::tgamma(n / 2.0 + 1.0) / std::tgamma(n / 2.0 + 1.5);
     CHECK(host.work() == Approx(known).epsilon(1e-9));

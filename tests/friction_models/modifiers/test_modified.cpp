@@ -10,8 +10,8 @@
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
-#include "friction_models/registry.hpp"
 #include "friction_models/laws/reset_integrator.hpp"
+#include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
 #include "sim/motion/simulate.hpp"
@@ -226,10 +226,10 @@ TEST_CASE("drift: a slider under a growing limit stops before the mass", "[frict
   const double d = 1.5;
   sim::LawHost host(contact(2.0, 1000.0, {{"drift", d}}), {.x = X});
   const sim::Path path = [&](double t) { return Instant{t, X * std::cos(w * t), -X * w * std::sin(w * t)}; };
-  host.turn(Direction::backward);
-  host.follow(0.8, path);
+  host.change_direction(Direction::backward);
+  host.move_along(0.8, path);
   REQUIRE(host.events() == 1);
-  host.follow(3.14 / w, path);
+  host.move_along(3.14 / w, path);
   REQUIRE(host.events() == 2);
   // Guards may overrun by 1e-12 of the greatest, 4 N: here a speed.
   CHECK(std::abs(host.last_event().v + 2.0 * d / 1000.0) < 1e-11);
@@ -253,9 +253,9 @@ TEST_CASE("fluctuation: a step downward relaxes a spring that is being unloaded,
     const auto path = [from = host.now()](double t) {
       return Instant{t, from.x - (t - from.t), -1.0, {.factor = 0.5}};
     };
-    host.follow(host.now().t + 1e-9, path);
+    host.move_along(host.now().t + 1e-9, path);
     CHECK(host.force() == Approx(1.0).epsilon(1e-5));
-    host.follow(host.now().t + 5e-4, path);
+    host.move_along(host.now().t + 5e-4, path);
     CHECK(host.force() == Approx(0.5).epsilon(1e-5));
     REQUIRE_FALSE(host.broken());
   }
@@ -346,8 +346,8 @@ TEST_CASE("iwan under modifiers is its elements with one common factor", "[frict
   double sliding = 0.0;
   for (const Law& law : laws) {
     sim::LawHost host(law, {});
-    host.turn(Direction::forward);
-    host.follow(0.09, [](double t) { return Instant{t, t, 1.0}; });
+    host.change_direction(Direction::forward);
+    host.move_along(0.09, [](double t) { return Instant{t, t, 1.0}; });
     sliding += host.force();
   }
   const double factor = factors(coulomb(1.0, 1.0, noise), 1)[0];

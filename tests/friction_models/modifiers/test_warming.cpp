@@ -37,10 +37,10 @@ Law warm_coulomb(double power, double time_constant) {
 
 /// Slides forward at this speed for this time.
 void slide(sim::LawHost& host, double speed, double duration) {
-  if (host.direction() != Direction::forward) host.turn(Direction::forward);
+  if (host.direction() != Direction::forward) host.change_direction(Direction::forward);
   const Instant from = host.now();
-  host.follow(from.t + duration,
-              [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
+  host.move_along(from.t + duration,
+                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
 }
 
 }  // namespace
@@ -116,10 +116,10 @@ TEST_CASE("warming: at rest the contact cools", "[friction][warming]") {
   slide(host, 0.5, 1.0);
   const double warm = power * std::log(kinetic / host.force());
   REQUIRE(warm > 0.1);
-  host.turn(Direction::none);
+  host.change_direction(Direction::none);
   const Instant from = host.now();
   const double wait = 0.9;
-  host.follow(from.t + wait, [=](double t) { return Instant{.t = t, .x = from.x}; });
+  host.move_along(from.t + wait, [=](double t) { return Instant{.t = t, .x = from.x}; });
   const double limit = kinetic * std::exp(-warm * std::exp(-wait / tau) / power);
   CHECK(host.law().static_limit(host.memory(), host.now()) == Approx(limit).epsilon(1e-9));
 }
