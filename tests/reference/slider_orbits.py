@@ -101,6 +101,23 @@ def refine(mode, g, low, high):
     return (low + high) / 2
 
 
+def pass_event(event, elements, modes, states, x, v, direction):
+    """Changes modes and states at an event; the velocity and the direction behind it."""
+    kind, which, _ = event
+    if kind == "reversal":
+        for i, (e, n) in enumerate(zip(elements, modes)):
+            if n != 0 and e.ct == 0:
+                modes[i], states[i] = 0, x - n * e.fk / e.k
+        return mpf(0), -direction
+    if kind == "break":
+        i, side = which
+        modes[i] = side
+        states[i] = x - states[i] if elements[i].ct > 0 else mpf(0)
+    else:
+        modes[which], states[which] = 0, x - states[which]
+    return v, direction
+
+
 def period(system, elements, start, watch=None):
     """Carries (x, v, modes, states) over one forcing period."""
     m, c, k, w, y = system
@@ -150,21 +167,7 @@ def period(system, elements, start, watch=None):
             watch.append(x)
         if event is None:
             return x, v, modes, states
-        kind, which, _ = event[1]
-        if kind == "reversal":
-            v, direction = mpf(0), -direction
-            for i, (e, n) in enumerate(zip(elements, modes)):
-                if n != 0 and e.ct == 0:
-                    modes[i], states[i] = 0, x - n * e.fk / e.k
-        elif kind == "break":
-            i, side = which
-            modes[i] = side
-            if elements[i].ct > 0:
-                states[i] = x - states[i]
-            else:
-                states[i] = mpf(0)
-        else:
-            modes[which], states[which] = 0, x - states[which]
+        v, direction = pass_event(event[1], elements, modes, states, x, v, direction)
 
 
 def orbit(system, elements):
