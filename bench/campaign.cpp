@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <thread>
-#include <variant>
 #include <vector>
 
 #include "bench/case.hpp"
@@ -13,6 +11,8 @@
 #include "bench/grid.hpp"
 #include "bench/scores.hpp"
 #include "core/build_info.hpp"
+#include "core/numbers.hpp"
+#include "core/provenance.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {
@@ -20,39 +20,32 @@ namespace dualdamp::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using scenarios::Scenario;
-using scenarios::StressTest;
+using scenarios::Json;
+using scenarios::RunContext;
+using scenarios::RunOptions;
 using scenarios::Table;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-const StressTest& question_of(const Scenario& scenario) { return std::get<StressTest>(scenario.analysis); }
-
 /// The scenario's system with its Coulomb friction taken out.
-sim::Truth truth_of(const Scenario& scenario) {
-  sim::Truth truth{.model = scenario.model, .F0 = question_of(scenario).F0};
+sim::Truth truth_of(const StressTest& question, const RunContext& context) {
+  sim::Truth truth{.model = context.model, .F0 = question.F0};
   truth.model.friction.clear();
   return truth;
 }
 
-sim::SteadyStateOptions steady_options(const Scenario& scenario) {
-  sim::SteadyStateOptions options;
-  options.tolerance = scenario.tolerance;
-  return options;
-}
-
 /// The same scenario run by the same program gives the same lines.
-std::string fingerprint(const Scenario& scenario) {
+std::string fingerprint(const std::string& scenario) {
   const core::BuildInfo build = core::build_info();
-  return core::sha256(scenario.resolved + "\n" + std::string(build.version) + "\n" + std::string(build.commit));
+  return core::sha256(scenario + "\n" + std::string(build.version) + "\n" + std::string(build.commit));
 }
 
 /// Counts finished cases and tells of them now and then.
 class Meter {
  public:
-  Meter(std::size_t done, std::size_t all, const CampaignOptions& options)
+  Meter(std::size_t done, std::size_t all, const RunOptions& options)
       : first_(done), done_(done), all_(all), options_(options), start_(Clock::now()), told_(start_) {}
 
   void add() {
@@ -69,17 +62,17 @@ class Meter {
   std::size_t first_;
   std::size_t done_;
   std::size_t all_;
-  const CampaignOptions& options_;
+  const RunOptions& options_;
   Clock::time_point start_;
   Clock::time_point told_;
   std::mutex mutex_;
 };
 
 /// All motions that are left, on all threads of all processes.
-void run_cases(const Scenario& scenario, const Grid& grid, const CampaignOptions& options, Processes& processes,
-               CaseFile& file) {
-  const sim::Truth truth = truth_of(scenario);
-  const sim::SteadyStateOptions steady = steady_options(scenario);
+void run_cases(const StressTest& question, const Grid& grid, const RunContext& context, CaseFile& file) {
+  const RunOptions& options = context.options;
+  const sim::Truth truth = truth_of(question, context);
+  const sim::SteadyStateOptions steady = context.steady_states();
   Meter meter(file.finished(), grid.cases(), options);
   const auto wanted = [&](std::size_t number) { return !file.is_finished(number); };
   const auto take = [&](std::size_t number, const std::string& line) {
@@ -87,7 +80,8 @@ void run_cases(const Scenario& scenario, const Grid& grid, const CampaignOptions
     meter.add();
   };
   const auto work = [&] {
-    for (std::size_t motion = processes.next(); motion < grid.motions(); motion = processes.next()) {
+    for (std::size_t motion = options.processes->next(); motion < grid.motions();
+         motion = options.processes->next()) {
       run_motion(grid, truth, steady, motion, wanted, take);
     }
   };
@@ -159,25 +153,23 @@ Table ranking_table(const Scores& scores, const Grid& grid) {
   return table;
 }
 
-std::string summary(const Scores& scores, const Grid& grid) {
-  nlohmann::ordered_json json;
+Json summary(const Scores& scores, const Grid& grid) {
+  Json json;
   json["cases"] = {{"all", grid.cases()},
                    {"failed", scores.failed_cases},
                    {"motions", grid.motions()},
                    {"estimates", grid.cases() * grid.question().methods.size()}};
-  json["severities"] = nlohmann::ordered_json::object();
+  json["severities"] = Json::object();
   for (const sim::Departure* law : grid.question().laws) json["severities"][std::string(law->name)] = law->severity;
   for (const char* key : {"ranking", "breakdown", "scores"}) json[key] = nullptr;
-  return json.dump();
+  return json;
 }
 
 }  // namespace
 
-bool is_campaign(const Scenario& scenario) { return std::holds_alternative<StressTest>(scenario.analysis); }
-
-CampaignSize size_of(const Scenario& scenario) {
-  StressTest sample = question_of(scenario);
-  const Grid whole(question_of(scenario));
+CampaignSize size_of(const StressTest& question, const RunContext& context) {
+  StressTest sample = question;
+  const Grid whole(question);
   CampaignSize size{whole.motions(), whole.cases(), whole.cases() * sample.methods.size(), 0.0, 0.0};
   // One motion of each law, read once: all others like it.
   const std::size_t severities = sample.severities.size();
@@ -185,21 +177,21 @@ CampaignSize size_of(const Scenario& scenario) {
   sample.ranges.resize(1);
   sample.seeds = 1;
   const Grid grid(sample);
-  const sim::Truth truth = truth_of(scenario);
-  const Clock::time_point start = Clock::now();
-  for (std::size_t motion = 0; motion < grid.motions(); ++motion)
+  const sim::Truth truth = truth_of(question, context);
+  const auto try_motion = [&](const Grid& cases, std::size_t motion) {
     run_motion(
-        grid, truth, steady_options(scenario), motion, [](std::size_t) { return true; },
+        cases, truth, context.steady_states(), motion, [](std::size_t) { return true; },
         [](std::size_t, const std::string&) {});
+  };
+  const Clock::time_point start = Clock::now();
+  for (std::size_t motion = 0; motion < grid.motions(); ++motion) try_motion(grid, motion);
   const double motions = seconds_since(start);
   const Clock::time_point again = Clock::now();
   sample.seeds = 2;
   const Grid twice(sample);
-  run_motion(
-      twice, truth, steady_options(scenario), 0, [](std::size_t) { return true; },
-      [](std::size_t, const std::string&) {});
+  try_motion(twice, 0);
   const double reading = seconds_since(again) / static_cast<double>(twice.cases_per_motion());
-  size.seconds = (motions * static_cast<double>(severities * question_of(scenario).ranges.size()) +
+  size.seconds = (motions * static_cast<double>(severities * question.ranges.size()) +
                   reading * static_cast<double>(size.cases)) /
                  std::thread::hardware_concurrency();
   constexpr double of_program = 60.0;
@@ -210,12 +202,18 @@ CampaignSize size_of(const Scenario& scenario) {
   return size;
 }
 
-scenarios::RunResult run_campaign(const Scenario& scenario, const std::string& directory,
-                                  const CampaignOptions& options, Processes& processes) {
-  const Grid grid(question_of(scenario));
-  core::Provenance provenance = scenarios::provenance_of(scenario);
-  const Clock::time_point start = Clock::now();
-  CaseFile file(directory, fingerprint(scenario), grid.cases(), processes.rank());
+std::string describe(const CampaignSize& size) {
+  constexpr int digits = 2;
+  return std::to_string(size.cases) + " cases of " + std::to_string(size.motions) + " motions, " +
+         std::to_string(size.estimates) + " estimates: about " + core::format_number(size.seconds, digits) +
+         " s on this machine's cores, " + core::format_number(size.megabytes, digits) + " MB";
+}
+
+scenarios::Answer run_campaign(const StressTest& question, const RunContext& context) {
+  const Grid grid(question);
+  const RunOptions& options = context.options;
+  scenarios::ProcessGroup& processes = *options.processes;
+  CaseFile file(options.directory, fingerprint(context.resolved), grid.cases(), processes.rank());
   // Parts of an earlier run are gone before anybody begins a new one.
   if (processes.rank() == 0 && !options.resume) file.begin();
   processes.wait();
@@ -224,21 +222,17 @@ scenarios::RunResult run_campaign(const Scenario& scenario, const std::string& d
   else if (processes.rank() != 0)
     file.begin();
   processes.wait();
-  run_cases(scenario, grid, options, processes, file);
+  run_cases(question, grid, context, file);
   file.close();
   processes.wait();
   if (processes.rank() != 0) return {};
   file.finish();
-  const Scores scores =
-      score(file.path(), grid, sim::damping_ratio(scenario.model.oscillator), question_of(scenario).F0);
-  provenance.duration = seconds_since(start);
-  scenarios::RunResult result =
-      scenarios::assemble(scenario, summary(scores, grid),
-                          {ranking_table(scores, grid), breakdown_table(scores, grid), score_table(scores, grid)},
-                          std::move(provenance));
-  if (scores.failed_cases > 0 && result.status == core::ExitStatus::done)
-    result.status = core::ExitStatus::some_cases_failed;
-  return result;
+  const Scores scores = score(file.path(), grid, sim::damping_ratio(context.model.oscillator), question.F0);
+  scenarios::Answer answer;
+  answer.result = summary(scores, grid);
+  answer.tables = {ranking_table(scores, grid), breakdown_table(scores, grid), score_table(scores, grid)};
+  answer.some_cases_failed = scores.failed_cases > 0;
+  return answer;
 }
 
 }  // namespace dualdamp::bench

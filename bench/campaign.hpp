@@ -8,27 +8,11 @@
 /// Errors: those of `CaseFile`.
 
 #include <cstddef>
-#include <functional>
 #include <string>
 
-#include "bench/processes.hpp"
-#include "scenarios/run.hpp"
-#include "scenarios/scenario.hpp"
+#include "bench/stress_test.hpp"
 
 namespace dualdamp::bench {
-
-struct Progress {
-  std::size_t done = 0;  ///< cases, those of an earlier run included
-  std::size_t all = 0;
-  double rate = 0.0;       ///< cases a second
-  double remaining = 0.0;  ///< s
-};
-
-struct CampaignOptions {
-  int threads = 0;  ///< 0: all cores
-  bool resume = false;
-  std::function<void(const Progress&)> progress;  ///< may be absent; called by one thread at a time
-};
 
 /// What a campaign asks of the machine, before it runs.
 struct CampaignSize {
@@ -39,12 +23,12 @@ struct CampaignSize {
   double megabytes = 0.0;  ///< of memory
 };
 
-[[nodiscard]] bool is_campaign(const scenarios::Scenario& scenario);
+[[nodiscard]] CampaignSize size_of(const StressTest& question, const scenarios::RunContext& context);
 
-[[nodiscard]] CampaignSize size_of(const scenarios::Scenario& scenario);
+/// In one line for people.
+[[nodiscard]] std::string describe(const CampaignSize& size);
 
-/// Status 5 where cases have failed. Only process 0 returns scores; the others return an empty result.
-[[nodiscard]] scenarios::RunResult run_campaign(const scenarios::Scenario& scenario, const std::string& directory,
-                                                const CampaignOptions& options, Processes& processes);
+/// Only process 0 returns scores; the others return an empty answer.
+[[nodiscard]] scenarios::Answer run_campaign(const StressTest& question, const scenarios::RunContext& context);
 
 }  // namespace dualdamp::bench

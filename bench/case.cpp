@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identify/estimate.hpp"
-#include "scenarios/measure.hpp"
+#include "scenarios/measurements/measure.hpp"
 
 namespace dualdamp::bench {
 
@@ -19,7 +19,7 @@ struct Motions {
   double stated = 1.0;  ///< forcing frequency that the laboratory believes in, over the one it drives at
 };
 
-sim::ReferenceMotion reference_of(const sim::Truth& truth, const scenarios::ExcitationRange& range,
+sim::ReferenceMotion reference_of(const sim::Truth& truth, const ExcitationRange& range,
                                   const sim::SteadyStateOptions& options) {
   sim::Model model = sim::undisturbed(truth);
   model.excitation.amplitude = range.amplitudes[range.amplitudes.size() / 2];
@@ -78,13 +78,13 @@ Json estimate_json(const Estimate& estimate) {
 
 void run_motion(const Grid& grid, const sim::Truth& truth, const sim::SteadyStateOptions& options,
                 std::size_t number, const std::function<bool(std::size_t)>& wanted, const TakeLine& take) {
-  const scenarios::StressTest& question = grid.question();
+  const StressTest& question = grid.question();
   const Grid::Motion motion = grid.motion(number);
   const sim::Oscillator& oscillator = truth.model.oscillator;
   const identify::KnownConstants constants{oscillator.mass, oscillator.stiffness, truth.model.excitation.frequency};
   std::size_t place = number * grid.cases_per_motion();
   std::optional<Motions> unsampled;  // serves all sensors that sample nothing
-  for (const scenarios::SensorSet& sensors : question.sensors) {
+  for (const SensorSet& sensors : question.sensors) {
     std::optional<Motions> sampled;
     std::optional<Motions>& motions = sensors.sensors.sample_rate > 0.0 ? sampled : unsampled;
     for (int seed = 0; seed < question.seeds; ++seed, ++place) {

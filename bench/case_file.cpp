@@ -12,7 +12,7 @@
 #include <ostream>
 
 #include "core/diagnostics.hpp"
-#include "scenarios/files.hpp"
+#include "scenarios/results/files.hpp"
 
 namespace dualdamp::bench {
 

@@ -2,7 +2,7 @@
 
 namespace dualdamp::bench {
 
-Grid::Grid(const scenarios::StressTest& question)
+Grid::Grid(const StressTest& question)
     : question_(question),
       motions_per_range_(1 + question.laws.size() * question.severities.size()),
       cases_per_motion_(question.sensors.size() * static_cast<std::size_t>(question.seeds)) {}

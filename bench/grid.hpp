@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <string>
 
-#include "scenarios/stress_test.hpp"
+#include "bench/stress_test.hpp"
 
 namespace dualdamp::bench {
 
@@ -17,14 +17,14 @@ inline constexpr const char* truth_name = "coulomb_viscous";
 
 class Grid {
  public:
-  explicit Grid(const scenarios::StressTest& question);
+  explicit Grid(const StressTest& question);
 
   [[nodiscard]] std::size_t motions() const { return motions_per_range_ * question_.ranges.size(); }
   [[nodiscard]] std::size_t cases_per_motion() const { return cases_per_motion_; }
   [[nodiscard]] std::size_t cases() const { return motions() * cases_per_motion_; }
 
   struct Motion {
-    const scenarios::ExcitationRange* range = nullptr;
+    const ExcitationRange* range = nullptr;
     const sim::Departure* law = nullptr;  ///< nullptr: the truth
     double severity = 0.0;
     [[nodiscard]] std::string name() const { return law == nullptr ? truth_name : std::string(law->name); }
@@ -38,10 +38,10 @@ class Grid {
   };
   [[nodiscard]] Case at(std::size_t number) const;
 
-  [[nodiscard]] const scenarios::StressTest& question() const { return question_; }
+  [[nodiscard]] const StressTest& question() const { return question_; }
 
  private:
-  const scenarios::StressTest& question_;
+  const StressTest& question_;
   std::size_t motions_per_range_;
   std::size_t cases_per_motion_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/numbers.hpp"
@@ -11,9 +10,7 @@ namespace dualdamp::bench {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-using scenarios::MeasuredDecay;
-using scenarios::MechanismStudy;
+using scenarios::Json;
 using scenarios::Table;
 using sim::Mechanism;
 
@@ -203,13 +200,13 @@ std::string verdict(const StudyAnswer& answer, const MechanismStudy& study) {
 
 std::vector<PartReading> measured_readings(const MechanismStudy& study) {
   std::vector<PartReading> readings;
-  for (const scenarios::PartEstimate& estimate : study.estimates) readings.push_back({estimate.zeta, estimate.F0});
+  for (const PartEstimate& estimate : study.estimates) readings.push_back({estimate.zeta, estimate.F0});
   return readings;
 }
 
 }  // namespace
 
-std::string result_of(const StudyAnswer& answer, const MechanismStudy& study) {
+scenarios::Json result_of(const StudyAnswer& answer, const MechanismStudy& study) {
   const std::vector<PartReading> measured = measured_readings(study);
   Json json = {{"verdict", verdict(answer, study)},
                {"explained",
@@ -222,7 +219,7 @@ std::string result_of(const StudyAnswer& answer, const MechanismStudy& study) {
     json["mechanisms"].push_back(explanation_json(explanation, study));
   json["effects"] = Json::array();
   for (const Effect& effect : answer.effects) json["effects"].push_back(effect_json(effect, study));
-  return json.dump();
+  return json;
 }
 
 std::vector<Table> tables_of(const StudyAnswer& answer, const MechanismStudy& study) {

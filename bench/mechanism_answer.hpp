@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "bench/mechanism_fit.hpp"
-#include "scenarios/mechanism_study.hpp"
-#include "scenarios/table.hpp"
+#include "bench/mechanisms.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::bench {
 
 /// What a free decay of the rig gives by the method, from its first and its last four extremes.
 struct DecayReading {
-  scenarios::MeasuredDecay::Segment high, low;
+  MeasuredDecay::Segment high, low;
 
   [[nodiscard]] double bend() const { return high.zeta / low.zeta - 1.0; }
 };
@@ -32,7 +33,7 @@ struct Explanation {
 
 /// One mechanism at plausible values.
 struct Effect {
-  const scenarios::PlausibleRig* rig = nullptr;
+  const PlausibleRig* rig = nullptr;
   std::optional<Response> response;
   std::optional<std::vector<PartReading>> readings;
 };
@@ -44,11 +45,9 @@ struct StudyAnswer {
   std::vector<Effect> effects;
 };
 
-/// The result as JSON.
-[[nodiscard]] std::string result_of(const StudyAnswer& answer, const scenarios::MechanismStudy& study);
+[[nodiscard]] scenarios::Json result_of(const StudyAnswer& answer, const MechanismStudy& study);
 
 /// mechanisms, effects, levels, curves.
-[[nodiscard]] std::vector<scenarios::Table> tables_of(const StudyAnswer& answer,
-                                                      const scenarios::MechanismStudy& study);
+[[nodiscard]] std::vector<scenarios::Table> tables_of(const StudyAnswer& answer, const MechanismStudy& study);
 
 }  // namespace dualdamp::bench

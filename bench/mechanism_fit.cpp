@@ -18,7 +18,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using scenarios::MechanismStudy;
 using sim::Apparatus;
 using sim::Mechanism;
 using sim::MechanismParameter;
@@ -35,7 +34,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 VectorXd misfit(const std::vector<PartReading>& readings, const MechanismStudy& study) {
   VectorXd result(static_cast<Index>(2 * readings.size()));
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const scenarios::PartEstimate& estimate = study.estimates[i];
+    const PartEstimate& estimate = study.estimates[i];
     result[static_cast<Index>(2 * i)] = (readings[i].zeta - estimate.zeta) / estimate.zeta_std;
     result[static_cast<Index>(2 * i + 1)] = (readings[i].F0 - estimate.F0) / estimate.F0_std;
   }
@@ -92,7 +91,7 @@ std::vector<double> spaced(double first, double spacing, std::size_t count) {
 /// Where the lines of the estimates meet the axis x = 0, in the mean: kY = (4/pi) F0, near enough.
 double usual_intercept(const MechanismStudy& study, double stiffness) {
   double sum = 0.0;
-  for (const scenarios::PartEstimate& estimate : study.estimates) sum += estimate.F0;
+  for (const PartEstimate& estimate : study.estimates) sum += estimate.F0;
   return 4.0 * std::numbers::inv_pi * sum / static_cast<double>(study.estimates.size()) / stiffness;
 }
 
@@ -111,8 +110,8 @@ constexpr std::array<double, 3> ratios = {1.0, 0.3, 3.0};
 std::optional<std::vector<PartReading>> read_parts(const Levels& levels, const MechanismStudy& study,
                                                    const identify::KnownConstants& constants) {
   std::vector<PartReading> readings;
-  for (const scenarios::PartEstimate& estimate : study.estimates) {
-    const std::size_t count = scenarios::part_of(levels.Y.size(), estimate.share);
+  for (const PartEstimate& estimate : study.estimates) {
+    const std::size_t count = part_of(levels.Y.size(), estimate.share);
     std::vector<identify::Datum> pairs;
     for (std::size_t i = 0; i < count; ++i) pairs.push_back({.Y = levels.Y[i], .x = levels.x[i]});
     const auto line = identify::line_of(identify::moments_of(pairs), std::numeric_limits<double>::infinity());
@@ -235,7 +234,7 @@ VectorXd MechanismSearch::bounds(bool high) const {
 VectorXd MechanismSearch::start(std::size_t number) const {
   // Bent data lead below what their lowest part reads; where the mechanism has no part in it friction is what all
   // data read.
-  const scenarios::PartEstimate& estimate = number == 0 ? study_.estimates.back() : study_.estimates.front();
+  const PartEstimate& estimate = number == 0 ? study_.estimates.back() : study_.estimates.front();
   const double below = number == 0 ? 0.85 : 0.95;
   const double c = 2.0 * estimate.zeta * std::sqrt(apparatus_.oscillator.mass * apparatus_.oscillator.stiffness);
   VectorXd p = VectorXd::Ones(static_cast<Index>(unknowns()));

@@ -20,7 +20,7 @@
 
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
-#include "scenarios/mechanism_study.hpp"
+#include "bench/mechanisms.hpp"
 #include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
@@ -40,7 +40,7 @@ struct PartReading {
 /// The lines through the lower parts of the levels, as `resonance_least_squares` draws them through pairs that do
 /// not stick. Nothing where one of them does not rise.
 [[nodiscard]] std::optional<std::vector<PartReading>> read_parts(const Levels& levels,
-                                                                 const scenarios::MechanismStudy& study,
+                                                                 const MechanismStudy& study,
                                                                  const identify::KnownConstants& constants);
 
 /// zeta of the smallest part over that of the largest, less 1.
@@ -48,7 +48,7 @@ struct PartReading {
 
 /// Levels that give the estimates of the study: all outputs are free. Nothing where no such levels are found to a
 /// standard error of each number.
-[[nodiscard]] std::optional<Levels> reconstruct(const scenarios::MechanismStudy& study,
+[[nodiscard]] std::optional<Levels> reconstruct(const MechanismStudy& study,
                                                 const identify::KnownConstants& constants);
 
 /// Output amplitudes of the mechanism at input amplitudes; nothing where one has no steady state.
@@ -75,7 +75,7 @@ struct MechanismFit {
 class MechanismSearch {
  public:
   /// `near`: levels with which searches begin, or the known ones.
-  MechanismSearch(const sim::Mechanism& mechanism, const scenarios::MechanismStudy& study,
+  MechanismSearch(const sim::Mechanism& mechanism, const MechanismStudy& study,
                   const sim::Apparatus& apparatus, Levels near);
 
   /// Places from which the mechanism's parameters are sought.
@@ -109,7 +109,7 @@ class MechanismSearch {
   [[nodiscard]] MechanismFit fit(const Eigen::VectorXd& start, double tolerance) const;
 
   const sim::Mechanism& mechanism_;
-  const scenarios::MechanismStudy& study_;
+  const MechanismStudy& study_;
   const sim::Apparatus& apparatus_;
   Levels near_;
 };

@@ -1,12 +1,10 @@
 #include "bench/mechanism_study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "bench/mechanism_answer.hpp"
@@ -18,21 +16,15 @@ namespace dualdamp::bench {
 
 namespace {
 
-using scenarios::MeasuredDecay;
-using scenarios::MechanismStudy;
-using scenarios::PlausibleRig;
-using scenarios::Scenario;
 using sim::Mechanism;
-
-const MechanismStudy& study_of(const Scenario& scenario) { return std::get<MechanismStudy>(scenario.analysis); }
 
 /// The whole study; its parts are computed apart and in parallel.
 class Study {
  public:
-  Study(const Scenario& scenario, Levels levels)
-      : study_(study_of(scenario)),
+  Study(const MechanismStudy& study, const sim::Model& model, Levels levels)
+      : study_(study),
         levels_(std::move(levels)),
-        apparatus_(apparatus_of(scenario, levels_)),
+        apparatus_(apparatus_of(model, levels_)),
         constants_{apparatus_.oscillator.mass, apparatus_.oscillator.stiffness, apparatus_.reference.frequency} {
     for (const Mechanism* mechanism : study_.mechanisms)
       searches_.emplace_back(*mechanism, study_, apparatus_, levels_);
@@ -42,7 +34,7 @@ class Study {
   [[nodiscard]] std::vector<Effect> effects() const;
 
  private:
-  static sim::Apparatus apparatus_of(const Scenario& scenario, const Levels& levels);
+  static sim::Apparatus apparatus_of(const sim::Model& model, const Levels& levels);
   [[nodiscard]] std::vector<MechanismFit> rough_fits() const;
   void finish(Explanation& explanation) const;
   [[nodiscard]] std::optional<DecayReading> decay(const Explanation& explanation) const;
@@ -56,12 +48,12 @@ class Study {
   std::vector<MechanismSearch> searches_;
 };
 
-sim::Apparatus Study::apparatus_of(const Scenario& scenario, const Levels& levels) {
+sim::Apparatus Study::apparatus_of(const sim::Model& model, const Levels& levels) {
   // Steady states know a slow warming by its mean power: five periods are slow enough for four digits.
   constexpr double warming_periods = 5.0;
   const std::size_t middle = levels.Y.size() / 2;
-  const double frequency = scenario.model.excitation.frequency;
-  return {.oscillator = scenario.model.oscillator,
+  const double frequency = model.excitation.frequency;
+  return {.oscillator = model.oscillator,
           .reference = {.amplitude = levels.x[middle], .frequency = frequency, .Y = levels.Y[middle]},
           .warming_time = warming_periods * 2.0 * std::numbers::pi / frequency};
 }
@@ -164,7 +156,7 @@ void find_aliases(std::vector<Explanation>& explanations, const MechanismStudy& 
   const auto distance = [&](const Explanation& a, const Explanation& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < study.estimates.size(); ++i) {
-      const scenarios::PartEstimate& estimate = study.estimates[i];
+      const PartEstimate& estimate = study.estimates[i];
       sum += std::pow((a.fit.readings[i].zeta - b.fit.readings[i].zeta) / estimate.zeta_std, 2);
       sum += std::pow((a.fit.readings[i].F0 - b.fit.readings[i].F0) / estimate.F0_std, 2);
     }
@@ -208,29 +200,18 @@ std::vector<Effect> Study::effects() const {
 
 }  // namespace
 
-bool is_mechanism_study(const Scenario& scenario) {
-  return std::holds_alternative<MechanismStudy>(scenario.analysis);
-}
-
-scenarios::RunResult run_mechanism_study(const Scenario& scenario) {
-  core::Provenance provenance = scenarios::provenance_of(scenario);
-  const auto start = std::chrono::steady_clock::now();
-  const MechanismStudy& study = study_of(scenario);
-  const sim::Oscillator& oscillator = scenario.model.oscillator;
+scenarios::Answer run_mechanism_study(const MechanismStudy& study, const sim::Model& model) {
   const std::optional<Levels> levels =
-      reconstruct(study, {oscillator.mass, oscillator.stiffness, scenario.model.excitation.frequency});
-  if (!levels) {
-    scenarios::RunResult result;
-    result.provenance = std::move(provenance);
-    result.warnings = scenario.warnings;
-    result.status = core::ExitStatus::numerical_failure;
-    result.failure = "no levels give these estimates to their standard errors: straight lines cannot have had them";
-    return result;
-  }
-  const Study whole(scenario, *levels);
-  const StudyAnswer answer{*levels, whole.explain(), whole.effects()};
-  provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return scenarios::assemble(scenario, result_of(answer, study), tables_of(answer, study), std::move(provenance));
+      reconstruct(study, {model.oscillator.mass, model.oscillator.stiffness, model.excitation.frequency});
+  if (!levels)
+    return scenarios::failed(
+        "no levels give these estimates to their standard errors: straight lines cannot have had them");
+  const Study whole(study, model, *levels);
+  const StudyAnswer found{*levels, whole.explain(), whole.effects()};
+  scenarios::Answer answer;
+  answer.result = result_of(found, study);
+  answer.tables = tables_of(found, study);
+  return answer;
 }
 
 }  // namespace dualdamp::bench

@@ -5,14 +5,13 @@
 /// rig may well have, to see how much it does; and, fitted, is let go in a free decay, whose first and last four
 /// extremes are read apart as Table 3 of the paper does. Results do not depend on the number of threads.
 
-#include "scenarios/run.hpp"
-#include "scenarios/scenario.hpp"
+#include "bench/mechanisms.hpp"
+#include "scenarios/results/answer.hpp"
+#include "sim/model.hpp"
 
 namespace dualdamp::bench {
 
-[[nodiscard]] bool is_mechanism_study(const scenarios::Scenario& scenario);
-
-/// Status 4 where no levels give the estimates.
-[[nodiscard]] scenarios::RunResult run_mechanism_study(const scenarios::Scenario& scenario);
+/// No result where no levels give the estimates. `model`: the rig as it is believed to be.
+[[nodiscard]] scenarios::Answer run_mechanism_study(const MechanismStudy& study, const sim::Model& model);
 
 }  // namespace dualdamp::bench

@@ -8,23 +8,21 @@
 #include <cstddef>
 #include <memory>
 
+#include "scenarios/analyses/analysis.hpp"
+
 namespace dualdamp::bench {
 
-class Processes {
+class Processes final : public scenarios::ProcessGroup {
  public:
   /// Joins the others when this process is one of several.
   Processes();
-  ~Processes();
+  ~Processes() override;
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;
 
-  [[nodiscard]] int rank() const { return rank_; }
-  [[nodiscard]] int count() const { return count_; }
-
-  /// The next item, 0, 1, 2, ... over all processes; from any thread.
-  [[nodiscard]] std::size_t next();
-  /// Waits for all processes.
-  void wait();
+  [[nodiscard]] int rank() const override { return rank_; }
+  [[nodiscard]] std::size_t next() override;
+  void wait() override;
 
   /// Whether mpirun started this process; without joining.
   [[nodiscard]] static bool several();

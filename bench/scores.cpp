@@ -127,7 +127,7 @@ struct Diagnosed {
 std::vector<Breakdown> breakdowns_of(const std::vector<Score>& scores, const Grid& grid) {
   using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;  // law, range, sensors, method
   std::map<Key, std::vector<const Score*>> groups;
-  const scenarios::StressTest& question = grid.question();
+  const StressTest& question = grid.question();
   for (const Score& score : scores) {
     const Grid::Motion motion = grid.motion(score.motion);
     if (motion.law == nullptr) continue;

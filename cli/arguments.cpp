@@ -166,6 +166,8 @@ class Parser {
     add_plugins(*laws_command_);
     methods_command_ = app_.add_subcommand("methods", "List the identification methods, or explain one");
     methods_command_->add_option("NAME", methods_.name, "A method")->type_name("");
+    analyses_command_ = app_.add_subcommand("analyses", "List the analyses, or explain one");
+    analyses_command_->add_option("NAME", analyses_.name, "An analysis")->type_name("");
     schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
     schema_command_->add_flag("--markdown", schema_.markdown, "Print the reference page instead");
     add_plugins(*schema_command_);
@@ -191,6 +193,7 @@ class Parser {
     if (report_command_->parsed()) return report_;
     if (laws_command_->parsed()) return laws_;
     if (methods_command_->parsed()) return methods_;
+    if (analyses_command_->parsed()) return analyses_;
     return schema_;
   }
 
@@ -202,6 +205,7 @@ class Parser {
   CLI::App* report_command_ = nullptr;
   CLI::App* laws_command_ = nullptr;
   CLI::App* methods_command_ = nullptr;
+  CLI::App* analyses_command_ = nullptr;
   CLI::App* schema_command_ = nullptr;
   std::vector<std::string> plugins_ = plugins_of_environment();
   RunCommand run_;
@@ -210,6 +214,7 @@ class Parser {
   ReportCommand report_;
   LawsCommand laws_;
   MethodsCommand methods_;
+  AnalysesCommand analyses_;
   SchemaCommand schema_;
 };
 

@@ -34,6 +34,10 @@ struct MethodsCommand {
   std::string name;
 };
 
+struct AnalysesCommand {
+  std::string name;
+};
+
 struct SchemaCommand {
   bool markdown = false;
 };
@@ -60,8 +64,8 @@ struct Leave {
   bool json = false;  ///< the caller wanted JSON
 };
 
-using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, SchemaCommand, IdentifyCommand,
-                             ReportCommand, Leave>;
+using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, AnalysesCommand, SchemaCommand,
+                             IdentifyCommand, ReportCommand, Leave>;
 
 /// A command line.
 struct Call {

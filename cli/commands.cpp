@@ -14,8 +14,8 @@
 #include <thread>
 #include <tuple>
 
-#include "bench/campaign.hpp"
-#include "bench/mechanism_study.hpp"
+#include "bench/analyses.hpp"
+#include "bench/processes.hpp"
 #include "cli/conformance.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
@@ -97,13 +97,13 @@ void refuse_unusable(const std::string& directory) {
 }
 
 /// Those that mpirun started; one otherwise. They part when the program ends.
-bench::Processes& processes() {
-  static bench::Processes all;
+const std::shared_ptr<bench::Processes>& processes() {
+  static const auto all = std::make_shared<bench::Processes>();
   return all;
 }
 
 /// A line on a terminal that is written over and over.
-void show(const bench::Progress& progress) {
+void show(const scenarios::Progress& progress) {
   std::cerr << "\r\x1b[K" << progress.done << " of " << progress.all << " cases, "
             << core::format_number(progress.rate, 3) << " a second";
   if (progress.done < progress.all)
@@ -112,28 +112,16 @@ void show(const bench::Progress& progress) {
     std::cerr << "\n";
 }
 
-struct CampaignChoice {
-  int threads = 0;
-  bool resume = false;
-  bool quiet = false;
-};
-
-scenarios::RunResult compute(const Scenario& scenario, const std::string& directory, const CampaignChoice& choice) {
-  if (bench::is_mechanism_study(scenario)) return bench::run_mechanism_study(scenario);
-  if (!bench::is_campaign(scenario)) return scenarios::run(scenario);
-  bench::CampaignOptions options{.threads = choice.threads, .resume = choice.resume};
-  if (!choice.quiet && processes().rank() == 0 && ::isatty(STDERR_FILENO) != 0) options.progress = show;
-  return bench::run_campaign(scenario, directory, options, processes());
-}
-
 /// Of several processes only the first has anything to say.
-bool is_silent() { return bench::Processes::several() && processes().rank() != 0; }
+bool is_silent() { return bench::Processes::several() && processes()->rank() != 0; }
 
-Report run_and_write(Scenario loaded, const std::string& directory, const CampaignChoice& choice = {}) {
-  refuse_unusable(directory);
-  if (is_silent() && !bench::is_campaign(loaded)) return {};
+Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet) {
+  refuse_unusable(options.directory);
+  options.processes = processes();
+  if (!quiet && processes()->rank() == 0 && ::isatty(STDERR_FILENO) != 0) options.progress = show;
+  const std::string directory = options.directory;
   const auto scenario = std::make_shared<const Scenario>(std::move(loaded));
-  const auto result = std::make_shared<const scenarios::RunResult>(compute(*scenario, directory, choice));
+  const auto result = std::make_shared<const scenarios::RunResult>(scenarios::run(*scenario, options));
   if (is_silent()) return {};
   const std::vector<scenarios::OutputFile> files = scenarios::output_files(scenario, result);
 
@@ -155,20 +143,20 @@ Report run_and_write(Scenario loaded, const std::string& directory, const Campai
   return report;
 }
 
+/// nullptr where the question is none.
+const scenarios::Campaign* campaign_of(const Scenario& scenario) {
+  return dynamic_cast<const scenarios::Campaign*>(scenario.question.get());
+}
+
 /// `directory`: where results would go; empty when nothing would be run.
 Report checked(const Scenario& scenario, const std::string& directory) {
   Report report;
   report.text = scenario.file + ": valid: " + scenario.analysis_name;
   if (!directory.empty()) report.text += ", results would go to " + directory;
   report.text += "\n";
-  if (bench::is_campaign(scenario) && !directory.empty()) {
-    const bench::CampaignSize size = bench::size_of(scenario);
-    constexpr int digits = 2;
-    report.text += "  " + std::to_string(size.cases) + " cases of " + std::to_string(size.motions) + " motions, " +
-                   std::to_string(size.estimates) + " estimates: about " +
-                   core::format_number(size.seconds, digits) + " s on this machine's cores, " +
-                   core::format_number(size.megabytes, digits) + " MB\n";
-  }
+  const scenarios::Campaign* campaign = campaign_of(scenario);
+  if (campaign != nullptr && !directory.empty())
+    report.text += "  " + campaign->size(scenarios::context_of(scenario, {})) + "\n";
   report.json = scenarios::json_checked(scenario);
   return report;
 }
@@ -181,14 +169,16 @@ std::string output_directory(const RunCommand& command, const std::string& file)
 
 Report run_file(const RunCommand& command, const std::string& file) {
   return guarded([&] {
-    LoadOptions options;
+    LoadOptions options{.analyses = bench::analyses()};
     for (const std::string& assignment : command.set) options.set.push_back({assignment});
     Scenario scenario = scenarios::load_scenario(file, options);
     const std::string directory = output_directory(command, file);
-    if (command.resume && !bench::is_campaign(scenario))
+    if (command.resume && campaign_of(scenario) == nullptr)
       return refused(ExitStatus::usage, file + ": --resume goes on with a stress test, and this is none");
     if (command.dry_run) return checked(scenario, directory);
-    return run_and_write(std::move(scenario), directory, {command.jobs, command.resume, command.quiet});
+    return run_and_write(std::move(scenario),
+                         {.directory = directory, .threads = command.jobs, .resume = command.resume},
+                         command.quiet);
   });
 }
 
@@ -289,7 +279,9 @@ int execute(const RunCommand& command) {
 int execute(const CheckCommand& command) {
   InOrder reports(command.files.size(), {});
   for (std::size_t i = 0; i < command.files.size(); ++i)
-    reports.put(i, guarded([&] { return checked(scenarios::load_scenario(command.files[i]), {}); }));
+    reports.put(i, guarded([&] {
+                  return checked(scenarios::load_scenario(command.files[i], {.analyses = bench::analyses()}), {});
+                }));
   return finish(reports.worst());
 }
 
@@ -334,7 +326,9 @@ int execute(const IdentifyCommand& command) {
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
                const fs::path standard = fs::path("results") / fs::path(command.data).stem();
-               return run_and_write(scenario_of(command), command.out.empty() ? standard.string() : command.out);
+               return run_and_write(scenario_of(command),
+                                    {.directory = command.out.empty() ? standard.string() : command.out},
+                                    command.quiet);
              }),
              style);
 }
@@ -379,9 +373,12 @@ int execute(const LawsCommand& command) {
 
 int execute(const MethodsCommand& command) { return say(of_list(list_methods(command.name)), {}); }
 
+int execute(const AnalysesCommand& command) { return say(of_list(list_analyses(command.name)), {}); }
+
 int execute(const SchemaCommand& command) {
   Report report;
-  report.text = command.markdown ? scenarios::reference_page() : scenarios::json_schema();
+  report.text =
+      command.markdown ? scenarios::reference_page(bench::analyses()) : scenarios::json_schema(bench::analyses());
   return say(report, {});
 }
 

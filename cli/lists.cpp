@@ -1,5 +1,8 @@
 #include "cli/lists.hpp"
 
+#include <type_traits>
+
+#include "bench/analyses.hpp"
 #include "cli/print.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
@@ -10,10 +13,18 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
+template <typename Entry>
+std::string name_of(const Entry& entry) {
+  if constexpr (std::is_pointer_v<Entry>)
+    return std::string(entry->name);
+  else
+    return std::string(entry.name);
+}
+
 template <typename Entries>
 Listing unknown(const std::string& what, const std::string& name, const Entries& entries) {
   std::string names;
-  for (const auto& entry : entries) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const auto& entry : entries) names += (names.empty() ? "" : ", ") + name_of(entry);
   return {"there is no " + what + " '" + name + "'; there are: " + names, false};
 }
 
@@ -51,6 +62,36 @@ std::string facts_of(const friction::LawEntry& law) {
   return columns(rows);
 }
 
+/// Keys of an analysis beside its type.
+std::string keys_of(const scenarios::Analysis& analysis) {
+  if (analysis.keys.fields.empty()) return {};
+  Rows rows = {{"key", "values", "meaning"}};
+  for (const scenarios::Field& field : analysis.keys.fields)
+    rows.push_back({field.name, scenarios::describe_values(field), field.meaning});
+  return "\n" + columns(rows);
+}
+
+/// Fields of its result.
+std::string results_of(const scenarios::Analysis& analysis) {
+  if (analysis.results.empty()) return {};
+  Rows rows = {{"result", "unit", "meaning"}};
+  for (const scenarios::ResultField& field : analysis.results)
+    rows.push_back({field.path, field.unit == "1" ? "-" : field.unit, field.meaning});
+  return "\n" + columns(rows);
+}
+
+/// "data with excitation base_harmonic or none", one line a source of its data.
+std::string needs_of(const scenarios::Analysis& analysis) {
+  std::string text;
+  for (const scenarios::Needs& needs : analysis.needs) {
+    const std::string source = needs.source.empty() ? "" : " with " + needs.source;
+    const std::string what =
+        needs.excitations.empty() ? "no system" : "a system, excitation " + scenarios::joined(needs.excitations);
+    text += "  needs" + source + ": " + what + "\n";
+  }
+  return text;
+}
+
 std::string needs_of(const identify::MethodEntry& method) { return std::string(identify::describe(method.needs)); }
 
 }  // namespace
@@ -83,6 +124,19 @@ Listing list_methods(const std::string& name) {
           std::string(method->equation) + "\n\n  needs: " + needs_of(*method) +
           "\n  assumes: " + std::string(method->assumes) + "\n  sources: " + std::string(method->sources) +
           " in docs/refs.bib\n  page: docs/methods/" + std::string(method->name) + ".md\n"};
+}
+
+Listing list_analyses(const std::string& name) {
+  if (name.empty()) {
+    Rows rows;
+    for (const scenarios::Analysis* analysis : bench::analyses())
+      rows.push_back({std::string(analysis->name), std::string(analysis->summary)});
+    return {columns(rows)};
+  }
+  const scenarios::Analysis* analysis = scenarios::find_analysis(bench::analyses(), name);
+  if (analysis == nullptr) return unknown("analysis", name, bench::analyses());
+  return {name + ": " + std::string(analysis->summary) + "\n\n" + needs_of(*analysis) +
+          "  page: docs/analyses.md\n" + keys_of(*analysis) + results_of(*analysis)};
 }
 
 }  // namespace dualdamp::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// The registries for people: `dualdamp laws` and `dualdamp methods`.
+/// The registries for people: `dualdamp laws`, `dualdamp methods` and `dualdamp analyses`.
 
 #include <string>
 
@@ -14,5 +14,7 @@ struct Listing {
 [[nodiscard]] Listing list_laws(const std::string& name);
 /// All methods, or what `name` is.
 [[nodiscard]] Listing list_methods(const std::string& name);
+/// All analyses, or what `name` is.
+[[nodiscard]] Listing list_analyses(const std::string& name);
 
 }  // namespace dualdamp::cli

@@ -1,22 +1,17 @@
+#include "scenarios/check_expectations.hpp"
+
 #include <algorithm>
 #include <cctype>
-
-#include "scenarios/checks_of_analyses.hpp"
-#include "scenarios/result_fields.hpp"
-#include "scenarios/text_checks.hpp"
 
 namespace dualdamp::scenarios {
 
 namespace {
 
 /// Indices whose bound is known before the run.
-void check_index(CheckedFile& file, Place place, const ResultPath& path) {
-  std::optional<std::size_t> count;
-  if (path.pattern.starts_with("points[]")) count = file.points();
-  if (path.pattern.starts_with("boundary[]") && file.has("analysis", "frequencies"))
-    count = grid_size(file.values().at("analysis").at("frequencies"));
-  if (path.pattern.starts_with("estimates[]") && file.has("analysis", "methods"))
-    count = file.values().at("analysis").at("methods").size();
+void check_index(CheckedFile& file, const Analysis& analysis, Place place, const ResultPath& path) {
+  const std::size_t bracket = path.pattern.find("[]");
+  if (bracket == std::string::npos || analysis.length_of == nullptr) return;
+  const auto count = analysis.length_of(file, path.pattern.substr(0, bracket));
   if (count && path.indices.front() >= *count)
     file.complain(place, "there is no such item in the result", "an index below " + std::to_string(*count),
                   std::to_string(path.indices.front()));
@@ -24,13 +19,11 @@ void check_index(CheckedFile& file, Place place, const ResultPath& path) {
 
 }  // namespace
 
-void check_expectations(CheckedFile& file) {
+void check_expectations(CheckedFile& file, const Analysis& analysis) {
   if (!file.values().contains("expect")) return;
-  std::string formula;
-  if (file.has("analysis", "formula"))
-    formula = file.values().at("analysis").at("formula").at("name").get<std::string>();
   std::vector<std::string> patterns;
-  for (const ResultField& field : result_fields(file.analysis(), formula)) patterns.push_back(field.path);
+  for (const ResultField& field : result_fields(analysis, file.values().at("analysis")))
+    patterns.push_back(field.path);
   for (std::size_t i = 0; i < file.values().at("expect").size(); ++i) {
     const Json& expectation = file.values().at("expect").at(i);
     if (!expectation.contains("value") || patterns.empty()) continue;
@@ -41,7 +34,7 @@ void check_expectations(CheckedFile& file) {
       file.complain(place, "the result of analysis '" + file.analysis() + "' has no number '" + text + "'",
                     joined(patterns), {}, nearest(path ? path->pattern : text, patterns));
     } else {
-      check_index(file, place, *path);
+      check_index(file, analysis, place, *path);
     }
   }
 }

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
-#include "scenarios/checks_of_analyses.hpp"
+#include "scenarios/check_expectations.hpp"
+#include "scenarios/format/excitations.hpp"
+#include "scenarios/format/values.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -33,7 +35,7 @@ void check_sections(CheckedFile& file) {
 /// Only measured data do without them.
 void check_constants(CheckedFile& file) {
   if (file.node("system") == nullptr) return;
-  const Section& section = scenario_format().find("system")->choice->variants.front().section;
+  const Section& section = file.keys_of("system");
   for (const char* key : {"mass", "stiffness"})
     if (!file.stands_in_file("system", key))
       file.complain(file.node("system")->head(), "'system." + std::string(key) + "' is missing",
@@ -78,7 +80,7 @@ void resolve_damping(CheckedFile& file) {
   Json& system = file.values()["system"];
   system.erase("damping_ratio");
   system["damping"] = *ratio * 2.0 * std::sqrt(*m * *k);
-  put_in_order(system, scenario_format().find("system")->choice->variants.front().section);
+  put_in_order(system, file.keys_of("system"));
 }
 
 void resolve_frequency(CheckedFile& file) {
@@ -113,38 +115,27 @@ void resolve_frequency(CheckedFile& file) {
   frequency = core::format_number(value) + " rad/s";
 }
 
-void check_map(CheckedFile& file) {
-  const auto count = file.points();
-  if (count && static_cast<double>(*count) > max_points)
-    file.complain("analysis.type", "the map has too many points",
-                  "at most " + core::format_number(max_points, 6) + " frequencies times amplitudes",
-                  std::to_string(*count));
-}
-
 }  // namespace
 
-std::optional<identify::MeasuredRecord> check(const Document& document, Reading& reading,
-                                              const CheckOptions& options) {
-  CheckedFile file(document, reading);
-  const std::string& analysis = file.analysis();
+Checked check(const Document& document, Reading& reading, const Section& format, const AnalysisList& analyses,
+              const DataPlace& data_place) {
+  const Json nothing = Json::object();
+  const Json& section = reading.values.contains("analysis") ? reading.values.at("analysis") : nothing;
+  const Analysis* analysis =
+      section.contains("type") ? find_analysis(analyses, section.at("type").get<std::string>()) : nullptr;
+  static const std::vector<Needs> unknown;
+  CheckedFile file(document, reading, format, analysis == nullptr ? unknown : analysis->needs, data_place);
   if (!file.stands_in_file("analysis", "data")) check_constants(file);
-  if (analysis.empty()) return std::nullopt;
+  if (analysis == nullptr) return {};
   if (file.needs() != nullptr) {
     check_sections(file);
     check_excitation(file);
   }
   resolve_damping(file);
   resolve_frequency(file);
-  if (analysis == "simulate")
-    check_work(file, file.values().at("analysis"), "analysis", file.number_at("analysis", "sample_rate"), 1);
-  if (analysis == "identify") check_measurement(file);
-  if (analysis == "regime_map") check_map(file);
-  std::optional<identify::MeasuredRecord> data = read_data(file, options);
-  if (analysis == "identify") resolve_methods(file, data);
-  if (analysis == "stress_test") check_stress_test(file);
-  if (analysis == "mechanisms") check_mechanisms(file);
-  check_expectations(file);
-  return data;
+  if (analysis->check != nullptr) analysis->check(file);
+  check_expectations(file, *analysis);
+  return {analysis, std::move(file.data)};
 }
 
 }  // namespace dualdamp::scenarios

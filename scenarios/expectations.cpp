@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
-#include "scenarios/checks.hpp"
+#include "scenarios/check_expectations.hpp"
 
 namespace dualdamp::scenarios {
 

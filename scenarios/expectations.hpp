@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scenarios/json.hpp"
+#include "scenarios/format/json.hpp"
 #include "scenarios/run.hpp"
 
 namespace dualdamp::scenarios {

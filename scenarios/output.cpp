@@ -6,7 +6,7 @@
 
 #include "core/build_info.hpp"
 #include "core/numbers.hpp"
-#include "scenarios/json.hpp"
+#include "scenarios/format/json.hpp"
 
 namespace dualdamp::scenarios {
 

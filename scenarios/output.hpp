@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "scenarios/files.hpp"
+#include "scenarios/results/files.hpp"
 #include "scenarios/run.hpp"
 
 namespace dualdamp::scenarios {

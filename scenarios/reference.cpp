@@ -2,9 +2,7 @@
 #include <set>
 
 #include "core/units.hpp"
-#include "scenarios/format.hpp"
-#include "scenarios/formulas.hpp"
-#include "scenarios/result_fields.hpp"
+#include "scenarios/scenario_format.hpp"
 #include "scenarios/schema.hpp"
 
 namespace dualdamp::scenarios {
@@ -44,11 +42,8 @@ class Page {
       heading(level, "`" + path + "` with `" + choice.key + ": " + variant.name + "`");
       paragraph(capitalised(variant.summary) + ".");
       keys(variant.section, choice.key);
-      if (path == "analysis") results(variant.name, {});
-      if (path == "analysis.formula") {
-        paragraph("`" + std::string(find_formula(variant.name)->equation) + "`");
-        results("formula", variant.name);
-      }
+      if (!variant.equation.empty()) paragraph("`" + variant.equation + "`");
+      results(variant.results);
       nested(level + 1, path, variant.section);
     }
   }
@@ -91,8 +86,7 @@ class Page {
     text_ += "\n";
   }
 
-  void results(const std::string& analysis, const std::string& formula) {
-    const std::vector<ResultField> fields = result_fields(analysis, formula);
+  void results(const std::vector<ResultField>& fields) {
     if (fields.empty()) return;
     paragraph("Its result:");
     text_ += "\n| path | unit | meaning |\n|---|---|---|\n";
@@ -106,13 +100,14 @@ class Page {
 
 }  // namespace
 
-std::string reference_page() {
+std::string reference_page(const AnalysisList& list) {
+  const Section format = scenario_format(list);
   Page page;
   page.paragraph(
       "Made by `dualdamp schema --markdown` from the tables of the scenario reader; a test keeps it fresh.");
   page.heading(2, "The file");
-  page.keys(scenario_format());
-  page.nested(2, "", scenario_format());
+  page.keys(format);
+  page.nested(2, "", format);
   return "# Scenario reference\n" + page.take();
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Runs a scenario: the question of the file put to `sim` and `identify`, the answer as JSON and tables.
+/// Runs a scenario: its question, the answer as JSON and tables.
 ///
 /// A number that does not exist is null in the JSON and an empty field in a table, never a stand-in. A curve keeps
 /// its good points when others fail; when none is left, or the one number asked for does not exist, the status
-/// is 4.
+/// is 4. It is 5 where cases of a campaign have failed.
 
 #include <optional>
 #include <string>
@@ -11,8 +11,8 @@
 
 #include "core/diagnostics.hpp"
 #include "core/provenance.hpp"
+#include "scenarios/results/table.hpp"
 #include "scenarios/scenario.hpp"
-#include "scenarios/table.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -27,7 +27,7 @@ struct Check {
 };
 
 struct RunResult {
-  core::ExitStatus status = core::ExitStatus::done;  ///< done, check_failed or numerical_failure
+  core::ExitStatus status = core::ExitStatus::done;  ///< done, check_failed, numerical_failure, some_cases_failed
   std::string result = "null";                       ///< JSON; null stands for a list that is one of `tables`
   std::string failure;                               ///< why there is no result
   std::vector<std::string> warnings;
@@ -45,13 +45,12 @@ struct RunResult {
 /// What is known of a run's origin before it begins.
 [[nodiscard]] core::Provenance provenance_of(const Scenario& scenario);
 
-/// The result of a run that gave this JSON, null where a list is one of the tables: its summary and its comparison
-/// with the expected values.
-[[nodiscard]] RunResult assemble(const Scenario& scenario, const std::string& json, std::vector<Table> tables,
-                                 core::Provenance provenance);
+/// What the question is run on. The scenario and the options outlive it.
+[[nodiscard]] RunContext context_of(const Scenario& scenario, const RunOptions& options);
 
-/// Of every analysis but those that bench/ answers (`stress_test`: campaign.hpp; `mechanisms`:
-/// mechanism_study.hpp). Errors: `core::InputError` when an expected value turns out not to be in the result.
-[[nodiscard]] RunResult run(const Scenario& scenario);
+/// Of several processes only the first has a result; the others share a campaign and return an empty one.
+/// Errors: `core::InputError` when an expected value turns out not to be in the result; those of a campaign's
+/// files.
+[[nodiscard]] RunResult run(const Scenario& scenario, const RunOptions& options = {});
 
 }  // namespace dualdamp::scenarios

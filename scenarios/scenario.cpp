@@ -1,20 +1,19 @@
 #include "scenarios/scenario.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
+#include <tuple>
 
-#include "core/numbers.hpp"
 #include "core/provenance.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/record.hpp"
 #include "scenarios/checks.hpp"
-#include "scenarios/files.hpp"
-#include "scenarios/format.hpp"
-#include "scenarios/formulas.hpp"
-#include "scenarios/law_values.hpp"
-#include "scenarios/reader.hpp"
+#include "scenarios/format/law_values.hpp"
+#include "scenarios/format/reader.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/results/files.hpp"
+#include "scenarios/scenario_format.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/orbits/steady_state.hpp"
 
@@ -32,35 +31,6 @@ void refuse_other_schema(const Document& document) {
                        std::string(schema_name),
                        entry->value.text,
                        {}});
-}
-
-double number_or(const Json& section, const char* key, double fallback) {
-  return section.contains(key) ? number(section.at(key)) : fallback;
-}
-
-/// The decimal number a person means: 0 to 0.6 in six steps passes 0.1, not 0.09999999999999999.
-double plain(double value) {
-  constexpr int digits = 14;
-  return core::parse_number(core::format_number(value, digits)).value.value_or(value);
-}
-
-std::vector<double> grid_values(const Json& grid) {
-  std::vector<double> values;
-  if (grid.is_array()) {
-    for (const Json& value : grid) values.push_back(number(value));
-    return values;
-  }
-  const double from = number(grid.at("from"));
-  const double to = number(grid.at("to"));
-  const auto count = grid.at("count").get<std::size_t>();
-  const bool is_log = grid.at("spacing") == "log";
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    values.push_back(is_log ? from * std::pow(to / from, share) : plain(from + share * (to - from)));
-  }
-  values.front() = from;
-  values.back() = to;
-  return values;
 }
 
 sim::Oscillator oscillator(const Json& system) {
@@ -148,178 +118,6 @@ sim::Model model(const Json& values) {
   return result;
 }
 
-Measurement measurement(const Json& section, const sim::Model& model) {
-  Measurement result;
-  const auto type = section.at("type").get<std::string>();
-  if (type == "free_decay") {
-    result.kind = MeasurementKind::free_decay;
-    result.peaks = section.at("peaks").get<int>();
-    return result;
-  }
-  if (section.contains("amplitudes")) result.amplitudes = grid_values(section.at("amplitudes"));
-  if (section.contains("frequencies")) result.frequencies = grid_values(section.at("frequencies"));
-  result.sweeps = section.at("sweeps").get<int>();
-  if (section.contains("friction_drift")) {
-    const Json& drift = section.at("friction_drift");
-    result.drift = {number(drift.at("rate")), number(drift.at("walk")), drift.at("seed").get<std::uint64_t>()};
-  }
-  if (type != "simulate") return result;
-  result.kind = MeasurementKind::histories;
-  const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
-  result.duration =
-      section.contains("cycles") ? number(section.at("cycles")) * period : number(section.at("duration"));
-  result.settle = number(section.at("settle"));
-  if (section.contains("signals")) {
-    const Json& signals = section.at("signals");
-    result.with_v = std::ranges::find(signals, "v") != signals.end();
-    result.with_a = std::ranges::find(signals, "a") != signals.end();
-  }
-  return result;
-}
-
-identify::Sensors sensors(const Json& section) {
-  identify::Sensors result;
-  result.sample_rate = number_or(section, "sample_rate", 0.0);
-  result.average_cycles = section.at("average_cycles").get<int>();
-  const auto read = [&](const char* name, identify::Sensor& sensor) {
-    if (!section.contains(name)) return;
-    const Json& values = section.at(name);
-    sensor = {.noise = number(values.at("noise")),
-              .resolution = number(values.at("resolution")),
-              .gain_error = number(values.at("gain_error")),
-              .phase_lag = number_or(values, "phase_lag", 0.0),
-              .delay = number_or(values, "delay", 0.0),
-              .clipping = number_or(values, "clipping", sensor.clipping)};
-  };
-  read("y", result.y);
-  read("x", result.x);
-  read("v", result.v);
-  read("a", result.a);
-  read("force", result.force);
-  return result;
-}
-
-Identify identify_question(const Json& section, const sim::Model& model,
-                           std::optional<identify::MeasuredRecord> data) {
-  Identify result;
-  result.constants = {model.oscillator.mass, model.oscillator.stiffness,
-                      model.excitation.is_harmonic() ? model.excitation.frequency : identify::unknown};
-  for (const Json& name : section.at("methods"))
-    result.methods.push_back(identify::find_method(name.get<std::string>()));
-  result.options.approximate_G = section.at("approximate_G").get<bool>();
-  result.options.zero_offset = section.at("zero_offset").get<bool>();
-  result.options.sigma_x = number_or(section, "sigma_x", 0.0);
-  result.options.sigma_Y = number_or(section, "sigma_Y", 0.0);
-  result.options.profile = section.at("profile").get<bool>();
-  result.options.free_natural_frequency = section.at("free_natural_frequency").get<bool>();
-  result.options.least_speed = number_or(section, "least_speed", result.options.least_speed);
-  result.options.forgetting = number_or(section, "forgetting", result.options.forgetting);
-  result.options.sign_width = number_or(section, "sign_width", result.options.sign_width);
-  if (section.contains("bootstrap")) result.options.bootstrap = section.at("bootstrap").get<int>();
-  if (section.contains("cutoffs"))
-    for (const Json& cutoff : section.at("cutoffs"))
-      result.options.cutoffs.push_back(number(cutoff) / (2.0 * std::numbers::pi));
-  if (section.contains("pairs")) {
-    result.options.first_pair = section.at("pairs")[0].get<int>();
-    result.options.second_pair = section.at("pairs")[1].get<int>();
-  }
-  if (data) {
-    result.source = std::move(data->record);
-    result.data_file = section.at("data").get<std::string>();
-    result.data_sha256 = data->sha256;
-    result.data_warnings = std::move(data->warnings);
-    return result;
-  }
-  result.source = measurement(section.at("measurement"), model);
-  if (section.contains("sensors")) {
-    result.sensors = sensors(section.at("sensors"));
-    result.sensor_seed = section.at("sensors").at("seed").get<std::uint64_t>();
-  }
-  return result;
-}
-
-/// `system`: its friction is the truth, one Coulomb law (checks.cpp).
-StressTest stress_test(const Json& section, const Json& system, double frequency) {
-  StressTest result;
-  result.F0 = number(system.at("friction").at("kinetic"));
-  for (const Json& name : section.at("laws")) result.laws.push_back(sim::find_departure(name.get<std::string>()));
-  result.severities = grid_values(section.at("severities"));
-  std::ranges::sort(result.severities);
-  for (const Json& range : section.at("ranges"))
-    result.ranges.push_back(
-        {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
-         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{frequency}});
-  if (section.contains("sensors"))
-    for (const Json& set : section.at("sensors"))
-      result.sensors.push_back({set.at("name").get<std::string>(), sensors(set)});
-  else
-    result.sensors.push_back({"perfect", {}});
-  result.seeds = section.at("seeds").get<int>();
-  if (section.contains("decay"))
-    result.decay = {number(section.at("decay").at("displacement")), section.at("decay").at("peaks").get<int>()};
-  for (const Json& name : section.at("methods"))
-    result.methods.push_back(identify::find_method(name.get<std::string>()));
-  return result;
-}
-
-/// `system`: its friction is what the rig is believed to have, one Coulomb law (checks.cpp).
-MechanismStudy mechanism_study(const Json& section, const Json& system) {
-  MechanismStudy result;
-  result.friction = {number(system.at("friction").at("kinetic")), number(system.at("damping"))};
-  for (const Json& item : section.at("estimates"))
-    result.estimates.push_back({number(item.at("share")), number(item.at("zeta")), number(item.at("F0")),
-                                number(item.at("zeta_std")), number(item.at("F0_std"))});
-  std::ranges::sort(result.estimates, std::ranges::greater{}, &PartEstimate::share);
-  if (section.contains("amplitudes")) result.amplitudes = grid_values(section.at("amplitudes"));
-  std::ranges::sort(result.amplitudes);
-  result.levels = section.contains("levels") ? section.at("levels").get<std::size_t>() : result.amplitudes.size();
-  for (const Json& name : section.at("mechanisms"))
-    result.mechanisms.push_back(sim::find_mechanism(name.get<std::string>()));
-  for (const Json& item : section.at("plausible")) {
-    const sim::Mechanism* mechanism = sim::find_mechanism(item.at("mechanism").get<std::string>());
-    PlausibleRig rig{mechanism, item.at("case").get<std::string>(), {}, item.at("because").get<std::string>()};
-    for (const sim::MechanismParameter& parameter : mechanism->parameters)
-      rig.values.push_back(number(item.at(std::string(parameter.name))));
-    result.plausible.push_back(std::move(rig));
-  }
-  if (!section.contains("decay")) return result;
-  const Json& decay = section.at("decay");
-  const auto segment = [&](const char* name) {
-    return MeasuredDecay::Segment{number(decay.at(name).at("zeta")), number(decay.at(name).at("x_f"))};
-  };
-  result.decay = {number(decay.at("stiffness")), number(decay.at("displacement")), segment("high"), segment("low")};
-  return result;
-}
-
-BranchQuestion branch(sim::BranchParameter parameter, const Json& range) {
-  return {parameter, number(range.at("from")), number(range.at("to"))};
-}
-
-Analysis analysis(const Json& section, const Json& system, const sim::Model& model,
-                  std::optional<identify::MeasuredRecord> data) {
-  const auto type = section.at("type").get<std::string>();
-  if (type == "simulate") {
-    const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
-    const double duration =
-        section.contains("cycles") ? number(section.at("cycles")) * period : number(section.at("duration"));
-    return Simulate{duration, number_or(section, "sample_rate", 0.0)};
-  }
-  if (type == "steady_state") return SteadyStateQuestion{};
-  if (type == "xy_curve") return XyCurve{grid_values(section.at("amplitudes"))};
-  if (type == "frequency_response") return FrequencyResponse{grid_values(section.at("frequencies"))};
-  if (type == "regime_map")
-    return RegimeMap{grid_values(section.at("frequencies")), grid_values(section.at("amplitudes")),
-                     section.at("sticking_boundary").get<bool>()};
-  if (type == "xy_branch") return branch(sim::BranchParameter::amplitude, section.at("amplitudes"));
-  if (type == "frequency_branch") return branch(sim::BranchParameter::frequency, section.at("frequencies"));
-  if (type == "free_decay") return FreeDecayQuestion{section.at("peaks").get<int>()};
-  if (type == "stress_test") return stress_test(section, system, model.excitation.frequency);
-  if (type == "mechanisms") return mechanism_study(section, system);
-  if (type == "identify") return identify_question(section, model, std::move(data));
-  const Json& formula = section.at("formula");
-  return Formula{formula.at("name").get<std::string>(), formula.dump()};
-}
-
 std::vector<Expectation> expectations(const Json& values, const Document& document, const Reading& reading) {
   std::vector<Expectation> result;
   if (!values.contains("expect")) return result;
@@ -358,9 +156,10 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   for (const Override& item : options.set) document.set(item.assignment, item.origin);
   refuse_other_schema(document);
 
-  Reading reading = read(document, scenario_format());
+  const Section format = scenario_format(options.analyses);
+  Reading reading = read(document, format);
   const std::string directory = std::filesystem::path(name).parent_path().string();
-  std::optional<identify::MeasuredRecord> data = check(document, reading, {directory, options.data_anywhere});
+  Checked checked = check(document, reading, format, options.analyses, {directory, options.data_anywhere});
   reading.problems.insert(reading.problems.end(), document.problems().begin(), document.problems().end());
   if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), name);
 
@@ -368,6 +167,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   Scenario scenario;
   scenario.file = name;
   scenario.file_sha256 = core::sha256(text);
+  if (checked.data) scenario.data_sha256 = checked.data->sha256;
   scenario.resolved = values.dump();
   for (const Override& item : options.set) scenario.overrides.push_back(item.assignment);
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
@@ -375,9 +175,11 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"));
   scenario.tolerance = tolerance_of(values, scenario.model);
-  scenario.analysis_name = values.at("analysis").at("type").get<std::string>();
-  scenario.analysis =
-      analysis(values.at("analysis"), values.value("system", Json()), scenario.model, std::move(data));
+  const Json& section = values.at("analysis");
+  scenario.analysis_name = std::string(checked.analysis->name);
+  scenario.result_fields = result_fields(*checked.analysis, section);
+  scenario.question =
+      checked.analysis->ask({section, values.value("system", Json()), scenario.model, std::move(checked.data)});
   scenario.expect = expectations(values, document, reading);
   return scenario;
 }

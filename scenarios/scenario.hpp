@@ -1,9 +1,13 @@
 #pragma once
 /// A scenario: the question a file asks, checked and in SI.
 ///
+///     run(load_scenario("decay.yaml"))                                      // the analyses of this library
+///     run(load_scenario("rig.yaml", {.analyses = bench::analyses()}))       // those of bench/ too
+///
 /// `load_scenario` reads a file by the tables of the format and refuses it, with every problem at once, unless the
 /// whole of it can be run. Format: docs/user-guide.md. Errors: `core::InputError`.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,67 +15,11 @@
 
 #include "core/diagnostics.hpp"
 #include "friction_models/parameters.hpp"
-#include "identify/methods.hpp"
-#include "scenarios/measure.hpp"
-#include "scenarios/mechanism_study.hpp"
-#include "scenarios/stress_test.hpp"
+#include "scenarios/analyses/analyses.hpp"
+#include "scenarios/analyses/analysis.hpp"
 #include "sim/model.hpp"
-#include "sim/orbits/continuation.hpp"
 
 namespace dualdamp::scenarios {
-
-struct Simulate {
-  double duration = 0.0;     ///< s
-  double sample_rate = 0.0;  ///< 1/s; 0: no history
-};
-
-struct SteadyStateQuestion {};
-
-struct XyCurve {
-  std::vector<double> amplitudes;  ///< m or N
-};
-
-struct FrequencyResponse {
-  std::vector<double> frequencies;  ///< rad/s
-};
-
-struct RegimeMap {
-  std::vector<double> frequencies;  ///< rad/s
-  std::vector<double> amplitudes;   ///< m or N
-  bool sticking_boundary = false;   ///< find it too
-};
-
-/// A branch of steady states; amplitudes in m or N, frequencies in rad/s.
-struct BranchQuestion {
-  sim::BranchParameter parameter = sim::BranchParameter::amplitude;
-  double from = 0.0;
-  double to = 0.0;
-};
-
-struct FreeDecayQuestion {
-  int peaks = 0;
-};
-
-struct Identify {
-  /// Measured data, or how to measure this scenario's system.
-  std::variant<identify::Record, Measurement> source;
-  identify::Sensors sensors;  ///< of a synthetic measurement
-  std::uint64_t sensor_seed = 0;
-  std::string data_file;  ///< as named in the scenario; empty for a synthetic measurement
-  std::string data_sha256;
-  std::vector<std::string> data_warnings;
-  std::vector<const identify::MethodEntry*> methods;
-  identify::KnownConstants constants;
-  identify::MethodOptions options;
-};
-
-struct Formula {
-  std::string name;
-  std::string arguments;  ///< JSON, SI
-};
-
-using Analysis = std::variant<Simulate, SteadyStateQuestion, XyCurve, FrequencyResponse, RegimeMap, BranchQuestion,
-                              FreeDecayQuestion, Identify, StressTest, MechanismStudy, Formula>;
 
 /// One expected value of a result.
 struct Expectation {
@@ -88,13 +36,15 @@ struct Scenario {
   std::string title;
   sim::Model model;  ///< meaningless for a formula
   std::string analysis_name;
-  Analysis analysis;
+  std::shared_ptr<const Question> question;
+  std::vector<ResultField> result_fields;  ///< what the result may hold
   std::vector<Expectation> expect;
   double tolerance = 0.0;
   std::vector<std::string> warnings;  ///< of the laws, about their parameters
 
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario
   std::string file_sha256;  ///< of the bytes of the file
+  std::string data_sha256;  ///< of the bytes of its data file; empty without one
   std::vector<std::string> overrides;  ///< `--set` texts
 };
 
@@ -105,9 +55,10 @@ struct Override {
 };
 
 struct LoadOptions {
-  std::vector<Override> set;
+  std::vector<Override> set = {};
   /// Data files may lie outside the scenario's directory: their names come from the command line, not from a file.
   bool data_anywhere = false;
+  AnalysisList analyses = scenarios::analyses();  ///< what the file may ask for
 };
 
 /// Reads a file. A file that cannot be read is an `InputError` too.

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/units.hpp"
-#include "scenarios/format.hpp"
-#include "scenarios/json.hpp"
+#include "scenarios/format/excitations.hpp"
+#include "scenarios/scenario_format.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -182,16 +182,16 @@ Json has_type(const std::string& section, const std::string& type) {
           {"properties", {{section, {{"required", {"type"}}, {"properties", {{"type", {{"const", type}}}}}}}}}};
 }
 
-/// The condition under which a row of `needs()` holds.
-Json condition_of(const Needs& row) {
-  Json condition = has_type("analysis", row.analysis);
+/// The condition under which a row of needs holds.
+Json condition_of(const Analysis& owner, const Needs& row) {
+  Json condition = has_type("analysis", std::string(owner.name));
   Json& analysis = condition["properties"]["analysis"];
-  if (row.measurement == "data") {
+  if (row.source == "data") {
     analysis["required"].push_back("data");
-  } else if (!row.measurement.empty()) {
+  } else if (!row.source.empty()) {
     analysis["required"].push_back("measurement");
     analysis["properties"]["measurement"] = {{"required", {"type"}},
-                                             {"properties", {{"type", {{"const", row.measurement}}}}}};
+                                             {"properties", {{"type", {{"const", row.source}}}}}};
   }
   return condition;
 }
@@ -223,17 +223,18 @@ Json demands_of(const Needs& row) {
 
 }  // namespace
 
-std::string json_schema() {
+std::string json_schema(const AnalysisList& list) {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "dualdamp scenario"},
                  {"description", "Made by 'dualdamp schema' from the tables of the scenario reader."}};
   // YAML readers know .inf and .nan. NaN passes any bound, so it is the negation of one that catches it.
   constexpr double largest = std::numeric_limits<double>::max();
   schema["definitions"]["not_finite"] = {{"anyOf", {{{"minimum", largest}}, {{"maximum", -largest}}}}};
-  schema.update(object_schema(scenario_format(), nullptr, ""));
+  schema.update(object_schema(scenario_format(list), nullptr, ""));
   schema["allOf"] = Json::array();
-  for (const Needs& row : needs())
-    schema["allOf"].push_back({{"if", condition_of(row)}, {"then", demands_of(row)}});
+  for (const Analysis* analysis : list)
+    for (const Needs& row : analysis->needs)
+      schema["allOf"].push_back({{"if", condition_of(*analysis, row)}, {"then", demands_of(row)}});
   return schema.dump(1) + "\n";
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "identify/method.hpp"
-#include "scenarios/measure.hpp"
+#include "scenarios/measurements/measure.hpp"
 
 namespace dualdamp::bench {
 

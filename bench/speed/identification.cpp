@@ -9,7 +9,7 @@
 #include "bench/speed/timing.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "identify/methods.hpp"
-#include "scenarios/measure.hpp"
+#include "scenarios/measurements/measure.hpp"
 
 namespace dualdamp::bench::speed {
 

@@ -10,9 +10,8 @@ extern const std::string_view page_css;
 extern const std::string_view data_js;
 extern const std::string_view elements_js;
 extern const std::string_view chart_js;
-extern const std::string_view mechanisms_js;
-extern const std::string_view stress_js;
 extern const std::string_view views_js;
+extern const std::string_view views_of_analyses_js;
 extern const std::string_view page_js;
 extern const std::string_view d3_min_js;
 

@@ -51,16 +51,15 @@ function body() {
   const parts = [];
   for (const error of run.errors) parts.push(make("p", { class: "note bad" }, error.message));
   if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
-  // Why an estimate is not usable stands beside it.
-  const said = (run.result?.estimates ?? []).map((e) => `${e.method} is not usable: ${e.diagnostics.reason}`);
+  const view = run.result ? (views[run.analysis] ?? { charts: viewOfTables }) : {};
+  const said = view.said?.(result) ?? [];
   for (const warning of run.warnings.filter((text) => !said.includes(text))) parts.push(make("p", { class: "note" }, warning));
-  if (result.estimates) parts.push(heading("Estimates"), estimateTable(result.estimates));
-  parts.push(...stressTables(), ...mechanismTables(result));
+  parts.push(...(view.before?.(result) ?? []));
   const single = scalars(result).filter(({ path }) => !path.startsWith("fit.") && path !== "verdict" && path !== "" && path !== "fit" && !path.startsWith("severities."));
   if (single.length) parts.push(heading("Numbers"), numbers(single.map((item) => ({ ...item, unit: unitOfScalar(item.path) }))));
-  const drawn = (views[run.analysis]?.(result) ?? []).filter(Boolean);
+  const drawn = (view.charts?.(result) ?? []).filter(Boolean);
   if (drawn.length) parts.push(make("div", { class: "charts", style: "margin-top:1rem" }, drawn));
-  parts.push(...furtherTables(result), ...checks());
+  parts.push(...(view.after?.(result) ?? []), ...checks());
   if (Object.keys(tables).length) parts.push(make("div", { class: "screen" }, heading("Tables"), Object.entries(tables).map(([name, t]) => folded(name, t))));
   return [...parts, ...provenance()];
 }

@@ -103,8 +103,8 @@ scenarios::OutputFile report_page(const std::string& directory) {
             const fs::path place(directory);
             std::string script;
             for (const std::string_view part :
-                 {assets::d3_min_js, assets::data_js, assets::elements_js, assets::chart_js,
-                  assets::mechanisms_js, assets::stress_js, assets::views_js, assets::page_js})
+                 {assets::d3_min_js, assets::data_js, assets::elements_js, assets::chart_js, assets::views_js,
+                  assets::views_of_analyses_js, assets::page_js})
               script += std::string(part) + "\n";
             write_page(out, {{"style", std::string(assets::page_css)},
                              {"document", embedded(document(place / "result.json"))},

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scenarios/files.hpp"
+#include "scenarios/results/files.hpp"
 
 namespace dualdamp::cli {
 

@@ -51,6 +51,13 @@ ROOMS = {
         "uncertainty": [".", "statistics", "records", "models"],
         "methods": [".", "statistics", "records", "models", "uncertainty"],
     },
+    "scenarios": {
+        ".": ["format", "results", "measurements", "analyses"],  # loads and runs
+        "format": [],
+        "results": ["format"],
+        "measurements": ["format"],
+        "analyses": ["format", "results", "measurements"],
+    },
 }
 ANYWHERE = list(FOLDERS)
 ABOVE_SIM = ["identify", "scenarios", "bench", "cli", "python"]
@@ -75,8 +82,7 @@ LIBRARIES = {
     "yaml-cpp": (r"yaml-cpp/", ["scenarios"], SOURCES),
     "matio": (r"matio\.h", ["identify", "scenarios"], SOURCES),
     "HDF5": (r"hdf5\.h", ["identify"], SOURCES),
-    "nlohmann-json's forward declarations": (r"nlohmann/json_fwd\.hpp", ["scenarios", "bench", "cli"], PUBLIC),
-    "nlohmann-json": (r"nlohmann/", ["scenarios", "bench", "cli"], PRIVATE),
+    "nlohmann-json": (r"nlohmann/", ["scenarios", "bench", "cli"], PUBLIC),
     "fmt": (r"fmt/", ABOVE_SIM, SOURCES),
     "CLI11": (r"CLI/", ["cli"], PUBLIC),
     "MPI": (r"mpi\.h", ["bench"], SOURCES),

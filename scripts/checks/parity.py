@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Fails when a law, a method, a header, a source or a scenario lacks one of the things that belong to it.
+"""Fails when a law, a method, an analysis, a header, a source or a scenario lacks one of the things that belong to it.
 
 usage: parity.py ROOT PROGRAM
 
 Laws and methods are those the built PROGRAM lists; a page of another name is a fault. Each law has a header,
 a source, a test, a page and a scenario that uses it; each method likewise, where one file pair may serve a family:
-resonance.{hpp,cpp} serves resonance_two_point. Every header of a library is in a CMakeLists.txt (public under
+resonance.{hpp,cpp} serves resonance_two_point. Each analysis has its pair in scenarios/analyses/ or bench/, a test
+that names it, a section in docs/analyses.md and a scenario that uses it; a .js file beside the pairs is the view of one (without
+one the page draws its tables). Every header of a library is in a CMakeLists.txt (public under
 HEADERS, which makes a FILE_SET; private under SOURCES), so is every source; a name under PAIRS stands for header,
 source and test. The first line of every shipped scenario points editors to the schema.
 """
@@ -21,7 +23,8 @@ import yaml
 CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "tests"]
 LIBRARIES = ["core", "friction_models", "sim", "identify", "scenarios"]  # folders whose headers are installed
 PAIR_LIST = re.compile(r"\bdualdamp_module\([^)]*?\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
-SHIPPED = ["scenarios/examples", "scenarios/paper"]
+SHIPPED = ["scenarios/examples", "scenarios/paper", "scenarios/stress"]
+ANALYSES = ["scenarios/analyses", "bench"]  # folders with the pairs of analyses
 
 
 def listed(program, command):
@@ -96,6 +99,31 @@ def method_faults(root, names):
             yield f"docs/methods/{page.name}: the program lists no such method"
 
 
+def analysis_faults(root, names):
+    used = {yaml.safe_load(path.read_text()).get("analysis", {}).get("type") for path in scenario_files(root)}
+    page = root / "docs/analyses.md"
+    sections = re.findall(r"^## `(\w+)`$", page.read_text() if page.is_file() else "", re.MULTILINE)
+    tests = "".join(path.read_text() for folder in ("tests/scenarios", "tests/bench")
+                    for path in (root / folder).rglob("*.cpp"))
+    for name in names:
+        yield from (f"analysis {name}: {fault}" for fault in lacking(root, [
+            ("header", [f"{folder}/{name}.hpp" for folder in ANALYSES]),
+            ("source", [f"{folder}/{name}.cpp" for folder in ANALYSES]),
+        ]))
+        if not re.search(rf"\b{name}(_analysis)?\b", tests):
+            yield f"analysis {name}: no test names it"
+        if name not in sections:
+            yield f"analysis {name}: no section (docs/analyses.md)"
+        if name not in used:
+            yield f"analysis {name}: no scenario uses it (scenarios/examples/{name}.yaml)"
+    for name in sections:
+        if name not in names:
+            yield f"docs/analyses.md: the program lists no analysis {name}"
+    for path in sorted(p for folder in ANALYSES for p in (root / folder).glob("*.js")):
+        if path.stem not in names:
+            yield f"{path.relative_to(root)}: the program lists no such analysis"
+
+
 def order_faults(kind, names):
     if names != sorted(set(names)):
         yield f"{kind}: the program's list is not sorted or names one twice"
@@ -137,13 +165,14 @@ def scenario_faults(root):
 
 
 def faults(root, program):
-    laws, methods = listed(program, "laws"), listed(program, "methods")
-    if not laws or not methods:
-        yield "the program lists no laws or no methods"
+    laws, methods, analyses = (listed(program, kind) for kind in ("laws", "methods", "analyses"))
+    if not laws or not methods or not analyses:
+        yield "the program lists no laws, no methods or no analyses"
     yield from order_faults("laws", laws)
     yield from order_faults("methods", methods)
     yield from law_faults(root, laws)
     yield from method_faults(root, methods)
+    yield from analysis_faults(root, analyses)
     yield from build_faults(root)
     yield from scenario_faults(root)
 

@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "bench/analyses.hpp"
 #include "bench/mechanism_fit.hpp"
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
-#include "scenarios/result_fields.hpp"
+#include "scenarios/run.hpp"
 #include "sim/parallel.hpp"
 
 using namespace dualdamp;
@@ -28,8 +29,8 @@ const bench::Levels five = {{4.452e-3, 5.027e-3, 5.602e-3, 6.177e-3, 6.752e-3},
                             {5.117e-3, 7.143e-3, 9.667e-3, 12.707e-3, 16.896e-3}};
 
 /// The paper's four parts, with what they gave.
-scenarios::MechanismStudy paper() {
-  scenarios::MechanismStudy study;
+bench::MechanismStudy paper() {
+  bench::MechanismStudy study;
   study.friction = {3.7, 11.0};
   study.levels = 5;
   study.estimates = {{1.0, 0.0987, 4.39, 8.7e-5, 8.7e-3},
@@ -40,9 +41,9 @@ scenarios::MechanismStudy paper() {
 }
 
 /// The study of a test that a mechanism made.
-scenarios::MechanismStudy made_by(const sim::Mechanism& mechanism, const sim::RigFriction& friction,
-                                  const std::vector<double>& values) {
-  scenarios::MechanismStudy study = paper();
+bench::MechanismStudy made_by(const sim::Mechanism& mechanism, const sim::RigFriction& friction,
+                              const std::vector<double>& values) {
+  bench::MechanismStudy study = paper();
   const auto response = bench::response(mechanism, rig, friction, values, five.Y);
   REQUIRE(response);
   const auto readings = bench::read_parts({five.Y, response->x}, study, constants);
@@ -54,7 +55,7 @@ scenarios::MechanismStudy made_by(const sim::Mechanism& mechanism, const sim::Ri
   return study;
 }
 
-bench::MechanismFit best_fit(const sim::Mechanism& mechanism, const scenarios::MechanismStudy& study,
+bench::MechanismFit best_fit(const sim::Mechanism& mechanism, const bench::MechanismStudy& study,
                              const bench::Levels& near) {
   const bench::MechanismSearch search(mechanism, study, rig, near);
   bench::MechanismFit best = search.begin(0);
@@ -70,7 +71,7 @@ scenarios::Scenario scenario_of(const std::string& analysis) {
       "schema: dualdamp/1\nsystem: {mass: 1.042, stiffness: 1568, damping: 11, friction: {law: coulomb, kinetic: "
       "3.7}}\nexcitation: {type: base_harmonic, frequency: natural}\nanalysis: {type: mechanisms, " +
           analysis + "}\n",
-      "test");
+      "test", {.analyses = bench::analyses()});
 }
 
 const std::string paper_estimates =
@@ -81,7 +82,7 @@ const std::string paper_estimates =
 }  // namespace
 
 TEST_CASE("mechanism study: the lines are those of resonance_least_squares") {
-  const scenarios::MechanismStudy study = paper();
+  const bench::MechanismStudy study = paper();
   const auto readings = bench::read_parts(five, study, constants);
   REQUIRE(readings);
   for (std::size_t i = 0; i < study.estimates.size(); ++i) {
@@ -98,7 +99,7 @@ TEST_CASE("mechanism study: the lines are those of resonance_least_squares") {
 }
 
 TEST_CASE("mechanism study: levels behind the estimates are found, known or not") {
-  scenarios::MechanismStudy study = made_by(*sim::find_mechanism("viscous_saturating"), {3.0, 12.0}, {0.5});
+  bench::MechanismStudy study = made_by(*sim::find_mechanism("viscous_saturating"), {3.0, 12.0}, {0.5});
   for (const bool known : {false, true}) {
     CAPTURE(known);
     if (known) study.amplitudes = five.Y;
@@ -131,7 +132,7 @@ TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
                            Case{"contact_compliance", {6.0, 5.0}, {1500.0}, 0.05}}) {
     CAPTURE(made.name);
     const sim::Mechanism& mechanism = *sim::find_mechanism(made.name);
-    const scenarios::MechanismStudy study = made_by(mechanism, made.friction, made.values);
+    const bench::MechanismStudy study = made_by(mechanism, made.friction, made.values);
     const bench::MechanismFit fit = best_fit(mechanism, study, five);
     REQUIRE(fit.outcome.ok());
     CHECK(fit.chi2 < 0.1);
@@ -147,20 +148,20 @@ TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
 }
 
 TEST_CASE("mechanism study: the paper's bend is explained by a film that saturates, not by Coulomb friction") {
-  const scenarios::MechanismStudy study = paper();
+  const bench::MechanismStudy study = paper();
   const bench::MechanismFit film = best_fit(*sim::find_mechanism("viscous_saturating"), study, five);
   REQUIRE(film.outcome.ok());
   CHECK(film.chi2 < 8.0);
   // With F0 and c alone the best is one pair for all parts: the mean of their numbers, weighted by the errors.
   double zeta = 0.0, weight = 0.0;
-  for (const scenarios::PartEstimate& estimate : study.estimates) {
+  for (const bench::PartEstimate& estimate : study.estimates) {
     zeta += estimate.zeta / std::pow(estimate.zeta_std, 2);
     weight += 1.0 / std::pow(estimate.zeta_std, 2);
   }
   double F0 = 0.0;
-  for (const scenarios::PartEstimate& estimate : study.estimates) F0 += estimate.F0 / 4.0;
+  for (const bench::PartEstimate& estimate : study.estimates) F0 += estimate.F0 / 4.0;
   double chi2 = 0.0;
-  for (const scenarios::PartEstimate& estimate : study.estimates)
+  for (const bench::PartEstimate& estimate : study.estimates)
     chi2 += std::pow((estimate.zeta - zeta / weight) / estimate.zeta_std, 2) +
             std::pow((estimate.F0 - F0) / estimate.F0_std, 2);
   const bench::MechanismFit none = best_fit(*sim::find_mechanism("coulomb_viscous"), study, five);
@@ -174,8 +175,7 @@ TEST_CASE("mechanism study: the whole answer, the same on any number of threads"
       "levels: 5, mechanisms: [coulomb_viscous, contact_compliance, viscous_saturating], decay: {stiffness: 4365, "
       "displacement: 14.7 mm, high: {zeta: 0.0909, x_f: 0.710 mm}, low: {zeta: 0.0729, x_f: 0.905 mm}}, " +
       paper_estimates);
-  REQUIRE(bench::is_mechanism_study(scenario));
-  const scenarios::RunResult result = bench::run_mechanism_study(scenario);
+  const scenarios::RunResult result = scenarios::run(scenario);
   CHECK(result.status == core::ExitStatus::done);
   const Json json = Json::parse(result.result);
   const auto of = [&](const std::string& name) {
@@ -198,11 +198,11 @@ TEST_CASE("mechanism study: the whole answer, the same on any number of threads"
   CHECK(of("contact_compliance").at("stretch") > 50.0);
 
   const sim::ThreadLimit one(1);
-  CHECK(bench::run_mechanism_study(scenario).result == result.result);
+  CHECK(scenarios::run(scenario).result == result.result);
 
   // Every number is one that the format knows.
   std::vector<std::string> patterns;
-  for (const scenarios::ResultField& field : scenarios::result_fields("mechanisms")) patterns.push_back(field.path);
+  for (const scenarios::ResultField& field : scenario.result_fields) patterns.push_back(field.path);
   const std::function<void(const Json&, const std::string&)> check_paths = [&](const Json& value,
                                                                                const std::string& path) {
     if (value.is_object())
@@ -221,7 +221,7 @@ TEST_CASE("mechanism study: values of one's own take the place of the known ones
       "levels: 5, mechanisms: [contact_compliance], plausible: [{mechanism: contact_compliance, case: soft, "
       "contact_stiffness: 3000 N/m}, {mechanism: contact_compliance, contact_stiffness: 1e4}], " +
       paper_estimates);
-  const Json json = Json::parse(bench::run_mechanism_study(scenario).result);
+  const Json json = Json::parse(scenarios::run(scenario).result);
   REQUIRE(json.at("effects").size() == 2);
   CHECK(json.at("effects").at(0).at("case") == "soft");
   // A contact costs Phi = (4 F0/pi) (1 - d/x), d = F0/K, so that lines through larger x are flatter: 2 % at 3000
@@ -236,7 +236,7 @@ TEST_CASE("mechanism study: estimates that no data can give end without a result
   std::string estimates = paper_estimates;
   estimates.replace(estimates.find("F0: 3.69"), 8, "F0: 36.9");
   const scenarios::RunResult result =
-      bench::run_mechanism_study(scenario_of("levels: 5, mechanisms: [coulomb_viscous], " + estimates));
+      scenarios::run(scenario_of("levels: 5, mechanisms: [coulomb_viscous], " + estimates));
   CHECK(result.status == core::ExitStatus::numerical_failure);
   CHECK(result.failure.find("no levels") != std::string::npos);
   CHECK(result.result == "null");

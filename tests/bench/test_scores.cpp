@@ -14,8 +14,8 @@ using namespace dualdamp;
 namespace {
 
 /// Two severities of one law, two seeds, two methods.
-scenarios::StressTest question() {
-  scenarios::StressTest result;
+bench::StressTest question() {
+  bench::StressTest result;
   result.F0 = 10.0;
   result.laws = {sim::find_departure("dahl")};
   result.severities = {0.01, 0.1};
@@ -53,7 +53,7 @@ TEST_CASE("scores: bias, coverage, what was wrong and what was detected, and whe
     for (std::size_t i = 0; i < cases.size(); ++i)
       file << "{\"case\":" << i << ",\"estimates\":[" << cases[i].first << "," << cases[i].second << "]}\n";
   }
-  const scenarios::StressTest asked = question();
+  const bench::StressTest asked = question();
   const bench::Grid grid(asked);
   REQUIRE(grid.cases() == 6);
   const bench::Scores scores = bench::score(path.string(), grid, 0.1, 10.0);

@@ -45,7 +45,7 @@ FAULTS = {
     "CLI11 outside cli": ("scenarios/bad.cpp", "#include <CLI/CLI.hpp>\n", ["CLI11 may appear only in cli/"]),
     "udunits2 in a header": ("core/bad.hpp", "#pragma once\n#include <udunits2.h>\n", ["udunits2 belongs in .cpp"]),
     "Ceres outside identify": ("sim/bad.cpp", "#include <ceres/ceres.h>\n", ["Ceres may appear only in identify/"]),
-    "json in a header": ("scenarios/bad.hpp", "#pragma once\n#include <nlohmann/json.hpp>\n", ["belongs in .cpp"]),
+    "json below scenarios": ("sim/bad.cpp", "#include <nlohmann/json.hpp>\n", ["nlohmann-json may appear only in"]),
     "a room from below": ("sim/smooth.cpp", '#include "sim/engine/state.hpp"\n', ["sim/ may include of sim/ only itself"]),
     "a room that is not listed": ("sim/attic/x.cpp", '#include "sim/smooth.hpp"\n', ["sim/attic/ is no room listed"]),
     "a private header of another folder": ("cli/bad.cpp", '#include "scenarios/json.hpp"\n', ["private to scenarios/"]),

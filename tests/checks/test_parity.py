@@ -13,6 +13,7 @@ PROGRAM = """#!/bin/sh
 case $1 in
   laws) echo 'coulomb  constant force'; echo 'dahl     bristles';;
   methods) echo 'free_decay           decrements'; echo 'resonance_two_point  two pairs';;
+  analyses) echo 'simulate     a motion'; echo 'stress_test  scores';;
 esac
 """
 FIRST = "# yaml-language-server: $schema=../scenario.schema.json\n"
@@ -42,12 +43,24 @@ COMPLETE = {
     "tests/identify/CMakeLists.txt": "dualdamp_test(i SOURCES methods/decays/test_free_decay.cpp methods/amplitudes/test_resonance.cpp)\n",
     "tests/identify/methods/decays/test_free_decay.cpp": "",
     "tests/identify/methods/amplitudes/test_resonance.cpp": "",
+    "scenarios/CMakeLists.txt": "dualdamp_module(s HEADERS analyses/simulate.hpp SOURCES analyses/simulate.cpp)\n",
+    "scenarios/analyses/simulate.hpp": "",
+    "scenarios/analyses/simulate.cpp": "",
+    "scenarios/analyses/simulate.js": "",
+    "bench/CMakeLists.txt": "dualdamp_module(b HEADERS stress_test.hpp SOURCES stress_test.cpp)\n",
+    "bench/stress_test.hpp": "",
+    "bench/stress_test.cpp": "",
+    "tests/scenarios/CMakeLists.txt": "dualdamp_test(s SOURCES test_run.cpp)\n",
+    "tests/scenarios/test_run.cpp": "{type: simulate}; stress_test_analysis()\n",
+    "docs/analyses.md": "## `simulate`\n\n## `stress_test`\n",
     "docs/laws/coulomb.md": "",
     "docs/laws/dahl.md": "",
     "docs/methods/free_decay.md": "",
     "docs/methods/resonance_two_point.md": "",
     "scenarios/examples/coulomb.yaml": FIRST + "system: {friction: {law: coulomb}}\n",
     "scenarios/examples/parallel.yaml": FIRST + "system: {friction: [{law: coulomb}, {law: dahl}]}\n",
+    "scenarios/examples/simulate.yaml": FIRST + "analysis: {type: simulate}\n",
+    "scenarios/stress/small.yaml": FIRST + "analysis: {type: stress_test}\n",
     "scenarios/paper/identify.yaml": FIRST + "analysis: {methods: [free_decay, resonance_two_point]}\n",
 }
 
@@ -65,6 +78,13 @@ FAULTS = {
     "a family page is not enough": ("docs/methods/resonance_two_point.md", None, ["resonance_two_point: no page"]),
     "method without scenario": ("scenarios/paper/identify.yaml", FIRST + "analysis: {methods: [free_decay]}\n",
                                 ["method resonance_two_point: no scenario"]),
+    "analysis without header": ("bench/stress_test.hpp", None, ["analysis stress_test: no header"]),
+    "analysis without source": ("scenarios/analyses/simulate.cpp", None, ["analysis simulate: no source"]),
+    "analysis without test": ("tests/scenarios/test_run.cpp", "stress_test_analysis()", ["analysis simulate: no test"]),
+    "analysis without section": ("docs/analyses.md", "## `simulate`\n", ["analysis stress_test: no section"]),
+    "analysis without scenario": ("scenarios/stress/small.yaml", None, ["analysis stress_test: no scenario"]),
+    "section without analysis": ("docs/analyses.md", "## `simulate`\n\n## `stress_test`\n\n## `run`\n", ["no analysis run"]),
+    "view without analysis": ("bench/scores.js", "", ["bench/scores.js: the program lists no such analysis"]),
     "header in no CMakeLists.txt": ("sim/analytic/other.hpp", "", ["sim/analytic/other.hpp: not in a CMakeLists.txt"]),
     "source in no CMakeLists.txt": ("core/other.cpp", "", ["core/other.cpp: not in a CMakeLists.txt"]),
     "source in a comment": ("core/CMakeLists.txt", "dualdamp_module(core HEADERS units.hpp SOURCES)  # units.cpp\n",

@@ -146,7 +146,7 @@ class Page(unittest.TestCase):
                     self.assertNotIn("", keys)
                     self.assertEqual(len(set(keys)), len(keys), keys)
                 if name == "xy_curve":
-                    self.assertEqual(found[0], ["steady state", "slides through", "rests in each period"])
+                    self.assertEqual(found[0], ["steady state", "slides through", "sticks in each period"])
 
     def test_a_jump_between_two_samples_is_left_open(self):
         line = self.ask("formula", "broken({ x: [1, 2, 3, 4], y: [0, 0.1, 2, 1.9], colour: 3 })")

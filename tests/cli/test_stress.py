@@ -88,7 +88,7 @@ class Stress(unittest.TestCase):
         cases = self.estimates("histories", "analysis.laws=[dahl]", "analysis.severities=[0.3]")
         truth = cases["coulomb_viscous", 0]
         self.assertEqual(len(truth), 7)
-        # Twelve cycles of 162 samples, two levels: output_error's F0 has a standard error of some 0.05 %.
+        # Twelve periods of 162 samples, two levels: output_error's F0 has a standard error of some 0.05 %.
         self.assertAlmostEqual(truth["output_error"]["F0"] / 4.39, 1, delta=0.005)
         self.assertAlmostEqual(truth["friction_force"]["F0"] / 4.39, 1, delta=0.02)
         # Bristles that give by a third of the amplitude: the sharp model misses them, and knows.

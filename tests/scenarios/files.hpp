@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/analyses.hpp"
+#include "scenarios/scenario.hpp"
+
 namespace dualdamp::testing {
 
 inline const std::filesystem::path root = DUALDAMP_SOURCE_DIR;
@@ -26,6 +29,17 @@ inline std::vector<std::filesystem::path> yaml_files(const std::string& folder) 
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// A file that may ask for any analysis.
+inline scenarios::Scenario load(const std::filesystem::path& path) {
+  return scenarios::load_scenario(path.string(), {.analyses = bench::analyses()});
+}
+
+/// The question of a scenario as what it is.
+template <typename Question>
+const Question& question_of(const scenarios::Scenario& scenario) {
+  return dynamic_cast<const Question&>(*scenario.question);
 }
 
 }  // namespace dualdamp::testing

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "scenarios/law_values.hpp"
-#include "scenarios/reader.hpp"
+#include "scenarios/format/law_values.hpp"
+#include "scenarios/format/reader.hpp"
 #include "tests/support/parameter_table.hpp"
 
 using namespace dualdamp;

@@ -6,7 +6,7 @@
 
 #include "core/random.hpp"
 #include "friction_models/laws/coulomb.hpp"
-#include "scenarios/measure.hpp"
+#include "scenarios/measurements/measure.hpp"
 #include "sim/motion/simulate.hpp"
 
 using namespace dualdamp;

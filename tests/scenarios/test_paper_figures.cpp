@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files.hpp"
+#include "scenarios/analyses/simulate.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/motion/simulate.hpp"
 
@@ -29,8 +30,10 @@ class Plot {
     const auto path = testing::root / "scenarios/paper" / (name + ".yaml");
     const scenarios::Scenario scenario = scenarios::load_scenario(path.string());
     const double period = 2.0 * std::numbers::pi / scenario.model.excitation.frequency;
-    const auto [duration, rate] = std::get<scenarios::Simulate>(scenario.analysis);
-    const sim::History history = sim::simulate(scenario.model, {.duration = duration, .sample_rate = rate});
+    const auto& question = testing::question_of<scenarios::SimulateQuestion>(scenario);
+    const double duration = question.duration();
+    const sim::History history =
+        sim::simulate(scenario.model, {.duration = duration, .sample_rate = question.sample_rate()});
     REQUIRE(history.outcome.ok());
     for (const sim::Sample& sample : history.samples) {
       if (sample.t >= duration - period) points_.push_back({sample.v, sample.force});

@@ -32,7 +32,7 @@ std::vector<Expected> expected_of(const std::string& text) {
 
 std::vector<core::Diagnostic> problems_of(const std::string& path) {
   try {
-    (void)scenarios::load_scenario(path);
+    (void)testing::load(path);
   } catch (const core::InputError& error) {
     return error.diagnostics();
   }

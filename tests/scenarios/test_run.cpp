@@ -10,7 +10,6 @@
 #include "files.hpp"
 #include "identify/readers/record_reader.hpp"
 #include "scenarios/output.hpp"
-#include "scenarios/result_fields.hpp"
 
 using namespace dualdamp;
 using nlohmann::json;
@@ -43,10 +42,8 @@ std::string csv(const scenarios::Table& table, const core::Provenance& provenanc
   return text.str();
 }
 
-/// By bench/, whose tests and those of the program run it.
-bool answered_elsewhere(const Scenario& scenario) {
-  return std::holds_alternative<scenarios::MechanismStudy>(scenario.analysis);
-}
+/// Takes long: the tests of bench/ and of the program run it.
+bool answered_elsewhere(const Scenario& scenario) { return scenario.analysis_name == "mechanisms"; }
 
 /// No number of the document is infinite or NaN: JSON would not have it, and null must say so.
 void check_finite(const json& value) {
@@ -61,7 +58,7 @@ TEST_CASE("run: every shipped scenario gives what it expects", "[scenarios][run]
   for (const std::string folder : {"scenarios/paper", "scenarios/examples"})
     for (const auto& path : testing::yaml_files(folder)) {
       CAPTURE(path.string());
-      const Scenario scenario = scenarios::load_scenario(path.string());
+      const Scenario scenario = testing::load(path);
       if (answered_elsewhere(scenario)) continue;
       const RunResult result = scenarios::run(scenario);
       CHECK(result.status == core::ExitStatus::done);
@@ -111,11 +108,8 @@ TEST_CASE("run: the keys of the results are those of the contract", "[scenarios]
 
 TEST_CASE("run: every number of a result is in the tables", "[scenarios][run]") {
   const auto patterns_of = [](const Scenario& scenario) {
-    const auto* formula = std::get_if<scenarios::Formula>(&scenario.analysis);
     std::vector<std::string> patterns;
-    for (const auto& field :
-         scenarios::result_fields(scenario.analysis_name, formula == nullptr ? std::string() : formula->name))
-      patterns.push_back(field.path);
+    for (const scenarios::ResultField& field : scenario.result_fields) patterns.push_back(field.path);
     return patterns;
   };
   const std::function<void(const json&, const std::string&, const std::vector<std::string>&)> check_paths =
@@ -133,7 +127,7 @@ TEST_CASE("run: every number of a result is in the tables", "[scenarios][run]") 
   for (const std::string folder : {"scenarios/paper", "scenarios/examples"})
     for (const auto& path : testing::yaml_files(folder)) {
       CAPTURE(path.string());
-      const Scenario scenario = scenarios::load_scenario(path.string());
+      const Scenario scenario = testing::load(path);
       if (answered_elsewhere(scenario)) continue;
       check_paths(result_of(scenarios::run(scenario)), "", patterns_of(scenario));
     }

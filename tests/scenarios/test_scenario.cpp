@@ -6,6 +6,10 @@
 #include <numbers>
 
 #include "files.hpp"
+#include "scenarios/analyses/frequency_response.hpp"
+#include "scenarios/analyses/identify.hpp"
+#include "scenarios/analyses/simulate.hpp"
+#include "scenarios/analyses/xy_curve.hpp"
 
 using namespace dualdamp;
 using scenarios::Scenario;
@@ -62,11 +66,11 @@ TEST_CASE("scenario: words become numbers", "[scenarios]") {
 
 TEST_CASE("scenario: a range of amplitudes meets its ends and passes plain decimals", "[scenarios]") {
   const Scenario linear = with({"analysis={type: xy_curve, amplitudes: {from: 0, to: 0.6 m, count: 7}}"});
-  const auto& amplitudes = std::get<scenarios::XyCurve>(linear.analysis).amplitudes;
+  const auto& amplitudes = testing::question_of<scenarios::XyCurveQuestion>(linear).amplitudes();
   CHECK(amplitudes == std::vector<double>{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
   const Scenario log =
       with({"analysis={type: frequency_response, frequencies: {from: 1 Hz, to: 4 Hz, count: 3, spacing: log}}"});
-  const auto& frequencies = std::get<scenarios::FrequencyResponse>(log.analysis).frequencies;
+  const auto& frequencies = testing::question_of<scenarios::FrequencyResponseQuestion>(log).frequencies();
   REQUIRE(frequencies.size() == 3);
   CHECK(frequencies[1] == Approx(4.0 * std::numbers::pi).epsilon(1e-15));
   CHECK(frequencies[2] == 8.0 * std::numbers::pi);
@@ -74,7 +78,8 @@ TEST_CASE("scenario: a range of amplitudes meets its ends and passes plain decim
 
 TEST_CASE("scenario: cycles are forcing periods", "[scenarios]") {
   const Scenario scenario = with({"analysis={type: simulate, cycles: 2.5}"});
-  CHECK(std::get<scenarios::Simulate>(scenario.analysis).duration == Approx(0.5 * std::numbers::pi).epsilon(1e-15));
+  CHECK(testing::question_of<scenarios::SimulateQuestion>(scenario).duration() ==
+        Approx(0.5 * std::numbers::pi).epsilon(1e-15));
 }
 
 TEST_CASE("scenario: --set replaces, adds and reaches into lists", "[scenarios]") {
@@ -113,21 +118,23 @@ TEST_CASE("scenario: the resolved scenario is a scenario with the same meaning",
     for (const auto& path : testing::yaml_files(folder)) files.push_back(path);
   for (const auto& path : files) {
     CAPTURE(path.string());
-    const Scenario first = scenarios::load_scenario(path.string());
-    const Scenario second = scenarios::parse_scenario(first.resolved, path.string());
+    const Scenario first = testing::load(path);
+    const Scenario second =
+        scenarios::parse_scenario(first.resolved, path.string(), {.analyses = bench::analyses()});
     CHECK(second.resolved == first.resolved);
   }
 }
 
 TEST_CASE("scenario: measured data are read and checked with the file", "[scenarios]") {
   const Scenario scenario = scenarios::load_scenario((testing::root / "tests/valid/data.yaml").string());
-  const auto& question = std::get<scenarios::Identify>(scenario.analysis);
-  REQUIRE(std::get<identify::Record>(question.source).pairs);
-  CHECK(std::get<identify::Record>(question.source).pairs->pairs.size() == 4);
-  CHECK(question.constants.frequency == 10.0);
-  CHECK(question.data_sha256.size() == 64);
-  for (const identify::MethodEntry* method : question.methods)
-    CHECK(method->lacks(std::get<identify::Record>(question.source)).empty());
+  const auto& question = testing::question_of<scenarios::IdentifyQuestion>(scenario);
+  REQUIRE(question.measured() != nullptr);
+  REQUIRE(question.measured()->pairs);
+  CHECK(question.measured()->pairs->pairs.size() == 4);
+  CHECK(question.methods().constants.frequency == 10.0);
+  CHECK(scenario.data_sha256.size() == 64);
+  for (const identify::MethodEntry* method : question.methods().list)
+    CHECK(method->lacks(*question.measured()).empty());
 }
 
 TEST_CASE("scenario: data cannot be reached through a link out of the directory", "[scenarios]") {

@@ -1,0 +1,12 @@
+#pragma once
+/// All analyses: those of scenarios/ and those whose pair is here, in the order of the reference page.
+///
+///     scenarios::run(scenarios::load_scenario("rig.yaml", {.analyses = bench::analyses()}))
+
+#include "scenarios/analyses/analysis.hpp"
+
+namespace dualdamp::bench {
+
+[[nodiscard]] const scenarios::AnalysisList& analyses();
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,64 @@
+#pragma once
+/// `mechanisms`: which mechanism explains that the estimates of zeta and F0 change as the upper x-Y data are left
+/// out.
+///
+/// The run: mechanism_study.hpp.
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/analyses/analysis.hpp"
+#include "sim/rigs/rigs.hpp"
+
+namespace dualdamp::bench {
+
+/// What the straight line through the lower part of the data gave.
+struct PartEstimate {
+  double share = 1.0;  ///< of the levels, the lowest ones
+  double zeta = 0.0;
+  double F0 = 0.0;  ///< N
+  double zeta_std = 0.0;
+  double F0_std = 0.0;  ///< N
+};
+
+/// What a rig with the mechanism may well have.
+struct PlausibleRig {
+  const sim::Mechanism* mechanism = nullptr;
+  std::string name;            ///< which of several; may be empty
+  std::vector<double> values;  ///< SI, in the order of the mechanism's parameters
+  std::string because;
+};
+
+/// A free decay of the same mass and friction on another spring, read twice: from the first four of its five
+/// extremes and from the last four.
+struct MeasuredDecay {
+  struct Segment {
+    double zeta = 0.0;
+    double x_f = 0.0;  ///< m
+  };
+  double stiffness = 0.0;     ///< N/m
+  double displacement = 0.0;  ///< from which the mass is released at rest [m]
+  Segment high, low;
+};
+
+struct MechanismStudy {
+  sim::RigFriction friction;            ///< what the rig is believed to have
+  std::vector<PartEstimate> estimates;  ///< largest share first
+  std::size_t levels = 0;
+  std::vector<double> amplitudes;  ///< input levels [m]; empty: equally spaced at unknown places
+  std::vector<const sim::Mechanism*> mechanisms;
+  std::vector<PlausibleRig> plausible;
+  std::optional<MeasuredDecay> decay;
+};
+
+/// How many of `levels` a share is.
+[[nodiscard]] inline std::size_t part_of(std::size_t levels, double share) {
+  return static_cast<std::size_t>(std::lround(static_cast<double>(levels) * share));
+}
+
+[[nodiscard]] const scenarios::Analysis& mechanisms_analysis();
+
+}  // namespace dualdamp::bench

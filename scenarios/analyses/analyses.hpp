@@ -1,0 +1,10 @@
+#pragma once
+/// The list of the analyses of this library: explicit, one line an analysis, in the order of the reference page.
+
+#include "scenarios/analyses/analysis.hpp"
+
+namespace dualdamp::scenarios {
+
+[[nodiscard]] const AnalysisList& analyses();
+
+}  // namespace dualdamp::scenarios

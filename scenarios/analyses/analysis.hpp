@@ -1,0 +1,135 @@
+#pragma once
+/// The contract of an analysis: a question that a scenario may ask.
+///
+/// One file pair holds what belongs to an analysis: its keys, what it needs of the other sections, its checks, its
+/// question with the run, and the fields of its result; the view of its page is a .js file of the same name beside
+/// the pair, or the one that draws all tables. The list (`analyses.hpp`) is explicit. To add one:
+/// docs/developing.md.
+///
+/// A file is read by the keys, then checked: `check` adds problems and completes what the file left out. Only when
+/// there is no problem `ask` turns the checked values into a question, which is immutable and can be run.
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identify/readers/record_reader.hpp"
+#include "scenarios/format/checked_file.hpp"
+#include "scenarios/format/keys.hpp"
+#include "scenarios/format/needs.hpp"
+#include "scenarios/results/answer.hpp"
+#include "sim/model.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::scenarios {
+
+/// How far a long run is.
+struct Progress {
+  std::size_t done = 0;  ///< cases, those of an earlier run included
+  std::size_t all = 0;
+  double rate = 0.0;       ///< cases a second
+  double remaining = 0.0;  ///< s
+};
+
+/// The processes that share the work of a run, handed out one item at a time. This one is alone.
+class ProcessGroup {
+ public:
+  ProcessGroup() = default;
+  virtual ~ProcessGroup() = default;
+  ProcessGroup(const ProcessGroup&) = delete;
+  ProcessGroup& operator=(const ProcessGroup&) = delete;
+
+  [[nodiscard]] virtual int rank() const { return 0; }
+  /// The next item, 0, 1, 2, ... over all processes; from any thread.
+  [[nodiscard]] virtual std::size_t next() { return next_++; }
+  /// Waits for all processes.
+  virtual void wait() {}
+
+ private:
+  std::atomic<std::size_t> next_{0};
+};
+
+/// Where and how a question is run. A short one needs none of this.
+struct RunOptions {
+  std::string directory = {};                          ///< of files that a campaign writes as it goes
+  int threads = 0;                                     ///< of a campaign; 0: all cores
+  bool resume = false;                                 ///< a campaign goes on where an earlier run was interrupted
+  std::function<void(const Progress&)> progress = {};  ///< may be absent; called by one thread at a time
+  std::shared_ptr<ProcessGroup> processes = std::make_shared<ProcessGroup>();  ///< share a campaign
+};
+
+/// What a question is run on: the checked scenario around it.
+struct RunContext {
+  const sim::Model& model;
+  double tolerance = 0.0;       ///< closure of a steady state
+  const std::string& resolved;  ///< the scenario as JSON
+  const RunOptions& options;
+
+  /// A search for steady states with the scenario's tolerance.
+  [[nodiscard]] sim::SteadyStateOptions steady_states() const {
+    sim::SteadyStateOptions steady;
+    steady.tolerance = tolerance;
+    return steady;
+  }
+};
+
+class Question {
+ public:
+  Question() = default;
+  virtual ~Question() = default;
+  Question(const Question&) = delete;
+  Question& operator=(const Question&) = delete;
+
+  /// A number that does not exist is null in the answer; no result at all has a reason.
+  [[nodiscard]] virtual Answer run(const RunContext& context) const = 0;
+};
+
+/// The ability of a question whose run is long: it writes its cases to `options.directory` as it goes, can be
+/// resumed, and is shared by all processes, of which the first one answers. A question has it by deriving from it.
+class Campaign {
+ public:
+  Campaign() = default;
+  virtual ~Campaign() = default;
+  Campaign(const Campaign&) = delete;
+  Campaign& operator=(const Campaign&) = delete;
+
+  /// What the run asks of the machine, in one line for people.
+  [[nodiscard]] virtual std::string size(const RunContext& context) const = 0;
+};
+
+/// What `ask` makes a question of: values without problems.
+struct CheckedValues {
+  const Json& analysis;
+  const Json& system;  ///< null without one
+  const sim::Model& model;
+  std::optional<identify::MeasuredRecord> data;
+};
+
+struct Analysis {
+  std::string_view name;
+  std::string_view summary;
+  Section keys;              ///< of `analysis`, beside its type
+  std::vector<Needs> needs;  ///< of the other sections
+  std::vector<ResultField> results;
+  /// Adds problems to the file and completes its values; may be absent.
+  void (*check)(CheckedFile& file) = nullptr;
+  std::unique_ptr<const Question> (*ask)(CheckedValues&& values) = nullptr;
+  /// How long a list of the result will be, where that is known before the run; may be absent.
+  std::optional<std::size_t> (*length_of)(const CheckedFile& file, std::string_view list) = nullptr;
+};
+
+/// Analyses live as long as the program.
+using AnalysisList = std::vector<const Analysis*>;
+
+/// nullptr when the list has none of that name.
+[[nodiscard]] const Analysis* find_analysis(const AnalysisList& list, std::string_view name);
+
+/// What the result of a checked section `analysis` may hold: fields of the analysis and of the choices in it.
+[[nodiscard]] std::vector<ResultField> result_fields(const Analysis& analysis, const Json& section);
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,46 @@
+#include "scenarios/analyses/free_decay.hpp"
+
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/results/motion.hpp"
+#include "sim/motion/simulate.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+ResultFields fields() {
+  return {{"peaks[].t", "s", "time of the extreme"},
+          {"peaks[].x", "m", "its position, signed"},
+          {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"}};
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  return std::make_unique<FreeDecayQuestion>(values.analysis.at("peaks").get<int>());
+}
+
+}  // namespace
+
+Answer FreeDecayQuestion::run(const RunContext& context) const {
+  const sim::FreeDecay decay = sim::free_decay(context.model, peaks_);
+  if (!decay.outcome.ok()) return failed(decay.outcome.reason);
+  Answer answer;
+  answer.result["peaks"] = nullptr;
+  answer.result["came_to_rest"] = decay.came_to_rest;
+  answer.tables.push_back({.name = "peaks",
+                           .columns = {column("t", "s", decay.peaks, &sim::Extreme::t),
+                                       column("x", "m", decay.peaks, &sim::Extreme::x)},
+                           .key = "peaks"});
+  return answer;
+}
+
+const Analysis& free_decay_analysis() {
+  static const Analysis analysis = {.name = "free_decay",
+                                    .summary = "extremes of the free vibration from the initial state",
+                                    .keys = {{peaks()}},
+                                    .needs = {needs_of_free_vibrations("")},
+                                    .results = fields(),
+                                    .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

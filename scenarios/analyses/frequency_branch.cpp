@@ -1,0 +1,30 @@
+#include "scenarios/analyses/frequency_branch.hpp"
+
+#include "scenarios/analyses/shared/branches.hpp"
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  const Json& range = values.analysis.at("frequencies");
+  return std::make_unique<BranchQuestion>(sim::BranchParameter::frequency, number(range.at("from")),
+                                          number(range.at("to")));
+}
+
+}  // namespace
+
+const Analysis& frequency_branch_analysis() {
+  static const Analysis analysis = {
+      .name = "frequency_branch",
+      .summary = "one orbit followed in frequency likewise",
+      .keys = {{range("frequencies", {"rad/s"}, "forcing frequencies, in place of the excitation's own")}},
+      .needs = needs_of_steady_states({"amplitude"}),
+      .results = branch_fields({"omega", "rad/s", "forcing frequency"}),
+      .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

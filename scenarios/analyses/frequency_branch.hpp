@@ -1,0 +1,10 @@
+#pragma once
+/// `frequency_branch`: one orbit continued in frequency by arc length.
+
+#include "scenarios/analyses/analysis.hpp"
+
+namespace dualdamp::scenarios {
+
+[[nodiscard]] const Analysis& frequency_branch_analysis();
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,1 @@
+views.frequency_branch = { charts: () => branchView("omega", "frequency") };

@@ -1,0 +1,35 @@
+#include "scenarios/analyses/frequency_response.hpp"
+
+#include "scenarios/analyses/shared/curves.hpp"
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  return std::make_unique<FrequencyResponseQuestion>(grid_values(values.analysis.at("frequencies")));
+}
+
+}  // namespace
+
+Answer FrequencyResponseQuestion::run(const RunContext& context) const {
+  const sim::Curve curve = sim::frequency_response(context.model, frequencies_, context.steady_states());
+  return answer_of_curve(curve, {"omega", &sim::CurvePoint::omega, "rad/s"}, true);
+}
+
+const Analysis& frequency_response_analysis() {
+  static const Analysis analysis = {
+      .name = "frequency_response",
+      .summary = "output amplitude over frequency",
+      .keys = {{frequencies()}},
+      .needs = needs_of_steady_states({"amplitude"}),
+      .results = curve_fields({{"points[].omega", "rad/s", "forcing frequency"},
+                               {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}}),
+      .ask = ask,
+      .length_of = number_of_points};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

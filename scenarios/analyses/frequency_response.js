@@ -1,0 +1,1 @@
+views.frequency_response = { charts: () => curveView("curve", "omega", "frequency") };

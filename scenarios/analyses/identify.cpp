@@ -1,0 +1,125 @@
+#include "scenarios/analyses/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "scenarios/analyses/identify_options.hpp"
+#include "scenarios/format/excitations.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/measurements/measured_data.hpp"
+#include "scenarios/measurements/measurement.hpp"
+#include "scenarios/measurements/method_choice.hpp"
+#include "scenarios/measurements/sensors.hpp"
+#include "scenarios/results/estimates.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Section keys() {
+  std::vector<Field> fields = data_fields();
+  std::ranges::move(measurement_fields(), std::back_inserter(fields));
+  fields.push_back(methods_key("all that fit the data"));
+  std::ranges::move(method_option_fields(), std::back_inserter(fields));
+  return {std::move(fields), {{{"data", "measurement"}, true}}};
+}
+
+std::vector<Needs> needs() {
+  const std::string base = "the methods need the amplitude of the base";
+  return {{"xy_curve", {"base_harmonic"}, {}, true, base},
+          {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
+          {"simulate", excitations().names(), {"frequency"}, true, ""},
+          needs_of_free_vibrations("free_decay"),
+          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
+}
+
+/// A record like the one that the methods will read; nothing when the file is too faulty to know.
+std::optional<identify::Record> outlined_record(const CheckedFile& file) {
+  if (file.needs() == nullptr) return std::nullopt;
+  if (file.needs()->source != "data") return outline(file);
+  return file.data ? std::optional(file.data->record) : std::nullopt;
+}
+
+void check_frequency(CheckedFile& file, const identify::Record& record) {
+  const bool is_free = file.node("excitation") == nullptr || file.text_at("excitation", "type") == "none";
+  const auto lacks_frequency = [](const identify::Pair& pair) { return std::isnan(pair.omega); };
+  if (is_free && record.pairs && std::ranges::any_of(record.pairs->pairs, lacks_frequency))
+    file.complain("analysis.data", "x-Y pairs need the forcing frequency at which they were measured",
+                  "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency");
+}
+
+void check(CheckedFile& file) {
+  check_measurement(file);
+  read_data(file);
+  const std::optional<identify::Record> record = outlined_record(file);
+  if (!record) return;
+  resolve_methods(file, {*record});
+  check_frequency(file, *record);
+  check_method_options(file, record->pairs ? record->pairs->pairs.size() : 0);
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  const Json& section = values.analysis;
+  const sim::Model& model = values.model;
+  IdentifyQuestion::Methods methods = {
+      methods_of(section.at("methods")),
+      {model.oscillator.mass, model.oscillator.stiffness,
+       model.excitation.is_harmonic() ? model.excitation.frequency : identify::unknown},
+      method_options(section)};
+  if (values.data) return std::make_unique<IdentifyQuestion>(std::move(*values.data), std::move(methods));
+  IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), model)};
+  if (section.contains("sensors")) {
+    synthetic.sensors = sensors_of(section.at("sensors"));
+    synthetic.seed = section.at("sensors").at("seed").get<std::uint64_t>();
+  }
+  return std::make_unique<IdentifyQuestion>(std::move(synthetic), std::move(methods));
+}
+
+std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view list) {
+  if (list != "estimates" || !file.has("analysis", "methods")) return std::nullopt;
+  return file.values().at("analysis").at("methods").size();
+}
+
+}  // namespace
+
+const identify::Record* IdentifyQuestion::measured() const {
+  const auto* data = std::get_if<identify::MeasuredRecord>(&source_);
+  return data == nullptr ? nullptr : &data->record;
+}
+
+identify::Record IdentifyQuestion::record(const RunContext& context, std::vector<std::string>& warnings) const {
+  if (const auto* data = std::get_if<identify::MeasuredRecord>(&source_)) {
+    warnings = data->warnings;
+    return data->record;
+  }
+  const auto& [measurement, sensors, seed] = std::get<Synthetic>(source_);
+  MotionRecord motion = motion_of(context.model, measurement, sensors, context.steady_states());
+  warnings = std::move(motion.warnings);
+  return reading(motion, sensors, seed, warnings);
+}
+
+Answer IdentifyQuestion::run(const RunContext& context) const {
+  std::vector<std::string> warnings;
+  const identify::Record data = record(context, warnings);
+  std::vector<identify::Estimate> estimates;
+  for (const identify::MethodEntry* method : methods_.list)
+    estimates.push_back(method->run(data, methods_.constants, methods_.options));
+  Answer answer = answer_of(estimates, data);
+  answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
+  return answer;
+}
+
+const Analysis& identify_analysis() {
+  static const Analysis analysis = {.name = "identify",
+                                    .summary = "what the identification methods make of measured or simulated data",
+                                    .keys = keys(),
+                                    .needs = needs(),
+                                    .results = estimate_fields(),
+                                    .check = check,
+                                    .ask = ask,
+                                    .length_of = length_of};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

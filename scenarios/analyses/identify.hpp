@@ -1,0 +1,50 @@
+#pragma once
+/// `identify`: what the identification methods make of measured or simulated data.
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "identify/methods.hpp"
+#include "identify/records/sensors.hpp"
+#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/measurements/measure.hpp"
+
+namespace dualdamp::scenarios {
+
+class IdentifyQuestion final : public Question {
+ public:
+  /// A synthetic measurement of the scenario's system.
+  struct Synthetic {
+    Measurement measurement;
+    identify::Sensors sensors;
+    std::uint64_t seed = 0;
+  };
+  struct Methods {
+    std::vector<const identify::MethodEntry*> list;
+    identify::KnownConstants constants;
+    identify::MethodOptions options;
+  };
+
+  IdentifyQuestion(identify::MeasuredRecord data, Methods methods)
+      : source_(std::move(data)), methods_(std::move(methods)) {}
+  IdentifyQuestion(Synthetic measurement, Methods methods)
+      : source_(std::move(measurement)), methods_(std::move(methods)) {}
+
+  /// The measured record; nullptr when it is a synthetic one.
+  [[nodiscard]] const identify::Record* measured() const;
+  [[nodiscard]] const Methods& methods() const { return methods_; }
+
+  [[nodiscard]] Answer run(const RunContext& context) const override;
+
+ private:
+  identify::Record record(const RunContext& context, std::vector<std::string>& warnings) const;
+
+  std::variant<identify::MeasuredRecord, Synthetic> source_;
+  Methods methods_;
+};
+
+[[nodiscard]] const Analysis& identify_analysis();
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,172 @@
+#include "scenarios/analyses/regime_map.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "core/numbers.hpp"
+#include "scenarios/analyses/shared/curves.hpp"
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/limits.hpp"
+#include "scenarios/format/values.hpp"
+#include "sim/orbits/sticking_boundary.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Section keys() {
+  return {{frequencies(), amplitudes(),
+           boolean("sticking_boundary",
+                   "also find, at each frequency, the smallest amplitude whose steady state never sticks")
+               .with_fallback(false)}};
+}
+
+ResultFields fields() {
+  return joined({{"points[].omega", "rad/s", "forcing frequency"},
+                 {"points[].Y", "m or N", "input amplitude"},
+                 {"points[].x", "m", "output amplitude (peak - trough)/2"},
+                 {"points[].stops", "1", "stops in a period"},
+                 {"points[].sticks", "1", "sticks in a period; 1 without a stop: the mass never moves"},
+                 {"points[].reason", "", "only of a point without numbers: why"},
+                 {"regimes[].stops", "1", "stops in a period"},
+                 {"regimes[].sticks", "1", "sticks in a period"},
+                 {"regimes[].points", "1", "points of the map in this regime"},
+                 {"regimes[].omega_from", "rad/s", "their lowest frequency"},
+                 {"regimes[].omega_to", "rad/s", "their highest frequency"},
+                 {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
+                 {"regimes[].Y_to", "m or N", "their largest input amplitude"},
+                 {"boundary[].omega", "rad/s", "forcing frequency"},
+                 {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
+                 {"boundary[].x", "m", "output amplitude there"},
+                 {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
+                 {"boundary[].reason", "", "only where no boundary was found: why"}},
+                certificate_fields());
+}
+
+void check(CheckedFile& file) {
+  const auto count = number_of_points(file, "points");
+  if (count && static_cast<double>(*count) > max_points)
+    file.complain("analysis.type", "the map has too many points",
+                  "at most " + core::format_number(max_points, 6) + " frequencies times amplitudes",
+                  std::to_string(*count));
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  const Json& section = values.analysis;
+  return std::make_unique<RegimeMapQuestion>(grid_values(section.at("frequencies")),
+                                             grid_values(section.at("amplitudes")),
+                                             section.at("sticking_boundary").get<bool>());
+}
+
+std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view list) {
+  if (list == "boundary" && file.has("analysis", "frequencies"))
+    return grid_size(file.values().at("analysis").at("frequencies"));
+  return number_of_points(file, list);
+}
+
+Table map_table(const sim::Curve& map, const std::string& unit) {
+  using sim::CurvePoint;
+  Table table{.name = "map",
+              .columns = {column("omega", "rad/s", map.points, &CurvePoint::omega),
+                          column("Y", unit, map.points, &CurvePoint::Y),
+                          point_column("x", "m", map, CellKind::number, &CurvePoint::x),
+                          point_column("stops", "", map, CellKind::count, &CurvePoint::stops),
+                          point_column("sticks", "", map, CellKind::count, &CurvePoint::sticks)},
+              .is_long = true,
+              .key = "points"};
+  add_reasons(table, map);
+  return table;
+}
+
+/// The points of a map with as many stops and sticks in a period.
+struct Regime {
+  std::size_t points = 0;
+  double omega_from = std::numeric_limits<double>::infinity();
+  double omega_to = 0.0;
+  double Y_from = std::numeric_limits<double>::infinity();
+  double Y_to = 0.0;
+
+  void add(const sim::CurvePoint& point) {
+    ++points;
+    omega_from = std::min(omega_from, point.omega);
+    omega_to = std::max(omega_to, point.omega);
+    Y_from = std::min(Y_from, point.Y);
+    Y_to = std::max(Y_to, point.Y);
+  }
+};
+
+/// What a map shows, in a few rows.
+Table regime_table(const sim::Curve& map, const std::string& unit) {
+  std::map<std::pair<int, int>, Regime> found;  // by stops and sticks
+  for (const sim::CurvePoint& point : map.points)
+    if (point.ok()) found[{point.stops, point.sticks}].add(point);
+  const std::vector<std::pair<std::pair<int, int>, Regime>> rows(found.begin(), found.end());
+  const auto regime = [&](std::string name, std::string column_unit, double Regime::* value) {
+    return column(std::move(name), std::move(column_unit), rows,
+                  [value](const auto& row) { return row.second.*value; });
+  };
+  const auto count = [&](std::string name, auto get) {
+    Column result = column(std::move(name), "", rows, get);
+    result.kind = CellKind::count;
+    return result;
+  };
+  return {.name = "regimes",
+          .columns = {count("stops", [](const auto& row) { return row.first.first; }),
+                      count("sticks", [](const auto& row) { return row.first.second; }),
+                      count("points", [](const auto& row) { return static_cast<double>(row.second.points); }),
+                      regime("omega_from", "rad/s", &Regime::omega_from),
+                      regime("omega_to", "rad/s", &Regime::omega_to), regime("Y_from", unit, &Regime::Y_from),
+                      regime("Y_to", unit, &Regime::Y_to)},
+          .key = "regimes"};
+}
+
+/// The sticking boundary beside a map.
+void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundary, const std::string& unit) {
+  const auto when_ok = [](double sim::BoundaryPoint::* value) {
+    return [value](const sim::BoundaryPoint& point) { return point.outcome.ok() ? point.*value : none; };
+  };
+  Table table{.name = "boundary",
+              .columns = {column("omega", "rad/s", boundary, &sim::BoundaryPoint::omega),
+                          column("Y", unit, boundary, when_ok(&sim::BoundaryPoint::amplitude)),
+                          column("x", "m", boundary, when_ok(&sim::BoundaryPoint::x)),
+                          column("Y_closed_form", unit, boundary,
+                                 [](const sim::BoundaryPoint& point) { return point.closed_form.value_or(none); })},
+              .key = "boundary"};
+  if (!std::ranges::all_of(boundary, [](const sim::BoundaryPoint& point) { return point.outcome.ok(); }))
+    table.columns.push_back(
+        text_column("reason", boundary, [](const sim::BoundaryPoint& point) { return point.outcome.reason; }));
+  answer.result["boundary"] = nullptr;
+  answer.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+Answer RegimeMapQuestion::run(const RunContext& context) const {
+  const sim::Model& model = context.model;
+  const std::string unit = amplitude_unit(model.excitation);
+  const sim::Curve map = sim::regime_map(model, frequencies_, amplitudes_, context.steady_states());
+  Answer answer =
+      answer_of_points(map, "map", {{"omega", &sim::CurvePoint::omega, "rad/s"}, {"Y", &sim::CurvePoint::Y, unit}});
+  if (answer.result.is_null()) return answer;
+  answer.result["regimes"] = nullptr;
+  answer.tables.push_back(map_table(map, unit));
+  answer.tables.push_back(regime_table(map, unit));
+  if (with_boundary_) add_boundary(answer, sim::sticking_boundary(model, frequencies_), unit);
+  return answer;
+}
+
+const Analysis& regime_map_analysis() {
+  static const Analysis analysis = {
+      .name = "regime_map",
+      .summary = "output amplitude, stops and sticks over frequency and input amplitude",
+      .keys = keys(),
+      .needs = needs_of_steady_states({}),
+      .results = fields(),
+      .check = check,
+      .ask = ask,
+      .length_of = length_of};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

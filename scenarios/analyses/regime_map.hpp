@@ -1,0 +1,24 @@
+#pragma once
+/// `regime_map`: steady states over frequency and input amplitude, and where they begin to stick.
+
+#include "scenarios/analyses/analysis.hpp"
+
+namespace dualdamp::scenarios {
+
+class RegimeMapQuestion final : public Question {
+ public:
+  /// Frequencies in rad/s, amplitudes in m or N.
+  RegimeMapQuestion(std::vector<double> frequencies, std::vector<double> amplitudes, bool with_boundary)
+      : frequencies_(std::move(frequencies)), amplitudes_(std::move(amplitudes)), with_boundary_(with_boundary) {}
+
+  [[nodiscard]] Answer run(const RunContext& context) const override;
+
+ private:
+  std::vector<double> frequencies_;
+  std::vector<double> amplitudes_;
+  bool with_boundary_;  ///< find the sticking boundary too
+};
+
+[[nodiscard]] const Analysis& regime_map_analysis();
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,80 @@
+#include "scenarios/analyses/shared/branches.hpp"
+
+#include <functional>
+
+#include "scenarios/results/cells.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Column typed(Column column, CellKind kind) {
+  column.kind = kind;
+  return column;
+}
+
+Table branch_table(const std::vector<sim::BranchPoint>& points, const std::string& name, const std::string& unit) {
+  using sim::BranchPoint;
+  using sim::SteadyState;
+  const auto state = [&](const std::string& title, const std::string& unit_of, auto get) {
+    return column(title, unit_of, points,
+                  [get](const BranchPoint& point) { return static_cast<double>(std::invoke(get, point.state)); });
+  };
+  const auto sticks = [](const SteadyState& s) { return s.sticks.size(); };
+  return {.name = "branch",
+          .columns = {column(name, unit, points, &BranchPoint::parameter), state("x", "m", &SteadyState::amplitude),
+                      state("peak", "m", &SteadyState::peak), state("trough", "m", &SteadyState::trough),
+                      typed(state("stops", "", &SteadyState::stops_per_cycle), CellKind::count),
+                      typed(state("sticks", "", sticks), CellKind::count),
+                      typed(state("stable", "", &SteadyState::stable), CellKind::truth)},
+          .key = "points"};
+}
+
+Table change_table(const std::vector<sim::BranchChange>& changes, const std::string& name,
+                   const std::string& unit) {
+  using sim::BranchChange;
+  return {.name = "changes",
+          .columns = {text_column("kind", changes, [](const BranchChange& c) { return sim::name(c.kind); }),
+                      column(name, unit, changes, &BranchChange::parameter),
+                      column("x", "m", changes, &BranchChange::amplitude),
+                      typed(column("stops_before", "", changes, &BranchChange::stops_before), CellKind::count),
+                      typed(column("stops_after", "", changes, &BranchChange::stops_after), CellKind::count)},
+          .key = "changes"};
+}
+
+}  // namespace
+
+ResultFields branch_fields(const ResultField& parameter) {
+  return joined({{"points[]." + parameter.path, parameter.unit, parameter.meaning},
+                 {"points[].x", "m", "output amplitude (peak - trough)/2"},
+                 {"points[].peak", "m", "max x"},
+                 {"points[].trough", "m", "min x"},
+                 {"points[].stops", "1", "stops in a period"},
+                 {"points[].sticks", "1", "sticks in a period"},
+                 {"points[].stable", "", "no Floquet multiplier outside the unit circle"},
+                 {"changes[].kind", "", "sequence, sticking, stops, fold, stability, end"},
+                 {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
+                 {"changes[].x", "m", "output amplitude there"},
+                 {"changes[].stops_before", "1", "stops before"},
+                 {"changes[].stops_after", "1", "stops behind"}},
+                certificate_fields());
+}
+
+Answer BranchQuestion::run(const RunContext& context) const {
+  const sim::Branch branch = sim::follow_branch(context.model, parameter_, from_, to_);
+  if (!branch.outcome.ok()) return failed("the branch has no first point: " + branch.outcome.reason);
+  const bool amplitude = parameter_ == sim::BranchParameter::amplitude;
+  Answer answer;
+  answer.result["points"] = nullptr;
+  answer.result["changes"] = nullptr;
+  answer.result["certificate"] = certificate_json(branch.certificate);
+  const std::string name = amplitude ? "Y" : "omega";
+  const std::string unit = amplitude ? amplitude_unit(context.model.excitation) : "rad/s";
+  answer.tables.push_back(branch_table(branch.points, name, unit));
+  answer.tables.push_back(change_table(branch.changes, name, unit));
+  if (!branch.changes.empty() && branch.changes.back().kind == sim::ChangeKind::end)
+    answer.warnings.emplace_back("the branch ends inside the range: no orbit continues it");
+  return answer;
+}
+
+}  // namespace dualdamp::scenarios

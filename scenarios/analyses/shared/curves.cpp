@@ -1,0 +1,81 @@
+#include "scenarios/analyses/shared/curves.hpp"
+
+#include <algorithm>
+
+#include "core/numbers.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/results/cells.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase) {
+  using sim::CurvePoint;
+  Table table{.name = "curve", .key = "points"};
+  std::vector<Column>& columns = table.columns;
+  columns.push_back(column(axis.name, axis.unit, curve.points, axis.value));
+  columns.push_back(point_column("x", "m", curve, CellKind::number, &CurvePoint::x));
+  if (with_phase) columns.push_back(point_column("phase", "rad", curve, CellKind::number, &CurvePoint::phase));
+  columns.push_back(point_column("stops", "", curve, CellKind::count, &CurvePoint::stops));
+  columns.push_back(point_column("sticks", "", curve, CellKind::count, &CurvePoint::sticks));
+  columns.push_back(point_column("stable", "", curve, CellKind::truth, &CurvePoint::stable));
+  add_reasons(table, curve);
+  return table;
+}
+
+}  // namespace
+
+void add_reasons(Table& table, const sim::Curve& curve) {
+  if (curve.reasons.size() == 1) return;
+  Column column{.name = "reason", .texts = curve.reasons, .kind = CellKind::text};
+  for (const sim::CurvePoint& point : curve.points) column.choices.push_back(point.reason);
+  table.columns.push_back(std::move(column));
+}
+
+Answer answer_of_points(const sim::Curve& curve, const std::string& what, const std::vector<Axis>& axes) {
+  if (std::ranges::none_of(curve.points, &sim::CurvePoint::ok))
+    return failed("no point of the " + what + " has a number; the first: " + curve.reason(curve.points.front()));
+  Answer answer;
+  for (const sim::Remark& remark : curve.remarks) {
+    const std::string count = remark.count > 1 ? std::to_string(remark.count) + " points; first " : "";
+    std::string place = "points[" + std::to_string(remark.first) + "]";
+    for (const Axis& axis : axes) {
+      const double value = curve.points[remark.first].*axis.value;
+      place += ", " + axis.name + " = " + core::format_number(value, 6) + " " + axis.unit;
+    }
+    answer.warnings.push_back(remark.text + " (" + count + place + ")");
+  }
+  answer.result["points"] = nullptr;
+  answer.result["certificate"] = certificate_json(curve.certificate);
+  return answer;
+}
+
+Answer answer_of_curve(const sim::Curve& curve, const Axis& axis, bool with_phase) {
+  Answer answer = answer_of_points(curve, "curve", {axis});
+  if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, axis, with_phase));
+  return answer;
+}
+
+ResultFields curve_fields(const ResultFields& own) {
+  return joined(joined(own, certificate_fields()),
+                {{"points[].x", "m", "output amplitude (peak - trough)/2"},
+                 {"points[].stops", "1", "stops in a period"},
+                 {"points[].sticks", "1", "sticks in a period"},
+                 {"points[].stable", "", "all Floquet multipliers inside the unit circle"},
+                 {"points[].reason", "", "only of a point without numbers: why"}});
+}
+
+std::optional<std::size_t> number_of_points(const CheckedFile& file, std::string_view list) {
+  if (list != "points") return std::nullopt;
+  std::optional<std::size_t> count;
+  for (const char* key : {"amplitudes", "frequencies"}) {
+    if (file.has("analysis", key))
+      count = count.value_or(1) * grid_size(file.values().at("analysis").at(key));
+    else if (file.stands_in_file("analysis", key))
+      return std::nullopt;
+  }
+  return count;
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,47 @@
+#pragma once
+/// What analyses of many steady states, curves and maps, have in common.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/results/motion.hpp"
+#include "sim/orbits/curves.hpp"
+
+namespace dualdamp::scenarios {
+
+/// A column of a curve; a point without a steady state has no number.
+template <typename Value>
+Column point_column(std::string name, std::string unit, const sim::Curve& curve, CellKind kind,
+                    Value sim::CurvePoint::* value) {
+  Column result{.name = std::move(name), .unit = std::move(unit), .kind = kind};
+  result.numbers.reserve(curve.points.size());
+  for (const sim::CurvePoint& point : curve.points)
+    result.numbers.push_back(point.ok() ? static_cast<double>(point.*value) : none);
+  return result;
+}
+
+/// The reasons of points without numbers, where there are any.
+void add_reasons(Table& table, const sim::Curve& curve);
+
+/// A quantity that a curve or map runs over.
+struct Axis {
+  std::string name;
+  double sim::CurvePoint::* value;
+  std::string unit;
+};
+
+/// Remarks, the place of the list `points` and the certificate; no result when no point has a number.
+[[nodiscard]] Answer answer_of_points(const sim::Curve& curve, const std::string& what,
+                                      const std::vector<Axis>& axes);
+
+/// A curve over one axis; its points have a phase `with_phase`.
+[[nodiscard]] Answer answer_of_curve(const sim::Curve& curve, const Axis& axis, bool with_phase);
+/// The fields of a curve; `own`: those of its axis.
+[[nodiscard]] ResultFields curve_fields(const ResultFields& own);
+
+/// Number of points: the values of all of `amplitudes` and `frequencies` that the analysis has.
+[[nodiscard]] std::optional<std::size_t> number_of_points(const CheckedFile& file, std::string_view list);
+
+}  // namespace dualdamp::scenarios

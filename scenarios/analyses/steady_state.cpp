@@ -1,0 +1,77 @@
+#include "scenarios/analyses/steady_state.hpp"
+
+#include "scenarios/results/cells.hpp"
+#include "scenarios/results/motion.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+ResultFields fields() {
+  return joined({{"peak", "m", "max x"},
+                 {"trough", "m", "min x"},
+                 {"amplitude", "m", "(peak - trough)/2"},
+                 {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi)"},
+                 {"period", "s", "forcing period"},
+                 {"max_speed", "m/s", "max |v|"},
+                 {"stops_per_cycle", "1", "stops in a period"},
+                 {"sticks[].start", "s", "start of a stick, modulo one period"},
+                 {"sticks[].duration", "s", "its duration"},
+                 {"sticks[].position", "m", "its position"},
+                 {"multipliers[][]", "1", "Floquet multipliers of the full period, [re, im]"},
+                 {"stable", "", "all Floquet multipliers inside the unit circle"}},
+                joined(energy_fields(), certificate_fields()));
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& /*values*/) { return std::make_unique<SteadyStateQuestion>(); }
+
+}  // namespace
+
+Answer SteadyStateQuestion::run(const RunContext& context) const {
+  constexpr int samples = 720;  // of one period, for plots
+  const sim::Model& model = context.model;
+  const sim::SteadyState state = sim::steady_state(model, context.steady_states());
+  if (!state.outcome.ok()) return failed(state.outcome.reason);
+  Answer answer;
+  answer.warnings = state.warnings;
+  Json& result = answer.result;
+  result["peak"] = finite(state.peak);
+  result["trough"] = finite(state.trough);
+  result["amplitude"] = finite(state.amplitude);
+  result["phase"] = finite(state.phase);
+  result["period"] = finite(state.period);
+  result["max_speed"] = finite(state.max_speed);
+  result["stops_per_cycle"] = state.stops_per_cycle;
+  result["sticks"] = Json::array();
+  for (const sim::Stick& stick : state.sticks)
+    result["sticks"].push_back({{"start", finite(stick.start)},
+                                {"duration", finite(stick.duration)},
+                                {"position", finite(stick.position)}});
+  result["multipliers"] = Json::array();
+  for (const std::complex<double>& multiplier : state.multipliers)
+    result["multipliers"].push_back({finite(multiplier.real()), finite(multiplier.imag())});
+  result["stable"] = state.stable();
+  result["energy"] = energy_json(state.energy);
+  result["certificate"] = certificate_json(state.certificate);
+  if (!state.sticks.empty())
+    answer.tables.push_back({"sticks",
+                             {column("start", "s", state.sticks, &sim::Stick::start),
+                              column("duration", "s", state.sticks, &sim::Stick::duration),
+                              column("position", "m", state.sticks, &sim::Stick::position)}});
+  answer.tables.push_back(history_table("orbit", sim::one_period(model, state, samples), model.excitation));
+  return answer;
+}
+
+const Analysis& steady_state_analysis() {
+  static const Analysis analysis = {.name = "steady_state",
+                                    .summary = "the periodic motion approached from the initial state",
+                                    .keys = {},
+                                    .needs = needs_of_steady_states({"amplitude", "frequency"}),
+                                    .results = fields(),
+                                    .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

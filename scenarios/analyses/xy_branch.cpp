@@ -1,0 +1,30 @@
+#include "scenarios/analyses/xy_branch.hpp"
+
+#include "scenarios/analyses/shared/branches.hpp"
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  const Json& range = values.analysis.at("amplitudes");
+  return std::make_unique<BranchQuestion>(sim::BranchParameter::amplitude, number(range.at("from")),
+                                          number(range.at("to")));
+}
+
+}  // namespace
+
+const Analysis& xy_branch_analysis() {
+  static const Analysis analysis = {
+      .name = "xy_branch",
+      .summary = "one orbit followed in amplitude by arc length, past folds and through orbits that do not attract",
+      .keys = {{range("amplitudes", {"m", "N"}, "excitation amplitudes, in place of the excitation's own")}},
+      .needs = needs_of_steady_states({"frequency"}),
+      .results = branch_fields({"Y", "m or N", "excitation amplitude"}),
+      .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

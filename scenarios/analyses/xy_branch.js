@@ -1,0 +1,1 @@
+views.xy_branch = { charts: () => branchView("Y", "input amplitude Y") };

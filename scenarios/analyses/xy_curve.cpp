@@ -1,0 +1,33 @@
+#include "scenarios/analyses/xy_curve.hpp"
+
+#include "scenarios/analyses/shared/curves.hpp"
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  return std::make_unique<XyCurveQuestion>(grid_values(values.analysis.at("amplitudes")));
+}
+
+}  // namespace
+
+Answer XyCurveQuestion::run(const RunContext& context) const {
+  const sim::Curve curve = sim::xy_curve(context.model, amplitudes_, context.steady_states());
+  return answer_of_curve(curve, {"Y", &sim::CurvePoint::Y, amplitude_unit(context.model.excitation)}, false);
+}
+
+const Analysis& xy_curve_analysis() {
+  static const Analysis analysis = {.name = "xy_curve",
+                                    .summary = "output amplitude over input amplitude",
+                                    .keys = {{amplitudes()}},
+                                    .needs = needs_of_steady_states({"frequency"}),
+                                    .results = curve_fields({{"points[].Y", "m or N", "excitation amplitude"}}),
+                                    .ask = ask,
+                                    .length_of = number_of_points};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

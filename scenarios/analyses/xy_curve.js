@@ -1,0 +1,1 @@
+views.xy_curve = { charts: () => curveView("curve", "Y", "input amplitude Y") };

@@ -1,0 +1,97 @@
+#pragma once
+/// A scenario while it is being checked: the file's text as a tree, what was read of it, and the problems found.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "identify/readers/record_reader.hpp"
+#include "scenarios/format/keys.hpp"
+#include "scenarios/format/needs.hpp"
+#include "scenarios/format/reader.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Where data files are looked for.
+struct DataPlace {
+  std::string directory;
+  bool anywhere = false;  ///< they may lie outside it
+};
+
+class CheckedFile {
+ public:
+  /// `format`: the tables by which the document was read. `needs`: those of its analysis; empty when the file is
+  /// too faulty to know it. Both outlive this.
+  CheckedFile(const Document& document, Reading& reading, const Section& format, const std::vector<Needs>& needs,
+              DataPlace data_place = {});
+
+  /// The record of `analysis.data`, once it has been read.
+  std::optional<identify::MeasuredRecord> data;
+
+  [[nodiscard]] const DataPlace& data_place() const { return data_place_; }
+
+  /// Values read so far; checks complete them.
+  [[nodiscard]] Json& values() { return reading_.values; }
+  [[nodiscard]] const Json& values() const { return reading_.values; }
+
+  /// Type of the analysis; empty when the file is too faulty to know.
+  [[nodiscard]] const std::string& analysis() const { return analysis_; }
+
+  /// What the analysis needs; nullptr when the file is too faulty to know.
+  [[nodiscard]] const Needs* needs() const { return needs_; }
+
+  /// "analysis 'identify' with a measurement 'xy_curve'"; `needs` must be known.
+  [[nodiscard]] std::string subject() const;
+
+  /// At a place of the file, or at the value of a path.
+  void complain(Place place, std::string message, std::string allowed = {}, std::string found = {},
+                std::string suggestion = {});
+  void complain(const std::string& path, std::string message, std::string allowed = {}, std::string found = {},
+                std::string suggestion = {});
+
+  /// Problems that were found and located elsewhere.
+  void take_over(const std::vector<core::Diagnostic>& problems);
+
+  /// Of the value at `path`, or of what contains it.
+  [[nodiscard]] Place place_of(std::string path) const;
+
+  /// The value at exactly this path stands in the file and could be read.
+  [[nodiscard]] bool is_given(const std::string& path) const { return reading_.places.contains(path); }
+
+  /// A section without its key; nullptr when it is not there.
+  [[nodiscard]] const Node* node(std::string_view section) const;
+
+  /// A section with its key; nullptr when it is not there.
+  [[nodiscard]] const Entry* entry(std::string_view section) const { return document_.root().find(section); }
+
+  /// The file has the key, whether or not its value could be read.
+  [[nodiscard]] bool stands_in_file(std::string_view section, std::string_view key) const;
+
+  [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
+  [[nodiscard]] std::string text_at(const std::string& section, const std::string& key) const;
+  [[nodiscard]] std::optional<double> number_at(const std::string& section, const std::string& key) const;
+
+  /// `analysis.measurement`; nullptr when there is none.
+  [[nodiscard]] const Json* measurement() const;
+
+  /// The tables of a section that is a plain map: system.
+  [[nodiscard]] const Section& keys_of(std::string_view section) const;
+
+  /// Gives `analysis` a key that the file left out, in its place among the others.
+  void fill_in(const std::string& key, Json value);
+
+ private:
+  [[nodiscard]] const Needs* find_needs(const std::vector<Needs>& rows) const;
+
+  const Document& document_;
+  Reading& reading_;
+  const Section& format_;
+  std::string analysis_;
+  const Needs* needs_;
+  DataPlace data_place_;
+};
+
+/// Sorts keys that were filled in later to where the tables have them.
+void put_in_order(Json& values, const Section& section);
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,51 @@
+#include "scenarios/format/common_keys.hpp"
+
+#include "scenarios/format/limits.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+constexpr auto max_items = static_cast<std::size_t>(max_points);
+
+}  // namespace
+
+Field amplitudes() {
+  return grid("amplitudes", {"m", "N"}, "excitation amplitudes, each in place of the excitation's own")
+      .required()
+      .at_least(0)
+      .items(1, max_items);
+}
+
+Field frequencies() {
+  return grid("frequencies", {"rad/s"}, "forcing frequencies, each in place of the excitation's own")
+      .required()
+      .above(0)
+      .items(1, max_items);
+}
+
+Field peaks() {
+  return integer("peaks", "number of extremes wanted, the initial one included")
+      .required()
+      .at_least(1)
+      .at_most(max_points);
+}
+
+Field seed() {
+  return integer("seed", "of the random values").with_fallback(0).at_least(0).at_most(friction::seed_range.high);
+}
+
+Field range(std::string name, const std::vector<std::string>& units, std::string meaning) {
+  return section(std::move(name),
+                 {{quantity("from", units, "value at the first point").required().above(0),
+                   quantity("to", units, "the branch is followed until it leaves the range").required().above(0)}},
+                 std::move(meaning))
+      .required();
+}
+
+Field optional(Field field) {
+  field.is_required = false;
+  return field;
+}
+
+}  // namespace dualdamp::scenarios

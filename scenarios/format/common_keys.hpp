@@ -1,0 +1,22 @@
+#pragma once
+/// Keys that several sections of the format have.
+
+#include "scenarios/format/keys.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Items of a list of ranges, sensors, estimates and the like.
+inline constexpr std::size_t max_sets = 100;
+
+[[nodiscard]] Field amplitudes();
+[[nodiscard]] Field frequencies();
+/// How many extremes of a free vibration are wanted.
+[[nodiscard]] Field peaks();
+/// Of random values.
+[[nodiscard]] Field seed();
+/// {from, to}: where a branch begins and where it is left.
+[[nodiscard]] Field range(std::string name, const std::vector<std::string>& units, std::string meaning);
+/// The field, no longer required.
+[[nodiscard]] Field optional(Field field);
+
+}  // namespace dualdamp::scenarios

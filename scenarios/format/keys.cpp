@@ -1,0 +1,292 @@
+#include "scenarios/format/keys.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+
+#include "core/numbers.hpp"
+#include "core/units.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Field make(Kind kind, std::string name, std::string meaning) {
+  Field field;
+  field.kind = kind;
+  field.name = std::move(name);
+  field.meaning = std::move(meaning);
+  return field;
+}
+
+/// Edit distance that counts a swap of neighbours as one edit (Damerau, restricted).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last;
+  std::vector<std::size_t> last(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::vector<std::size_t> row(b.size() + 1);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = std::move(last);
+    last = std::move(row);
+  }
+  return last.back();
+}
+
+/// Case, '-', '_' and blanks do not matter to a person.
+std::string folded(std::string_view word) {
+  std::string result;
+  for (const char c : word)
+    if (c != '_' && c != '-' && c != ' ') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// Name, kind and meaning of a law's parameter.
+Field plain_field_of(const friction::Parameter& parameter) {
+  using friction::ParameterKind;
+  std::string name(parameter.name);
+  std::string meaning(parameter.meaning);
+  switch (parameter.kind) {
+    case ParameterKind::number:
+      break;
+    case ParameterKind::count:
+    case ParameterKind::seed:
+      return integer(std::move(name), std::move(meaning));
+    case ParameterKind::choice:
+      return words(std::move(name), {parameter.words.begin(), parameter.words.end()}, std::move(meaning));
+    case ParameterKind::flag:
+      return boolean(std::move(name), std::move(meaning));
+    case ParameterKind::record:
+      return section(std::move(name), {fields_of(parameter.fields)}, std::move(meaning));
+    case ParameterKind::list:
+      return section_list(std::move(name), {fields_of(parameter.fields)}, std::move(meaning))
+          .items(1, parameter.max_items);
+  }
+  return quantity(std::move(name), {std::string(parameter.unit)}, std::move(meaning));
+}
+
+}  // namespace
+
+Field&& Field::required() && {
+  is_required = true;
+  return std::move(*this);
+}
+
+Field&& Field::with_fallback(Json value) && {
+  fallback = std::move(value);
+  return std::move(*this);
+}
+
+Field&& Field::or_words(std::vector<std::string> list) && {
+  words = std::move(list);
+  return std::move(*this);
+}
+
+Field&& Field::above(double low) && {
+  range.low = low;
+  range.low_open = true;
+  return std::move(*this);
+}
+
+Field&& Field::at_least(double low) && {
+  range.low = low;
+  return std::move(*this);
+}
+
+Field&& Field::at_most(double high) && {
+  range.high = high;
+  return std::move(*this);
+}
+
+Field&& Field::items(std::size_t least, std::size_t most) && {
+  min_items = least;
+  max_items = most;
+  return std::move(*this);
+}
+
+const Field* Section::find(std::string_view name) const {
+  const auto found = std::ranges::find(fields, name, &Field::name);
+  return found == fields.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Section::instead_of(std::string_view name) const {
+  std::vector<std::string> result;
+  for (const Field& field : fields)
+    if (!field.instead_of.empty() && field.instead_of == name) result.push_back(field.name);
+  return result;
+}
+
+const Variant* Choice::find(std::string_view name) const {
+  const auto found = std::ranges::find(variants, name, &Variant::name);
+  return found == variants.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Choice::names() const {
+  std::vector<std::string> result;
+  for (const Variant& variant : variants) result.push_back(variant.name);
+  return result;
+}
+
+Field text(std::string name, std::string meaning) { return make(Kind::text, std::move(name), std::move(meaning)); }
+
+Field words(std::string name, std::vector<std::string> list, std::string meaning) {
+  return make(Kind::word, std::move(name), std::move(meaning)).or_words(std::move(list));
+}
+
+Field boolean(std::string name, std::string meaning) {
+  return make(Kind::boolean, std::move(name), std::move(meaning));
+}
+
+Field integer(std::string name, std::string meaning) {
+  return make(Kind::integer, std::move(name), std::move(meaning));
+}
+
+Field integers(std::string name, std::string meaning) {
+  return make(Kind::integers, std::move(name), std::move(meaning));
+}
+
+Field word_list(std::string name, std::vector<std::string> list, std::string meaning) {
+  const std::size_t count = list.size();
+  return make(Kind::word_list, std::move(name), std::move(meaning)).or_words(std::move(list)).items(1, count);
+}
+
+Field scalar(std::string name, std::string meaning) {
+  return make(Kind::scalar, std::move(name), std::move(meaning));
+}
+
+Field quantity(std::string name, std::vector<std::string> units, std::string meaning) {
+  Field field = make(Kind::quantity, std::move(name), std::move(meaning));
+  field.units = std::move(units);
+  return field;
+}
+
+Field quantities(std::string name, std::vector<std::string> units, std::string meaning) {
+  Field field = quantity(std::move(name), std::move(units), std::move(meaning));
+  field.kind = Kind::quantities;
+  return field;
+}
+
+Field grid(std::string name, std::vector<std::string> units, std::string meaning) {
+  Field field = quantity(std::move(name), std::move(units), std::move(meaning));
+  field.kind = Kind::grid;
+  return field;
+}
+
+Field section(std::string name, Section section, std::string meaning) {
+  return choice(std::move(name), Choice{{}, {{{}, {}, std::move(section)}}}, std::move(meaning));
+}
+
+Field section_list(std::string name, Section section, std::string meaning) {
+  Field field = scenarios::section(std::move(name), std::move(section), std::move(meaning));
+  field.listed = field.only_listed = true;
+  return field;
+}
+
+Field choice(std::string name, Choice choice, std::string meaning) {
+  Field field = make(Kind::choice, std::move(name), std::move(meaning));
+  field.choice = std::make_shared<const Choice>(std::move(choice));
+  return field;
+}
+
+std::vector<Field> fields_of(const std::vector<friction::Parameter>& table) {
+  std::vector<Field> fields;
+  for (const friction::Parameter& parameter : table) {
+    Field field = plain_field_of(parameter);
+    field.range = parameter.allowed_range();
+    field.is_required = parameter.required();
+    field.instead_of = parameter.instead_of;
+    if (!field.is_required) field.fallback_words = friction::describe_default(table, parameter);
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+Section grid_section(const Field& grid) {
+  const auto end = [&](std::string name, std::string meaning) {
+    Field field = quantity(std::move(name), grid.units, std::move(meaning)).required();
+    field.range = grid.range;
+    return field;
+  };
+  return {{end("from", "first value"), end("to", "last value"),
+           integer("count", "number of values, both ends included")
+               .required()
+               .at_least(2)
+               .at_most(static_cast<double>(grid.max_items)),
+           words("spacing", {"linear", "log"}, "equal steps, or equal ratios").with_fallback("linear")}};
+}
+
+std::string describe_values(const Field& field) {
+  const auto list = [&](const std::string& what) {
+    const std::string range = field.min_items == field.max_items
+                                  ? std::to_string(field.min_items)
+                                  : std::to_string(field.min_items) + " to " + std::to_string(field.max_items);
+    return "a list of " + range + " " + what;
+  };
+  std::string numbers;
+  for (const std::string& unit : field.units)
+    numbers += (numbers.empty() ? "" : ", or ") + core::describe_dimension(unit);
+  const std::string_view unit =
+      field.units.size() == 1 ? std::string_view(field.units.front()) : std::string_view();
+  const bool bounded = std::isfinite(field.range.low) || std::isfinite(field.range.high);
+  const std::string bounds = bounded ? field.range.describe(unit) : "";
+  const auto with_bounds = [&](const std::string& what) { return bounded ? what + ", " + bounds : what; };
+
+  switch (field.kind) {
+    case Kind::text:
+      return "a text";
+    case Kind::word:
+      return joined(field.words);
+    case Kind::boolean:
+      return "true, false";
+    case Kind::integer:
+      return with_bounds("a whole number");
+    case Kind::quantity:
+      return (field.words.empty() ? "" : joined(field.words) + ", or ") + with_bounds(numbers);
+    case Kind::quantities:
+      return list("quantities, each " + with_bounds(numbers));
+    case Kind::grid:
+      return list("quantities, each " + with_bounds(numbers)) + "; or {from, to, count, spacing}";
+    case Kind::integers:
+      return list("whole numbers" + (bounded ? ", each " + bounds : ""));
+    case Kind::word_list:
+      return "a list of " + joined(field.words);
+    case Kind::scalar:
+      return "a number, true, false or a text";
+    case Kind::choice:
+      break;
+  }
+  const std::string map = field.choice->key.empty() ? "a map" : "a map with the key '" + field.choice->key + "'";
+  if (field.only_listed) return "a list of maps";
+  return field.listed ? map + ", or a list of such maps" : map;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& names) {
+  constexpr std::size_t longest = 40;
+  if (word.empty() || word.size() > longest) return {};
+  const std::string wanted = folded(word);
+  std::string best;
+  // One edit for three letters: `mas` is mass, but `foo` is not force.
+  std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(wanted, folded(name));
+    if (distance < best_distance) {
+      best = name;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,131 @@
+#pragma once
+/// The vocabulary of scenario files: what a key may hold, stated once.
+///
+/// A table of `Field`s describes a section of the file. The reader (reader.cpp), the JSON Schema (schema.cpp) and
+/// the reference page (reference.cpp) all follow these tables; what the tables say (`format.cpp` and the analyses)
+/// stands nowhere else.
+///
+///     Section{{quantity("mass", "kg", "sliding mass").required().above(0),
+///              words("damper_to", {"ground", "base"}, "other end of the damper").fallback("ground")}}
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "friction_models/parameters.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/format/result_field.hpp"
+
+namespace dualdamp::scenarios {
+
+enum class Kind {
+  text,        ///< any text
+  word,        ///< one of `words`
+  boolean,     ///< true, false
+  integer,     ///< a whole number
+  quantity,    ///< a number with unit, or one of `words`
+  quantities,  ///< a list of them
+  grid,        ///< a list of them, or {from, to, count, spacing}
+  integers,    ///< a list of whole numbers
+  word_list,   ///< a list of distinct `words`
+  scalar,      ///< a number, true, false or a text
+  choice,      ///< a map, or (when `listed`) a list of maps
+};
+
+struct Choice;
+
+struct Field {
+  std::string name;
+  Kind kind = Kind::text;
+  std::string meaning;
+  /// Units of the numbers. More than one: which one holds follows from the excitation (an amplitude is m or N).
+  std::vector<std::string> units;
+  friction::Range range;
+  std::vector<std::string> words;
+  bool is_required = false;
+  /// Part of the other form of a section, which does without this key: refused beside it, required without it (when
+  /// `is_required`). That key itself is then required where no part of the other form is.
+  std::string instead_of = {};
+  Json fallback;               ///< null: none. In the form the reader returns
+  std::string fallback_words;  ///< the default in words, where it is not a value: "that of 'kinetic'"
+  std::size_t min_items = 1;
+  std::size_t max_items = 1;
+  std::shared_ptr<const Choice> choice;
+  bool listed = false;       ///< choice: a list of maps is accepted
+  bool only_listed = false;  ///< choice: nothing but a list is accepted
+
+  Field&& required() &&;
+  Field&& with_fallback(Json value) &&;
+  Field&& or_words(std::vector<std::string> list) &&;
+  Field&& above(double low) &&;
+  Field&& at_least(double low) &&;
+  Field&& at_most(double high) &&;
+  Field&& items(std::size_t least, std::size_t most) &&;
+};
+
+/// Keys of which a section takes exactly one, or at most one.
+struct Alternatives {
+  std::vector<std::string> names;
+  bool is_required = true;
+};
+
+struct Section {
+  std::vector<Field> fields;
+  std::vector<Alternatives> alternatives = {};
+
+  [[nodiscard]] const Field* find(std::string_view name) const;
+  /// Keys of the form that does without `name`.
+  [[nodiscard]] std::vector<std::string> instead_of(std::string_view name) const;
+};
+
+struct Variant {
+  std::string name;
+  std::string summary;
+  Section section;
+  /// Of an excitation: which of its units a field with several takes in the rest of the file.
+  std::string amplitude_unit = {};
+  std::string equation = {};              ///< of a closed form
+  std::vector<ResultField> results = {};  ///< what this choice adds to the result
+};
+
+/// A map whose key `key` (type, law, ...) tells which section holds; a plain map when `key` is empty.
+struct Choice {
+  std::string key;
+  std::vector<Variant> variants;
+
+  [[nodiscard]] const Variant* find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+};
+
+[[nodiscard]] Field text(std::string name, std::string meaning);
+[[nodiscard]] Field words(std::string name, std::vector<std::string> list, std::string meaning);
+[[nodiscard]] Field boolean(std::string name, std::string meaning);
+[[nodiscard]] Field integer(std::string name, std::string meaning);
+[[nodiscard]] Field integers(std::string name, std::string meaning);
+[[nodiscard]] Field word_list(std::string name, std::vector<std::string> list, std::string meaning);
+[[nodiscard]] Field scalar(std::string name, std::string meaning);
+[[nodiscard]] Field quantity(std::string name, std::vector<std::string> units, std::string meaning);
+[[nodiscard]] Field quantities(std::string name, std::vector<std::string> units, std::string meaning);
+[[nodiscard]] Field grid(std::string name, std::vector<std::string> units, std::string meaning);
+[[nodiscard]] Field section(std::string name, Section section, std::string meaning);
+[[nodiscard]] Field section_list(std::string name, Section section, std::string meaning);
+[[nodiscard]] Field choice(std::string name, Choice choice, std::string meaning);
+
+/// The fields that read a law's parameters. Bounds between parameters and defaults stay with `friction::complete`.
+[[nodiscard]] std::vector<Field> fields_of(const std::vector<friction::Parameter>& table);
+
+/// The {from, to, count, spacing} form of a grid with these units and range.
+[[nodiscard]] Section grid_section(const Field& grid);
+
+/// "> 0 kg", "ground, base": the values a field takes, for messages and the reference page.
+[[nodiscard]] std::string describe_values(const Field& field);
+
+/// The name among `names` that `word` was perhaps meant to be; empty when none is near.
+[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& names);
+
+/// "a, b, c"
+[[nodiscard]] std::string joined(const std::vector<std::string>& names);
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,32 @@
+#pragma once
+/// What an analysis needs from the other sections of a scenario.
+
+#include <string>
+#include <vector>
+
+namespace dualdamp::scenarios {
+
+struct Needs {
+  /// Of an analysis of data: where they come from, `data` or the type of its `measurement`. An analysis whose needs
+  /// depend on it has one row for each source. Empty otherwise.
+  std::string source;
+  std::vector<std::string> excitations;  ///< types it works with; empty: it has no use for a system at all
+  std::vector<std::string> drive;        ///< keys of a harmonic excitation that must be there
+  bool whole_system = true;              ///< mass, stiffness above zero, and damping or damping_ratio must be there
+  std::string reason;                    ///< why these excitations only, for messages
+};
+
+/// The excitations that have a steady state.
+[[nodiscard]] inline std::vector<std::string> harmonic_excitations() { return {"base_harmonic", "force_harmonic"}; }
+
+/// Of an analysis of steady states; `drive`: keys of the excitation that it does not vary itself.
+[[nodiscard]] inline std::vector<Needs> needs_of_steady_states(std::vector<std::string> drive) {
+  return {{"", harmonic_excitations(), std::move(drive), true, "a steady state needs a harmonic excitation"}};
+}
+
+/// Of an analysis of free vibrations.
+[[nodiscard]] inline Needs needs_of_free_vibrations(std::string source) {
+  return {std::move(source), {"none"}, {}, true, "a free vibration has no excitation"};
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,158 @@
+#include "scenarios/format/tree.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "scenarios/format/text_checks.hpp"
+
+namespace dualdamp::scenarios {
+
+using core::Diagnostic;
+using core::InputError;
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t limit = 60;
+  // A cut must not split a UTF-8 character.
+  std::size_t end = std::min(text.size(), limit);
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
+}
+
+const Entry* Node::find(std::string_view key) const {
+  const auto found = std::ranges::find(entries, key, &Entry::key);
+  return found == entries.end() ? nullptr : &*found;
+}
+
+namespace {
+
+std::vector<std::size_t> starts_of_lines(std::string_view text) {
+  std::vector<std::size_t> starts = {0};
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n') starts.push_back(i + 1);
+  return starts;
+}
+
+/// One step of a `--set` path: a key or a list index.
+struct Step {
+  std::string key;
+  std::optional<std::size_t> index;
+  std::size_t offset = 0;
+};
+
+/// Steps of `a.b[0].c`; nothing when the path is malformed.
+std::optional<std::vector<Step>> split_path(std::string_view path) {
+  std::vector<Step> steps;
+  std::size_t at = 0;
+  while (at < path.size()) {
+    Step step;
+    step.offset = at;
+    if (path[at] == '[') {
+      const std::size_t end = path.find(']', at);
+      if (steps.empty() || end == std::string_view::npos) return std::nullopt;
+      std::size_t index = 0;
+      const std::from_chars_result result = std::from_chars(path.data() + at + 1, path.data() + end, index);
+      if (result.ec != std::errc() || result.ptr != path.data() + end) return std::nullopt;
+      step.index = index;
+      at = end + 1;
+    } else {
+      const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
+      if (end == at) return std::nullopt;
+      step.key = std::string(path.substr(at, end - at));
+      at = end;
+    }
+    steps.push_back(std::move(step));
+    if (at < path.size() && path[at] == '.') {
+      ++at;
+      if (at == path.size() || path[at] == '[') return std::nullopt;
+    } else if (at < path.size() && path[at] != '[') {
+      return std::nullopt;
+    }
+  }
+  if (steps.empty()) return std::nullopt;
+  return steps;
+}
+
+}  // namespace
+
+Document::Document(std::string name, const std::string& text) {
+  sources_.push_back({std::move(name), normalised(text), {}});
+  sources_.front().line_starts = starts_of_lines(sources_.front().text);
+  const std::string& content = sources_.front().text;
+  if (content.size() > max_bytes)
+    throw InputError(
+        Diagnostic{{sources_.front().name, 0, 0, {}}, "the file is too large", "at most 1 MiB", {}, {}});
+  root_ = parse(0, 0);
+  if (root_.kind == Node::Kind::map) return;
+  const bool empty = root_.kind == Node::Kind::null;
+  throw InputError(Diagnostic{locate(empty ? Place{0, 1, 1} : root_.place),
+                              empty ? "the file is empty" : "a scenario is a map of keys and values",
+                              "a file that begins with 'schema: dualdamp/1'",
+                              {},
+                              {}});
+}
+
+Place Document::place_at(int source, std::size_t offset) const {
+  const Source& text = sources_[static_cast<std::size_t>(source)];
+  const auto after = std::ranges::upper_bound(text.line_starts, offset);
+  const std::size_t start = *(after - 1);
+  const int before = count_characters(std::string_view(text.text).substr(start, offset - start));
+  return {source, static_cast<int>(after - text.line_starts.begin()), before + 1};
+}
+
+core::SourcePlace Document::locate(Place place) const {
+  const Source& source = sources_[static_cast<std::size_t>(place.source)];
+  core::SourcePlace result{source.name, place.line, place.column, {}};
+  if (place.line < 1) return result;
+  const std::size_t start = source.line_starts[static_cast<std::size_t>(place.line) - 1];
+  const std::size_t end = std::min(source.text.find('\n', start), source.text.size());
+  // A caret far out on a very long line helps nobody.
+  constexpr std::size_t max_line = 240;
+  if (end - start <= max_line) result.text = source.text.substr(start, end - start);
+  return result;
+}
+
+void Document::set(std::string_view assignment, std::string origin) {
+  const int source = static_cast<int>(sources_.size());
+  sources_.push_back({std::move(origin), std::string(assignment), {}});
+  sources_.back().line_starts = starts_of_lines(assignment);
+  const auto refuse = [&](std::size_t offset, std::string message, std::string allowed) {
+    throw InputError(Diagnostic{locate(place_at(source, offset)), std::move(message), std::move(allowed), {}, {}});
+  };
+
+  const std::size_t equals = assignment.find('=');
+  const auto steps = split_path(assignment.substr(0, equals));
+  if (equals == std::string_view::npos || !steps)
+    refuse(0, "this does not name a value",
+           "PATH=VALUE, such as system.friction.kinetic=3 N or excitation.harmonics[0].order=3");
+  Node value = parse(source, equals + 1);
+  if (value.kind == Node::Kind::null) refuse(equals, "a value is missing after '='", "PATH=VALUE");
+
+  Node* node = &root_;
+  for (const Step& step : *steps) {
+    if (step.index) {
+      if (node->kind != Node::Kind::sequence || *step.index >= node->items.size())
+        refuse(
+            step.offset, "there is no such list item",
+            node->kind == Node::Kind::sequence ? "an index below " + std::to_string(node->items.size()) : "a key");
+      node = &node->items[*step.index];
+      continue;
+    }
+    const Place place = place_at(source, step.offset);
+    if (node->kind == Node::Kind::null) {
+      node->kind = Node::Kind::map;
+      node->place = place;
+    }
+    if (node->kind != Node::Kind::map)
+      refuse(step.offset, "'" + shortened(step.key) + "' is inside a value that has no keys", {});
+    auto entry = std::ranges::find(node->entries, step.key, &Entry::key);
+    if (entry == node->entries.end()) entry = node->entries.insert(entry, Entry{step.key, place, Node{}});
+    entry->place = place;
+    entry->value.key_place = place;
+    node = &entry->value;
+  }
+  value.key_place = node->key_place;
+  *node = std::move(value);
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,58 @@
+#include "scenarios/format/values.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "core/units.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// The decimal number a person means: 0 to 0.6 in six steps passes 0.1, not 0.09999999999999999.
+double plain(double value) {
+  constexpr int digits = 14;
+  return core::parse_number(core::format_number(value, digits)).value.value_or(value);
+}
+
+}  // namespace
+
+double number(const Json& value) {
+  return value.is_string() ? core::parse_quantity(value.get<std::string>(), "rad/s").value.value()
+                           : value.get<double>();
+}
+
+double number_or(const Json& section, const std::string& key, double fallback) {
+  return section.contains(key) ? number(section.at(key)) : fallback;
+}
+
+std::vector<double> grid_values(const Json& grid) {
+  std::vector<double> values;
+  if (grid.is_array()) {
+    for (const Json& value : grid) values.push_back(number(value));
+    return values;
+  }
+  const double from = number(grid.at("from"));
+  const double to = number(grid.at("to"));
+  const auto count = grid.at("count").get<std::size_t>();
+  const bool is_log = grid.at("spacing") == "log";
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    values.push_back(is_log ? from * std::pow(to / from, share) : plain(from + share * (to - from)));
+  }
+  values.front() = from;
+  values.back() = to;
+  return values;
+}
+
+std::size_t grid_size(const Json& grid) {
+  return grid.is_array() ? grid.size() : grid.at("count").get<std::size_t>();
+}
+
+double duration_of(const Json& section, double frequency) {
+  const double period = 2.0 * std::numbers::pi / frequency;
+  return section.contains("cycles") ? number(section.at("cycles")) * period : number(section.at("duration"));
+}
+
+}  // namespace dualdamp::scenarios

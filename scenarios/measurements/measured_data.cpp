@@ -1,0 +1,97 @@
+#include "scenarios/measurements/measured_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "identify/records/derived_records.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The path of a data file, unless it leads out of the scenario's directory.
+std::optional<fs::path> safe_path(CheckedFile& file, const std::string& name) {
+  fs::path path(name);
+  const std::string allowed = "a relative path inside the scenario's directory";
+  const Place place = file.place_of("analysis.data");
+  if (file.data_place().anywhere) return path;
+  if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) {
+    file.complain(place, "'analysis.data' must stay inside the scenario's directory", allowed, name);
+    return std::nullopt;
+  }
+  std::error_code error;
+  const std::string& directory = file.data_place().directory;
+  const fs::path root = fs::canonical(directory.empty() ? "." : directory, error);
+  fs::path target = fs::canonical(root / path, error);
+  if (error) {
+    file.complain(place, "'analysis.data': " + name + " cannot be opened: " + error.message(), allowed);
+    return std::nullopt;
+  }
+  if (std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end()) {
+    file.complain(place, "'analysis.data' leads out of the scenario's directory through a link", allowed,
+                  target.string());
+    return std::nullopt;
+  }
+  if (!fs::is_regular_file(target, error)) {
+    file.complain(place, "'analysis.data': " + name + " is not a file", allowed);
+    return std::nullopt;
+  }
+  return target;
+}
+
+/// What the scenario says of columns that the file does not say.
+identify::ReadOptions read_options(const CheckedFile& file, const std::string& name) {
+  identify::ReadOptions options;
+  options.name = name;
+  for (const auto& [key, map] : {std::pair{"units", &options.units}, {"columns", &options.columns}})
+    if (file.has("analysis", key))
+      for (const auto& [column, text] : file.values().at("analysis").at(key).items())
+        map->emplace(column, text.get<std::string>());
+  return options;
+}
+
+/// A text for each column that a data file may hold.
+Field for_columns(std::string name, std::string meaning, bool numbers_only) {
+  Section columns;
+  for (const std::string_view column : identify::column_names(numbers_only))
+    columns.fields.push_back(text(std::string(column), "for the column " + std::string(column)));
+  return section(std::move(name), std::move(columns), std::move(meaning));
+}
+
+}  // namespace
+
+std::vector<Field> data_fields() {
+  return {text("data",
+               "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
+          for_columns("units", "units of the columns of the data file where it does not state them: {x: mm}", true),
+          for_columns("columns", "what the data file calls the columns, or their numbers: {x: LVDT 2}", false)};
+}
+
+void read_data(CheckedFile& file) {
+  if (!file.has("analysis", "data")) {
+    for (const char* key : {"units", "columns"})
+      if (file.stands_in_file("analysis", key))
+        file.complain(std::string("analysis.") + key,
+                      std::string("'analysis.") + key + "' says how to read a data file, and there is none");
+    return;
+  }
+  const std::string name = file.text_at("analysis", "data");
+  const auto path = safe_path(file, name);
+  if (!path) return;
+  try {
+    identify::MeasuredRecord data = identify::read_record(path->string(), read_options(file, name));
+    // A frequency that could not be resolved is still a word, and complained about elsewhere.
+    const bool known = file.text_at("excitation", "frequency").ends_with("rad/s");
+    const double frequency = known ? *file.number_at("excitation", "frequency") : identify::unknown;
+    for (std::string& warning : identify::complete(data.record, frequency))
+      data.warnings.push_back(std::move(warning));
+    file.data = std::move(data);
+  } catch (const core::InputError& error) {
+    file.take_over(error.diagnostics());
+  }
+}
+
+}  // namespace dualdamp::scenarios

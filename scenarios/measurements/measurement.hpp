@@ -1,0 +1,24 @@
+#pragma once
+/// A synthetic measurement of the scenario's system: its keys, its checks, and what it asks of `measure.hpp`.
+
+#include <vector>
+
+#include "identify/record.hpp"
+#include "scenarios/format/checked_file.hpp"
+#include "scenarios/measurements/measure.hpp"
+
+namespace dualdamp::scenarios {
+
+/// `measurement` and `sensors`.
+[[nodiscard]] std::vector<Field> measurement_fields();
+
+/// The measurement and its sensors.
+void check_measurement(CheckedFile& file);
+
+/// A record of the kind that the measurement will give: enough to tell which methods it allows.
+[[nodiscard]] identify::Record outline(const CheckedFile& file);
+
+/// What a checked section `measurement` asks for.
+[[nodiscard]] Measurement measurement_of(const Json& section, const sim::Model& model);
+
+}  // namespace dualdamp::scenarios

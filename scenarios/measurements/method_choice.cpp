@@ -1,0 +1,42 @@
+#include "scenarios/measurements/method_choice.hpp"
+
+#include <algorithm>
+
+namespace dualdamp::scenarios {
+
+Field methods_key(const std::string& all) {
+  std::vector<std::string> names;
+  for (const identify::MethodEntry& method : identify::methods()) names.emplace_back(method.name);
+  return word_list("methods", std::move(names), "identification methods; default: " + all);
+}
+
+void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& records) {
+  const auto lack_of = [&](const identify::MethodEntry& method) {
+    for (const identify::Record& record : records)
+      if (std::string lack = method.lacks(record); !lack.empty()) return lack;
+    return std::string();
+  };
+  std::vector<std::string> fitting;
+  for (const identify::MethodEntry& method : identify::methods())
+    if (lack_of(method).empty()) fitting.emplace_back(method.name);
+
+  const Json& analysis = file.values().at("analysis");
+  if (!file.stands_in_file("analysis", "methods")) {
+    file.fill_in("methods", fitting);
+  } else if (analysis.contains("methods")) {
+    for (std::size_t i = 0; i < analysis.at("methods").size(); ++i) {
+      const auto name = analysis.at("methods")[i].get<std::string>();
+      if (const std::string lack = lack_of(*identify::find_method(name)); !lack.empty())
+        file.complain("analysis.methods[" + std::to_string(i) + "]",
+                      "method '" + name + "' cannot be used: " + lack, joined(fitting));
+    }
+  }
+}
+
+std::vector<const identify::MethodEntry*> methods_of(const Json& names) {
+  std::vector<const identify::MethodEntry*> methods;
+  for (const Json& name : names) methods.push_back(identify::find_method(name.get<std::string>()));
+  return methods;
+}
+
+}  // namespace dualdamp::scenarios

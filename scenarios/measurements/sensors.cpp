@@ -1,0 +1,60 @@
+#include "scenarios/measurements/sensors.hpp"
+
+#include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Field sensor(const std::string& name, const std::string& unit, const std::string& what) {
+  return section(name,
+                 {{quantity("noise", {unit}, "standard deviation of a reading").with_fallback(0.0).at_least(0),
+                   quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
+                   quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
+                   quantity("phase_lag", {"rad"}, "by which it comes late, at the forcing frequency").at_least(0),
+                   quantity("delay", {"s"}, "by which it comes late").at_least(0),
+                   quantity("clipping", {unit}, "readings beyond this are cut off, on either side").above(0)},
+                  {{{"phase_lag", "delay"}, false}}},
+                 "sensor of " + what);
+}
+
+}  // namespace
+
+std::vector<Field> sensor_fields() {
+  return {quantity("sample_rate", {"1/s"}, "signals are sampled, and amplitudes taken from the samples").above(0),
+          integer("average_cycles", "forcing periods that an amplitude is averaged over")
+              .with_fallback(1)
+              .at_least(1)
+              .at_most(10'000),
+          seed(),
+          sensor("y", "m", "the base's displacement"),
+          sensor("x", "m", "the mass's displacement"),
+          sensor("v", "m/s", "its velocity"),
+          sensor("a", "m/s^2", "its acceleration"),
+          sensor("force", "N", "the force on it")};
+}
+
+identify::Sensors sensors_of(const Json& section) {
+  identify::Sensors result;
+  result.sample_rate = number_or(section, "sample_rate", 0.0);
+  result.average_cycles = section.at("average_cycles").get<int>();
+  const auto read = [&](const char* name, identify::Sensor& sensor) {
+    if (!section.contains(name)) return;
+    const Json& values = section.at(name);
+    sensor = {.noise = number(values.at("noise")),
+              .resolution = number(values.at("resolution")),
+              .gain_error = number(values.at("gain_error")),
+              .phase_lag = number_or(values, "phase_lag", 0.0),
+              .delay = number_or(values, "delay", 0.0),
+              .clipping = number_or(values, "clipping", sensor.clipping)};
+  };
+  read("y", result.y);
+  read("x", result.x);
+  read("v", result.v);
+  read("a", result.a);
+  read("force", result.force);
+  return result;
+}
+
+}  // namespace dualdamp::scenarios

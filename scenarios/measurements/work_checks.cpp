@@ -1,0 +1,60 @@
+#include "scenarios/measurements/work_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/numbers.hpp"
+#include "scenarios/format/limits.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+void check_noise(CheckedFile& file, double duration) {
+  const double nodes = duration * file.number_at("excitation", "bandwidth").value_or(0.0) / std::numbers::pi;
+  if (nodes > max_nodes)
+    file.complain("excitation.bandwidth", "the noise is too long",
+                  "at most " + core::format_number(max_nodes, 8) + " random values, 2 bandwidth a second",
+                  core::format_number(nodes, 6) + " of them");
+}
+
+}  // namespace
+
+void check_rows(CheckedFile& file, const std::string& path, double rows) {
+  if (rows > max_samples)
+    file.complain(path, "the history has too many rows", "at most " + core::format_number(max_samples, 6),
+                  core::format_number(rows, 6));
+}
+
+void check_work(CheckedFile& file, const Json& section, const std::string& path, const Sampling& sampling) {
+  const auto m = file.number_at("system", "mass");
+  const auto k = file.number_at("system", "stiffness");
+  const bool by_cycles = section.contains("cycles");
+  // Still a word when it could not be resolved, and then complained about.
+  const bool driven =
+      file.has("excitation", "frequency") && file.text_at("excitation", "frequency").ends_with("rad/s");
+  if (by_cycles && !driven) {
+    const std::string key = path + ".cycles";
+    if (!file.stands_in_file("excitation", "frequency"))
+      file.complain(key, "'" + key + "' needs a harmonic excitation", "'duration' instead");
+    return;
+  }
+  const double frequency = driven ? *file.number_at("excitation", "frequency") : 0.0;
+  if (!by_cycles && !section.contains("duration")) return;
+  const double recorded =
+      by_cycles ? number(section.at("cycles")) * two_pi / frequency : number(section.at("duration"));
+  const double duration = recorded + (section.contains("settle") ? number(section.at("settle")) : 0.0);
+  const double fastest = std::max(frequency, m && k ? std::sqrt(*k / *m) : 0.0);
+  if (duration * fastest / two_pi > max_periods)
+    file.complain(path + (by_cycles ? ".cycles" : ".duration"), "the simulation is too long",
+                  "at most " + core::format_number(max_periods, 6) + " forcing or natural periods",
+                  core::format_number(duration * fastest / two_pi, 6) + " periods");
+  check_noise(file, duration);
+  check_rows(file, sampling.path, recorded * sampling.rate.value_or(0.0) * sampling.tests);
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,24 @@
+#pragma once
+/// Checks that a motion integrated in time, and its samples, are within what a file may ask for.
+
+#include <optional>
+#include <string>
+
+#include "scenarios/format/checked_file.hpp"
+
+namespace dualdamp::scenarios {
+
+/// The samples of such a motion.
+struct Sampling {
+  std::string path;            ///< of the key that says their rate, for messages
+  std::optional<double> rate;  ///< 1/s; nothing: none are taken
+  double tests = 1.0;          ///< motions that are sampled
+};
+
+/// A motion integrated in time, which `section` of the file at `path` asks for.
+void check_work(CheckedFile& file, const Json& section, const std::string& path, const Sampling& sampling);
+
+/// Rows of all histories together; `path`: of the key to blame.
+void check_rows(CheckedFile& file, const std::string& path, double rows);
+
+}  // namespace dualdamp::scenarios

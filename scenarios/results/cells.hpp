@@ -1,0 +1,25 @@
+#pragma once
+/// Numbers and columns of answers: how the results of `sim` and `identify` become JSON and tables.
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/format/json.hpp"
+#include "scenarios/results/table.hpp"
+
+namespace dualdamp::scenarios {
+
+/// JSON knows no infinity; a number that does not exist is null.
+inline Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+inline Json finite(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(finite(value));
+  return list;
+}
+
+}  // namespace dualdamp::scenarios

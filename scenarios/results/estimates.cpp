@@ -1,0 +1,356 @@
+#include "scenarios/results/estimates.hpp"
+
+#include <algorithm>
+
+#include "core/numbers.hpp"
+#include "identify/verdict.hpp"
+#include "scenarios/results/cells.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Json parameters_json(const identify::ParameterSet& set) {
+  return {{"zeta", finite(set.zeta)}, {"c", finite(set.c)}, {"x_f", finite(set.x_f)}, {"F0", finite(set.F0)}};
+}
+
+Json interval_json(const identify::ParameterIntervals& intervals) {
+  const auto pair = [](const std::array<double, 2>& ends) {
+    return Json::array({finite(ends[0]), finite(ends[1])});
+  };
+  return {{"zeta", pair(intervals.zeta)},
+          {"c", pair(intervals.c)},
+          {"x_f", pair(intervals.x_f)},
+          {"F0", pair(intervals.F0)}};
+}
+
+Json lack_of_fit_json(const identify::LackOfFit& test) {
+  return {{"test", test.test},
+          {"statistic", finite(test.statistic)},
+          {"freedom", test.freedom},
+          {"p_value", finite(test.p_value)},
+          {"effect", finite(test.effect)},
+          {"fired", test.fired},
+          {"level", test.level},
+          {"least_effect", test.least_effect}};
+}
+
+Json line_json(const identify::LineFit& line) {
+  return {{"slope", finite(line.slope)},
+          {"intercept", finite(line.intercept)},
+          {"residual_deviation", finite(line.residual_deviation)},
+          {"G", finite(line.G)},
+          {"residuals", finite(line.residuals)}};
+}
+
+Json decay_json(const identify::DecayFit& decay) {
+  return {{"R", finite(decay.R)},
+          {"first_amplitude", finite(decay.first_amplitude)},
+          {"offset", finite(decay.offset)},
+          {"residual_deviation", finite(decay.residual_deviation)},
+          {"residuals", finite(decay.residuals)}};
+}
+
+Json others_json(const std::vector<identify::FurtherParameter>& parameters) {
+  Json list = Json::array();
+  for (const identify::FurtherParameter& parameter : parameters) {
+    Json item = {{"name", parameter.name}, {"unit", parameter.unit}, {"value", finite(parameter.value)}};
+    item["std"] = parameter.std ? finite(*parameter.std) : Json(nullptr);
+    item["interval95"] = parameter.interval95
+                             ? Json::array({finite((*parameter.interval95)[0]), finite((*parameter.interval95)[1])})
+                             : Json(nullptr);
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+Json candidates_json(const std::vector<identify::LawCandidate>& candidates) {
+  Json list = Json::array();
+  for (const identify::LawCandidate& candidate : candidates)
+    list.push_back({{"law", candidate.law},
+                    {"parameters", others_json(candidate.parameters)},
+                    {"residual_deviation", finite(candidate.residual_deviation)},
+                    {"AICc", finite(candidate.AICc)},
+                    {"BIC", finite(candidate.BIC)},
+                    {"weight", finite(candidate.weight)}});
+  return list;
+}
+
+/// Curves that came with the estimates, each a file of its own.
+void add_curves(const std::vector<identify::Estimate>& estimates, Answer& answer) {
+  for (const identify::Estimate& estimate : estimates) {
+    for (const identify::EstimateCurve& curve : estimate.curves) {
+      Table table{.name = estimate.method + "_" + curve.name, .is_long = true};
+      for (const identify::CurveColumn& from : curve.columns)
+        table.columns.push_back({.name = from.name, .unit = from.unit, .numbers = from.values});
+      answer.tables.push_back(std::move(table));
+    }
+  }
+}
+
+Json diagnostics_json(const identify::Estimate& estimate) {
+  Json json;
+  json["reason"] = estimate.outcome.ok() ? estimate.reason : estimate.outcome.reason;
+  json["used"] = estimate.used;
+  json["excluded"] = Json::array();
+  for (const identify::Exclusion& exclusion : estimate.excluded)
+    json["excluded"].push_back({{"number", exclusion.number}, {"reason", exclusion.reason}});
+  if (estimate.covariance) {
+    const Eigen::Matrix2d& c = *estimate.covariance;
+    json["covariance"] = {{finite(c(0, 0)), finite(c(0, 1))}, {finite(c(1, 0)), finite(c(1, 1))}};
+  }
+  if (estimate.correlation) json["correlation"] = finite(*estimate.correlation);
+  if (estimate.lack_of_fit) json["lack_of_fit"] = lack_of_fit_json(*estimate.lack_of_fit);
+  if (!estimate.subsets.empty()) {
+    json["subsets"] = Json::array();
+    for (const identify::SubsetFit& subset : estimate.subsets) {
+      Json item = {{"label", subset.label}, {"used", subset.used}};
+      item.update(parameters_json(subset.value));
+      if (!subset.others.empty()) item["others"] = others_json(subset.others);
+      json["subsets"].push_back(std::move(item));
+    }
+  }
+  if (estimate.line) json["line"] = line_json(*estimate.line);
+  if (estimate.decay) json["decay"] = decay_json(*estimate.decay);
+  if (!estimate.others.empty()) json["others"] = others_json(estimate.others);
+  if (!estimate.candidates.empty()) json["candidates"] = candidates_json(estimate.candidates);
+  json["warnings"] = estimate.warnings;
+  return json;
+}
+
+Json estimate_json(const identify::Estimate& estimate) {
+  const bool exists = estimate.outcome.ok();
+  const identify::ParameterSet nothing{none, none, none, none};
+  Json json = {{"method", estimate.method}};
+  json.update(parameters_json(exists ? estimate.value : nothing));
+  json["std"] = exists && estimate.std ? parameters_json(*estimate.std) : Json(nullptr);
+  json["interval95"] = exists && estimate.interval95 ? interval_json(*estimate.interval95) : Json(nullptr);
+  json["diagnostics"] = diagnostics_json(estimate);
+  json["usable"] = estimate.usable;
+  return json;
+}
+
+using Member = double identify::ParameterSet::*;
+using Interval = std::array<double, 2> identify::ParameterIntervals::*;
+
+Table estimate_table(const std::vector<identify::Estimate>& estimates) {
+  using identify::Estimate;
+  using identify::ParameterIntervals;
+  using identify::ParameterSet;
+  Table table{
+      "estimates",
+      {text_column("method", estimates, &Estimate::method),
+       text_column("usable", estimates, [](const Estimate& estimate) { return estimate.usable ? "yes" : "no"; })},
+      true};
+  const auto add = [&](const std::string& name, const std::string& unit, Member member, Interval interval) {
+    const auto cell = [&](const std::string& suffix, auto get) {
+      table.columns.push_back(column(name + suffix, unit, estimates, [&](const Estimate& estimate) {
+        return estimate.outcome.ok() ? get(estimate) : none;
+      }));
+    };
+    cell("", [&](const Estimate& e) { return e.value.*member; });
+    cell("_std", [&](const Estimate& e) { return e.std ? (*e.std).*member : none; });
+    cell("_low", [&](const Estimate& e) { return e.interval95 ? ((*e.interval95).*interval)[0] : none; });
+    cell("_high", [&](const Estimate& e) { return e.interval95 ? ((*e.interval95).*interval)[1] : none; });
+  };
+  add("zeta", "", &ParameterSet::zeta, &ParameterIntervals::zeta);
+  add("c", "N.s/m", &ParameterSet::c, &ParameterIntervals::c);
+  add("x_f", "m", &ParameterSet::x_f, &ParameterIntervals::x_f);
+  add("F0", "N", &ParameterSet::F0, &ParameterIntervals::F0);
+  return table;
+}
+
+/// The same for a terminal: a number with its interval is one text.
+Table readable_estimates(const std::vector<identify::Estimate>& estimates) {
+  using identify::Estimate;
+  const auto digits = [](double value, int count) {
+    return std::isfinite(value) ? core::format_number(value, count) : std::string("-");
+  };
+  const auto text = [&](Member member, Interval interval) {
+    return [=](const Estimate& estimate) {
+      if (!estimate.outcome.ok()) return std::string("-");
+      constexpr int few = 5;
+      std::string cell = digits(estimate.value.*member, few);
+      if (estimate.interval95 && cell != "-") {
+        const auto& [low, high] = (*estimate.interval95).*interval;
+        cell += " (" + digits(low, few) + " to " + digits(high, few) + ")";
+      }
+      return cell;
+    };
+  };
+  using Set = identify::ParameterSet;
+  using Intervals = identify::ParameterIntervals;
+  Table table{"estimates",
+              {text_column("method", estimates, &Estimate::method),
+               text_column("usable", estimates, [](const Estimate& e) { return e.usable ? "yes" : "no"; }),
+               text_column("zeta (95 %)", estimates, text(&Set::zeta, &Intervals::zeta)),
+               text_column("c (95 %) [N.s/m]", estimates, text(&Set::c, &Intervals::c)),
+               text_column("F0 (95 %) [N]", estimates, text(&Set::F0, &Intervals::F0))}};
+  table.is_file = false;
+  return table;
+}
+
+/// Further parameters of all estimates for a terminal.
+Table readable_others(const std::vector<identify::Estimate>& estimates) {
+  constexpr int few = 5;
+  Table table{"parameters",
+              {{.name = "method", .kind = CellKind::text},
+               {.name = "parameter", .kind = CellKind::text},
+               {.name = "value (95 %)", .kind = CellKind::text},
+               {.name = "unit", .kind = CellKind::text}}};
+  table.is_file = false;
+  for (const identify::Estimate& estimate : estimates) {
+    for (const identify::FurtherParameter& parameter : estimate.others) {
+      std::string value = core::format_number(parameter.value, few);
+      if (parameter.interval95)
+        value += " (" + core::format_number((*parameter.interval95)[0], few) + " to " +
+                 core::format_number((*parameter.interval95)[1], few) + ")";
+      const std::array<std::string, 4> row = {estimate.method, parameter.name, value, parameter.unit};
+      for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].texts.push_back(row[i]);
+    }
+  }
+  return table;
+}
+
+/// e_0, e_1, ... of the decrement law.
+std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f, std::size_t count) {
+  std::vector<double> extremes;
+  double magnitude = std::abs(decay.first_amplitude);
+  double sign = decay.first_amplitude < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    extremes.push_back(decay.offset + sign * magnitude);
+    magnitude = decay.R * magnitude - x_f * (1.0 + decay.R);
+    sign = -sign;
+  }
+  return extremes;
+}
+
+/// The data beside what the first estimate with a curve makes of them; a usable one comes first.
+Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
+  const auto has_curve = [](const identify::Estimate& estimate) {
+    return estimate.outcome.ok() && (estimate.line || estimate.decay);
+  };
+  auto chosen = std::ranges::find_if(
+      estimates, [&](const identify::Estimate& estimate) { return estimate.usable && has_curve(estimate); });
+  if (chosen == estimates.end()) chosen = std::ranges::find_if(estimates, has_curve);
+  if (chosen == estimates.end()) return nullptr;
+
+  Json points = Json::array();
+  if (chosen->line && record.pairs) {
+    for (const identify::Pair& pair : record.pairs->pairs)
+      points.push_back({{"number", pair.number},
+                        {"Y", pair.Y},
+                        {"x", pair.x},
+                        {"fitted", finite(chosen->line->intercept + chosen->line->slope * pair.Y)}});
+  } else if (chosen->decay && record.decay) {
+    const std::vector<double>& extremes = record.decay->extremes;
+    const std::vector<double> fitted = fitted_extremes(*chosen->decay, chosen->value.x_f, extremes.size());
+    for (std::size_t i = 0; i < extremes.size(); ++i)
+      points.push_back({{"number", i + 1}, {"x", extremes[i]}, {"fitted", finite(fitted[i])}});
+  }
+  return {{"method", chosen->method}, {"points", points}};
+}
+
+/// The four parameters under `prefix`.
+ResultFields parameters(const std::string& prefix, const std::string& suffix, const std::string& what) {
+  return {{prefix + "zeta" + suffix, "1", what + "damping ratio"},
+          {prefix + "c" + suffix, "N.s/m", what + "damping"},
+          {prefix + "x_f" + suffix, "m", what + "friction displacement F0/k"},
+          {prefix + "F0" + suffix, "N", what + "friction force"}};
+}
+
+ResultFields diagnostics() {
+  const std::string at = "estimates[].diagnostics.";
+  return joined({{at + "reason", "", "why it is not usable, or what it rests on"},
+                 {at + "used[]", "1", "numbers of the data used"},
+                 {at + "excluded[].number", "1", "number of a datum left out"},
+                 {at + "excluded[].reason", "", "why it was left out"},
+                 {at + "covariance[][]", "", "of (zeta, F0)"},
+                 {at + "correlation", "1", "of (zeta, F0)"},
+                 {at + "lack_of_fit.statistic", "1", "F statistic"},
+                 {at + "lack_of_fit.freedom", "1", "degrees of freedom left"},
+                 {at + "lack_of_fit.p_value", "1", "its probability when the model holds"},
+                 {at + "lack_of_fit.effect", "1", "rms of the added term over the range of the data"},
+                 {at + "lack_of_fit.level", "1", "p_value below which it fires"},
+                 {at + "lack_of_fit.least_effect", "1", "effect above which it fires"},
+                 {at + "lack_of_fit.fired", "", "the model does not hold"},
+                 {at + "subsets[].label", "", "which part"},
+                 {at + "subsets[].used", "1", "data of the part"},
+                 {at + "line.slope", "1", "of x over Y"},
+                 {at + "line.intercept", "m", "x at Y = 0"},
+                 {at + "line.residual_deviation", "m", "standard deviation of the residuals"},
+                 {at + "line.G", "1", "parameter function G at the estimate"},
+                 {at + "line.residuals[]", "m", "residuals of the data used"},
+                 {at + "decay.R", "1", "decay of a half swing without friction"},
+                 {at + "decay.first_amplitude", "m", "first extreme without offset"},
+                 {at + "decay.offset", "m", "position the extremes are about"},
+                 {at + "decay.residual_deviation", "m", "standard deviation of the residuals"},
+                 {at + "decay.residuals[]", "m", "residuals of the data used"},
+                 {at + "others[].name", "", "a further parameter, such as mass or contact_stiffness"},
+                 {at + "others[].unit", "", "its unit"},
+                 {at + "others[].value", "", "its value"},
+                 {at + "others[].std", "", "its standard error"},
+                 {at + "others[].interval95[]", "", "its 95 % interval"},
+                 {at + "subsets[].others[].name", "", "a further parameter from that part"},
+                 {at + "subsets[].others[].value", "", "its value"},
+                 {at + "candidates[].law", "", "a law that was compared, best first"},
+                 {at + "candidates[].parameters[].name", "", "a parameter of it"},
+                 {at + "candidates[].parameters[].value", "", "its value"},
+                 {at + "candidates[].parameters[].std", "", "its standard error"},
+                 {at + "candidates[].parameters[].interval95[]", "", "its 95 % interval"},
+                 {at + "candidates[].residual_deviation", "m", "standard deviation of its residuals"},
+                 {at + "candidates[].AICc", "1", "Akaike's criterion, corrected for few data"},
+                 {at + "candidates[].BIC", "1", "Bayesian criterion"},
+                 {at + "candidates[].weight", "1", "Akaike weight"},
+                 {at + "warnings[]", "", "further diagnostics"}},
+                parameters(at + "subsets[].", "", "from a part of the data: "));
+}
+
+}  // namespace
+
+ResultFields estimate_fields() {
+  ResultFields fields = {{"estimates[].method", "", "name of the method"},
+                         {"estimates[].usable", "", "the method stands by its number"}};
+  fields = joined(fields, parameters("estimates[].", "", ""));
+  fields = joined(fields, parameters("estimates[].std.", "", "standard error of the "));
+  fields = joined(fields, parameters("estimates[].interval95.", "[]", "95 % interval of the "));
+  fields = joined(fields, diagnostics());
+  return joined(fields, {{"verdict", "", "what all estimates say together"},
+                         {"fit.method", "", "the method of the fit: the first usable one"},
+                         {"fit.points[].number", "1", "number of the datum"},
+                         {"fit.points[].Y", "m", "measured input amplitude"},
+                         {"fit.points[].x", "m", "measured output amplitude or extreme"},
+                         {"fit.points[].fitted", "m", "x by the fit"}});
+}
+
+Answer answer_of(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
+  Answer answer;
+  Json list = Json::array();
+  std::string reasons;
+  bool any = false;
+  for (const identify::Estimate& estimate : estimates) {
+    list.push_back(estimate_json(estimate));
+    any = any || estimate.outcome.ok();
+    if (!estimate.outcome.ok())
+      reasons += (reasons.empty() ? "" : "; ") + estimate.method + ": " + estimate.outcome.reason;
+    else if (!estimate.usable)
+      answer.warnings.push_back(estimate.method + " is not usable: " + estimate.reason);
+    for (const std::string& warning : estimate.warnings)
+      answer.warnings.push_back(estimate.method + ": " + warning);
+  }
+  if (!any) {
+    answer.failure = "no estimate is possible; " + reasons;
+    return answer;
+  }
+  if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);
+  answer.result["estimates"] = std::move(list);
+  answer.result["fit"] = fit_json(estimates, record);
+  answer.result["verdict"] = identify::verdict(estimates);
+  answer.tables.push_back(readable_estimates(estimates));
+  answer.tables.push_back(readable_others(estimates));
+  answer.tables.push_back(estimate_table(estimates));
+  add_curves(estimates, answer);
+  return answer;
+}
+
+}  // namespace dualdamp::scenarios

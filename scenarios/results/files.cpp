@@ -1,0 +1,143 @@
+#include "scenarios/results/files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <ostream>
+#include <streambuf>
+
+#include "core/diagnostics.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+
+  [[nodiscard]] int number() const { return number_; }
+  /// True when what was written has arrived.
+  [[nodiscard]] bool close() {
+    const int number = number_;
+    number_ = -1;
+    return ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+[[noreturn]] void refuse_input(const std::string& path, std::string message) {
+  throw core::InputError(core::Diagnostic{{path, 0, 0, {}}, std::move(message), {}, {}, {}});
+}
+
+bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t count = ::write(descriptor, content.data(), content.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+/// A stream onto a descriptor; stops at the first error.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { empty(); }
+  /// errno of the first failure.
+  [[nodiscard]] int error() const { return error_; }
+
+ protected:
+  int_type overflow(int_type character) override {
+    if (sync() != 0) return traits_type::eof();
+    if (!traits_type::eq_int_type(character, traits_type::eof())) sputc(traits_type::to_char_type(character));
+    return traits_type::not_eof(character);
+  }
+  int sync() override {
+    const bool arrived = write_all(descriptor_, {pbase(), static_cast<std::size_t>(pptr() - pbase())});
+    if (!arrived) error_ = errno;
+    empty();
+    return arrived ? 0 : -1;
+  }
+
+ private:
+  void empty() { setp(buffer_.data(), buffer_.data() + buffer_.size()); }
+
+  int descriptor_;
+  int error_ = 0;
+  std::array<char, 1 << 16> buffer_{};
+};
+
+bool write_all(int descriptor, const Writer& write) {
+  DescriptorBuffer buffer(descriptor);
+  std::ostream stream(&buffer);
+  write(stream);
+  stream.flush();
+  if (!stream) errno = buffer.error();
+  return stream.good();
+}
+
+void write_file(const std::string& path, const Writer& write) {
+  static std::atomic<unsigned> serial{0};
+  const std::string partial = path + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".partial";
+  const auto refuse = [&] {
+    const std::string reason = std::strerror(errno);
+    throw OutputError("cannot write " + path + ": " + reason);
+  };
+  constexpr mode_t mode = 0666;  // the umask decides
+  Descriptor file(::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+  if (file.number() < 0) refuse();
+  try {
+    if (!write_all(file.number(), write) || !file.close()) refuse();
+    if (::rename(partial.c_str(), path.c_str()) != 0) refuse();
+  } catch (...) {
+    ::unlink(partial.c_str());
+    throw;
+  }
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path, std::size_t limit) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) refuse_input(path, std::string("cannot be opened: ") + std::strerror(errno));
+  struct stat status{};
+  if (::fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
+    refuse_input(path, "is a directory, not a file");
+
+  std::string content;
+  std::array<char, 1 << 16> buffer{};
+  while (true) {
+    const ssize_t count = ::read(file.number(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse_input(path, std::string("cannot be read: ") + std::strerror(errno));
+    if (count == 0) return content;
+    content.append(buffer.data(), static_cast<std::size_t>(count));
+    if (content.size() > limit) refuse_input(path, "is larger than " + std::to_string(limit >> 20U) + " MiB");
+  }
+}
+
+void write_files(const std::string& directory, const std::vector<OutputFile>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error || !std::filesystem::is_directory(directory))
+    throw OutputError("cannot create the directory " + directory + ": " +
+                      (error ? error.message() : "a file of that name is there"));
+  for (const OutputFile& file : files)
+    write_file((std::filesystem::path(directory) / file.name).string(), file.write);
+}
+
+}  // namespace dualdamp::scenarios

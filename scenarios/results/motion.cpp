@@ -1,0 +1,58 @@
+#include "scenarios/results/motion.hpp"
+
+#include "scenarios/results/cells.hpp"
+
+namespace dualdamp::scenarios {
+
+Json certificate_json(const core::SearchCount& count) {
+  return {{"searches", count.searches},
+          {"panels", count.panels},
+          {"splits", count.splits},
+          {"grazings", count.grazings}};
+}
+
+Json energy_json(const sim::Energy& energy) {
+  return {{"input", finite(energy.input)},
+          {"friction", finite(energy.friction)},
+          {"viscous", finite(energy.viscous)},
+          {"stored", finite(energy.stored)},
+          {"defect", finite(energy.defect)}};
+}
+
+Table history_table(std::string name, const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
+  Table table{std::move(name), {column("t", "s", samples, &sim::Sample::t)}, true};
+  if (excitation.moves_base()) table.columns.push_back(column("y", "m", samples, &sim::Sample::y));
+  table.columns.push_back(column("x", "m", samples, &sim::Sample::x));
+  table.columns.push_back(column("v", "m/s", samples, &sim::Sample::v));
+  table.columns.push_back(column("a", "m/s^2", samples, &sim::Sample::a));
+  table.columns.push_back(column("friction", "N", samples, &sim::Sample::force));
+  if (excitation.type != sim::ExcitationType::none && !excitation.moves_base())
+    table.columns.push_back(column("force", "N", samples, &sim::Sample::external));
+  return table;
+}
+
+ResultFields joined(ResultFields first, const ResultFields& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+ResultFields energy_fields() {
+  return {{"energy.input", "J", "work of the excitation"},
+          {"energy.friction", "J", "work dissipated by the friction laws"},
+          {"energy.viscous", "J", "work dissipated by the damper"},
+          {"energy.stored", "J", "change of kinetic and elastic energy"},
+          {"energy.defect", "J", "input - friction - viscous - stored"}};
+}
+
+ResultFields certificate_fields() {
+  return {{"certificate.searches", "1", "searches for the next event"},
+          {"certificate.panels", "1", "stretches of time examined"},
+          {"certificate.splits", "1", "how many of them had to be divided"},
+          {"certificate.grazings", "1", "guards that touch zero and do not cross it"}};
+}
+
+std::string amplitude_unit(const sim::Excitation& excitation) {
+  return excitation.type == sim::ExcitationType::force_harmonic ? "N" : "m";
+}
+
+}  // namespace dualdamp::scenarios

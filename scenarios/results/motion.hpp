@@ -1,0 +1,35 @@
+#pragma once
+/// Parts of an answer about motions that several analyses have, each beside the fields that describe it.
+
+#include <string>
+#include <vector>
+
+#include "core/first_crossing.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/format/result_field.hpp"
+#include "scenarios/results/table.hpp"
+#include "sim/motion/simulate.hpp"
+
+namespace dualdamp::scenarios {
+
+using ResultFields = std::vector<ResultField>;
+
+/// One list behind the other.
+[[nodiscard]] ResultFields joined(ResultFields first, const ResultFields& second);
+
+/// The energy account.
+[[nodiscard]] Json energy_json(const sim::Energy& energy);
+[[nodiscard]] ResultFields energy_fields();
+
+/// How the search for events was certified.
+[[nodiscard]] Json certificate_json(const core::SearchCount& count);
+[[nodiscard]] ResultFields certificate_fields();
+
+/// Samples of a motion, with the column of the drive that it has.
+[[nodiscard]] Table history_table(std::string name, const std::vector<sim::Sample>& samples,
+                                  const sim::Excitation& excitation);
+
+/// "m" or "N": the unit of the excitation's amplitude.
+[[nodiscard]] std::string amplitude_unit(const sim::Excitation& excitation);
+
+}  // namespace dualdamp::scenarios

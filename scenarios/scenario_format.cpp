@@ -1,0 +1,73 @@
+#include "scenarios/scenario_format.hpp"
+
+#include "scenarios/format/excitations.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Section system_section() {
+  Field friction =
+      choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
+  friction.listed = true;
+  friction.max_items = 16;
+  return {
+      {quantity("mass", {"kg"}, "sliding mass m; may be left out where measured data are to tell it").above(0),
+       quantity("stiffness", {"N/m"},
+                "spring k between mass and base; of measured data it may be left out, or 0 for a mass on a rail")
+           .at_least(0),
+       quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
+       quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
+       quantity("cubic_stiffness", {"N/m^3"}, "of the spring's elongation cubed; any sign").with_fallback(0.0),
+       words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
+       std::move(friction)},
+      {{{"damping", "damping_ratio"}, false}}};
+}
+
+Section expect_section() {
+  return {{text("value", "path into the result, such as points[0].x").required(),
+           scalar("equals", "expected value, SI").required(),
+           quantity("within", {"1"}, "largest absolute difference, SI").at_least(0),
+           quantity("within_relative", {"1"}, "largest difference relative to the expected value").at_least(0),
+           text("source", "where the expected value comes from")},
+          {{{"within", "within_relative"}, false}}};
+}
+
+Choice choice_of(const AnalysisList& analyses) {
+  Choice choice{"type", {}};
+  for (const Analysis* analysis : analyses)
+    choice.variants.push_back({.name = std::string(analysis->name),
+                               .summary = std::string(analysis->summary),
+                               .section = analysis->keys,
+                               .results = analysis->results});
+  return choice;
+}
+
+}  // namespace
+
+Section scenario_format(const AnalysisList& analyses) {
+  return {
+      {words("schema", {std::string(schema_name)}, "version of this format").required(),
+       text("title", "one line for people"), section("system", system_section(), "the oscillator"),
+       choice("excitation", excitations(), "what drives it; default: none"),
+       section("initial",
+               {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
+                 quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0)}},
+               "the state at t = 0"),
+       choice("analysis", choice_of(analyses), "the question").required(),
+       section_list("expect", expect_section(), "checks of the result; one that is off ends the run with status 1")
+           .items(1, 10'000),
+       section("numerics",
+               {{quantity("tolerance", {"1"},
+                          "closure of a steady state relative to its size, and error of a step where friction is "
+                          "not piecewise linear; default: 1e-14, or 1e-11 in that case")
+                     .at_least(1e-15)
+                     .at_most(1e-3),
+                 words("solver", {"automatic", "explicit", "implicit"},
+                       "steps of the smooth engine; automatic: the exact engine where every law allows it, else "
+                       "explicit steps until the motion is stiff")
+                     .with_fallback("automatic")}},
+               "settings of the numerics")}};
+}
+
+}  // namespace dualdamp::scenarios
