@@ -18,9 +18,9 @@
 #include <span>
 #include <vector>
 
+#include "bench/mechanisms.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
-#include "bench/mechanisms.hpp"
 #include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
@@ -39,8 +39,7 @@ struct PartReading {
 
 /// The lines through the lower parts of the levels, as `resonance_least_squares` draws them through pairs that do
 /// not stick. Nothing where one of them does not rise.
-[[nodiscard]] std::optional<std::vector<PartReading>> read_parts(const Levels& levels,
-                                                                 const MechanismStudy& study,
+[[nodiscard]] std::optional<std::vector<PartReading>> read_parts(const Levels& levels, const MechanismStudy& study,
                                                                  const identify::KnownConstants& constants);
 
 /// zeta of the smallest part over that of the largest, less 1.
@@ -75,8 +74,8 @@ struct MechanismFit {
 class MechanismSearch {
  public:
   /// `near`: levels with which searches begin, or the known ones.
-  MechanismSearch(const sim::Mechanism& mechanism, const MechanismStudy& study,
-                  const sim::Apparatus& apparatus, Levels near);
+  MechanismSearch(const sim::Mechanism& mechanism, const MechanismStudy& study, const sim::Apparatus& apparatus,
+                  Levels near);
 
   /// Places from which the mechanism's parameters are sought.
   [[nodiscard]] std::size_t starts() const;
