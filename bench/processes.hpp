@@ -3,12 +3,13 @@
 ///
 /// Work is handed out one item at a time to whichever process asks, by a counter that process 0 keeps; which
 /// process does what is left to chance and must not matter. Source: the MPI standard, one-sided communication.
-/// Errors: `std::runtime_error` when MPI fails; `core::InputError` when `mpirun` starts a program that was built without MPI.
+/// Errors: `std::runtime_error` when MPI fails; `core::InputError` when `mpirun` starts a program that was built
+/// without MPI.
 
 #include <cstddef>
 #include <memory>
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analyses/run_options.hpp"
 
 namespace dualdamp::bench {
 
@@ -21,6 +22,7 @@ class Processes final : public scenarios::ProcessGroup {
   Processes& operator=(const Processes&) = delete;
 
   [[nodiscard]] int rank() const override { return rank_; }
+  [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] std::size_t next() override;
   void wait() override;
 

@@ -9,9 +9,7 @@
 /// A file is read by the keys, then checked: `check` adds problems and completes what the file left out. Only when
 /// there is no problem `ask` turns the checked values into a question, which is immutable and can be run.
 
-#include <atomic>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +17,7 @@
 #include <vector>
 
 #include "identify/readers/record_reader.hpp"
+#include "scenarios/analyses/run_options.hpp"
 #include "scenarios/format/checked_file.hpp"
 #include "scenarios/format/keys.hpp"
 #include "scenarios/format/needs.hpp"
@@ -27,41 +26,6 @@
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::scenarios {
-
-/// How far a long run is.
-struct Progress {
-  std::size_t done = 0;  ///< cases, those of an earlier run included
-  std::size_t all = 0;
-  double rate = 0.0;       ///< cases a second
-  double remaining = 0.0;  ///< s
-};
-
-/// The processes that share the work of a run, handed out one item at a time. This one is alone.
-class ProcessGroup {
- public:
-  ProcessGroup() = default;
-  virtual ~ProcessGroup() = default;
-  ProcessGroup(const ProcessGroup&) = delete;
-  ProcessGroup& operator=(const ProcessGroup&) = delete;
-
-  [[nodiscard]] virtual int rank() const { return 0; }
-  /// The next item, 0, 1, 2, ... over all processes; from any thread.
-  [[nodiscard]] virtual std::size_t next() { return next_++; }
-  /// Waits for all processes.
-  virtual void wait() {}
-
- private:
-  std::atomic<std::size_t> next_{0};
-};
-
-/// Where and how a question is run. A short one needs none of this.
-struct RunOptions {
-  std::string directory = {};                          ///< of files that a campaign writes as it goes
-  int threads = 0;                                     ///< of a campaign; 0: all cores
-  bool resume = false;                                 ///< a campaign goes on where an earlier run was interrupted
-  std::function<void(const Progress&)> progress = {};  ///< may be absent; called by one thread at a time
-  std::shared_ptr<ProcessGroup> processes = std::make_shared<ProcessGroup>();  ///< share a campaign
-};
 
 /// What a question is run on: the checked scenario around it.
 struct RunContext {
