@@ -19,7 +19,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
 const Analysis& frequency_branch_analysis() {
   static const Analysis analysis = {
       .name = "frequency_branch",
-      .summary = "one orbit followed in frequency likewise",
+      .summary = "continuation of one orbit in frequency",
       .keys = {{range("frequencies", {"rad/s"}, "forcing frequencies, in place of the excitation's own")}},
       .needs = needs_of_steady_states({"amplitude"}),
       .results = branch_fields({"omega", "rad/s", "forcing frequency"}),

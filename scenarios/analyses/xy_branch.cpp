@@ -19,7 +19,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
 const Analysis& xy_branch_analysis() {
   static const Analysis analysis = {
       .name = "xy_branch",
-      .summary = "one orbit followed in amplitude by arc length, past folds and through orbits that do not attract",
+      .summary = "continuation of one orbit in amplitude, past folds and through orbits that do not attract",
       .keys = {{range("amplitudes", {"m", "N"}, "excitation amplitudes, in place of the excitation's own")}},
       .needs = needs_of_steady_states({"frequency"}),
       .results = branch_fields({"Y", "m or N", "excitation amplitude"}),

@@ -1,4 +1,4 @@
-// Figures 5 and 6 of the paper in kind: what its friction-velocity plots show, in the last cycle of the shipped
+// Figures 5 and 6 of the paper in kind: what its friction-velocity plots show, in the last period of the shipped
 // scenarios.
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Point {
   double F = 0.0;  ///< N
 };
 
-/// The last cycle.
+/// The last period.
 class Plot {
  public:
   explicit Plot(const std::string& name) {
@@ -114,7 +114,7 @@ TEST_CASE("Figure 6: stick-slip runs through its loops clockwise", "[scenarios][
   for (const std::string name : {"figure6", "figure6_memory"}) {
     const Plot plot(name);
     CAPTURE(name);
-    // It creeps or rests for a good part of the cycle.
+    // It creeps or sticks for a good part of the period.
     const auto slow = std::ranges::count_if(
         plot.points(), [&](const Point& point) { return std::abs(point.v) < 0.01 * plot.fastest(); });
     CHECK(4 * slow > static_cast<long>(plot.points().size()));

@@ -76,7 +76,7 @@ TEST_CASE("scenario: a range of amplitudes meets its ends and passes plain decim
   CHECK(frequencies[2] == 8.0 * std::numbers::pi);
 }
 
-TEST_CASE("scenario: cycles are forcing periods", "[scenarios]") {
+TEST_CASE("scenario: `cycles` are forcing periods", "[scenarios]") {
   const Scenario scenario = with({"analysis={type: simulate, cycles: 2.5}"});
   CHECK(testing::question_of<scenarios::SimulateQuestion>(scenario).duration() ==
         Approx(0.5 * std::numbers::pi).epsilon(1e-15));
