@@ -22,6 +22,7 @@
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "core/build_info.hpp"
+#include "core/cancellation.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "friction_models/plugin.hpp"
@@ -134,6 +135,7 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
     report.messages += scenario->file + ": warning: " + warning + "\n";
   {
     const std::lock_guard lock(output_mutex());
+    core::stop_if_cancelled();
     scenarios::write_files(directory, files);
     scenarios::write_files(directory, {report_page(directory)});
   }
@@ -402,6 +404,11 @@ std::optional<int> load_plugins(const std::vector<std::string>& files, const Sty
   }
 }
 
+int interrupted() {
+  say_interrupted();
+  return static_cast<int>(ExitStatus::interrupted);
+}
+
 template <typename ChosenCommand>
 Style style_of(const ChosenCommand& command) {
   if constexpr (requires { command.quiet; }) return {command.json, command.quiet};
@@ -412,12 +419,15 @@ Style style_of(const ChosenCommand& command) {
 
 int execute(const Call& call) noexcept {
   try {
-    return std::visit(
+    const int status = std::visit(
         [&](const auto& chosen) {
           const std::optional<int> failed = load_plugins(call.plugins, style_of(chosen));
           return failed ? *failed : execute(chosen);
         },
         call.command);
+    return core::cancellation_requested() ? interrupted() : status;
+  } catch (const core::Cancelled&) {
+    return interrupted();
   } catch (const std::exception& error) {
     std::cerr << bug(error.what()).errors;
     return static_cast<int>(ExitStatus::internal_bug);

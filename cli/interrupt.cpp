@@ -3,11 +3,34 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <thread>
 
+#include "core/cancellation.hpp"
 #include "core/diagnostics.hpp"
 
 namespace dualdamp::cli {
+
+namespace {
+
+/// How long a cancelled computation may take to end.
+constexpr timespec patience{.tv_sec = 0, .tv_nsec = 500'000'000};
+
+void wait_for_interrupt(const sigset_t& signals) {
+  int number = 0;
+  if (sigwait(&signals, &number) != 0) return;
+  {
+    // Results that are being written are complete first.
+    const std::lock_guard lock(output_mutex());
+    core::request_cancellation();
+  }
+  (void)sigtimedwait(&signals, nullptr, &patience);
+  const std::lock_guard lock(output_mutex());
+  say_interrupted();
+  ::_exit(static_cast<int>(core::ExitStatus::interrupted));
+}
+
+}  // namespace
 
 void watch_for_interrupt() {
   sigset_t signals;
@@ -15,16 +38,14 @@ void watch_for_interrupt() {
   sigaddset(&signals, SIGINT);
   // Threads started later inherit the mask, so that the signal goes to the watcher alone.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread([signals] {
-    int number = 0;
-    if (sigwait(&signals, &number) != 0) return;
-    const std::lock_guard lock(output_mutex());
-    static constexpr char message[] = "interrupted\n";
-    if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) {
-      // Nobody is left to tell.
-    }
-    ::_exit(static_cast<int>(core::ExitStatus::interrupted));
-  }).detach();
+  std::thread([signals] { wait_for_interrupt(signals); }).detach();
+}
+
+void say_interrupted() {
+  static constexpr char message[] = "interrupted\n";
+  if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) {
+    // Nobody is left to tell.
+  }
 }
 
 std::mutex& output_mutex() {

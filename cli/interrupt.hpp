@@ -1,5 +1,8 @@
 #pragma once
 /// SIGINT ends the program with status 130, but never in the middle of writing results.
+///
+/// Computations are cancelled (`core/cancellation.hpp`) and the program ends in the ordinary way. What has not come
+/// to an end after half a second, or when a second signal comes, is left as it is.
 
 #include <mutex>
 
@@ -10,5 +13,8 @@ void watch_for_interrupt();
 
 /// Held while results are written; an interrupt waits for it.
 [[nodiscard]] std::mutex& output_mutex();
+
+/// To the standard error.
+void say_interrupted();
 
 }  // namespace dualdamp::cli

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace dualdamp::core {
 
@@ -10,7 +12,7 @@ namespace {
 
 constexpr int max_nodes = 6;
 
-/// Panel width times the fastest |z|: just over half a period, so that a resonant half cycle is one panel; the
+/// Panel width times the fastest |z|: just over half a period, so that a resonant half period is one panel; the
 /// remainder of the quintic interpolant is then 2 % of the amplitude, small against the arch between two zeros.
 constexpr double panel_angle = 3.2;
 
@@ -107,7 +109,8 @@ Complex small_exponential(Complex w, double size) {
 }  // namespace
 
 int ExponentialBasis::add(Complex exponent, int parent) {
-  assert(size_ < capacity && parent < size_);
+  if (size_ >= capacity || parent >= size_)
+    throw std::length_error("one mode holds at most " + std::to_string(capacity) + " exponentials");
   const std::size_t k = index(size_);
   re_[k] = exponent.real();
   im_[k] = exponent.imag();

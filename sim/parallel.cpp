@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "core/cancellation.hpp"
+
 namespace dualdamp::sim {
 
 void in_parts(std::size_t size, std::size_t grain, int threads,
@@ -16,6 +18,7 @@ void in_parts(std::size_t size, std::size_t grain, int threads,
   tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, (size + grain - 1) / grain, [&](std::size_t part) {
+      core::stop_if_cancelled();
       const std::size_t first = part * grain;
       work(first, std::min(grain, size - first));
     });

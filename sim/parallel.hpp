@@ -8,7 +8,7 @@
 namespace dualdamp::sim {
 
 /// Calls work(first, count) for parts of `grain` items, the last one shorter, that cover `size` items; `threads` at
-/// most, 0: all cores.
+/// most, 0: all cores. Between parts it looks for a cancellation (`core/cancellation.hpp`).
 void in_parts(std::size_t size, std::size_t grain, int threads,
               const std::function<void(std::size_t first, std::size_t count)>& work);
 

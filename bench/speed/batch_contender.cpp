@@ -32,7 +32,7 @@ std::vector<Contender> batch_contenders(const StandardCase& work) {
                             width](int periods) {
       sim::BatchMotions motions{.position = std::vector<double>(batch.size(), x),
                                 .velocity = std::vector<double>(batch.size(), v)};
-      sim::follow(batch, periods, motions, {.width = width, .threads = 1});
+      sim::pass_periods(batch, periods, motions, {.width = width, .threads = 1});
       return IntegratedMotion{motions.amplitude[0], motions.reversals[0]};
     };
     contenders.push_back({"dualdamp, batches of " + std::to_string(width), 0.0, oscillators, integrate});

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/engine/sticking_gate.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -198,10 +200,10 @@ double SampledOscillator::first_reversal(double length) const {
   return -1.0;
 }
 
-/// What friction does at v = 0.
+/// Where a slip ends.
 void SampledOscillator::settle(double at) {
-  const double force = pull(at);
-  direction_ = std::abs(force) <= p_.F0 ? 0 : (force > 0.0 ? 1 : -1);
+  const auto sticks = [] { return friction::Direction::none; };
+  direction_ = static_cast<int>(sim::direction_after_slip(pull(at), p_.F0, 0.0, sticks));
 }
 
 /// Taylor series of the motion from `begin` within the interval, and of its derivatives.

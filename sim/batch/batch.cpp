@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "sim/engine/exact_engine.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "sim/parallel.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
@@ -44,12 +44,12 @@ const std::vector<const Kernels*>& kernels_here() {
 const Kernels& kernels_of(int width) {
   const std::vector<const Kernels*>& list = kernels_here();
   const auto fits = std::find_if(list.begin(), list.end(), [=](const Kernels* k) { return k->width == width; });
-  assert(width == 0 || fits != list.end());
+  require(width == 0 || fits != list.end(), "this processor has no packs of that width",
+          "one of batch_widths(), or 0");
   return fits == list.end() ? *list.back() : **fits;
 }
 
 batch::DriveOn drive_on(ExcitationType type, DamperTo damper_to) {
-  assert(type == ExcitationType::base_harmonic || type == ExcitationType::force_harmonic);
   if (type == ExcitationType::force_harmonic) return batch::DriveOn::mass;
   return damper_to == DamperTo::base ? batch::DriveOn::base_and_damper : batch::DriveOn::base;
 }
@@ -189,11 +189,11 @@ void steady_states_of(const OscillatorBatch& batch, const Kernels& kernels, std:
   }
 }
 
-void follow_by_engine(const OscillatorBatch& batch, int periods, std::size_t i, BatchMotions& motions) {
+void pass_periods_by_engine(const OscillatorBatch& batch, int periods, std::size_t i, BatchMotions& motions) {
   ExactEngine engine(model_of(batch, i));
   engine.start(motions.position[i], motions.velocity[i]);
   double turning = 0.0;
-  while (engine.cycle() < periods) {
+  while (engine.periods_passed() < periods) {
     const Interval* interval = engine.next_in_period();
     if (interval == nullptr) break;
     if (interval->ending != EventKind::reversal) continue;
@@ -206,8 +206,8 @@ void follow_by_engine(const OscillatorBatch& batch, int periods, std::size_t i, 
   motions.velocity[i] = engine.velocity();
 }
 
-void follow_some(const OscillatorBatch& batch, const Kernels& kernels, int periods, std::size_t first,
-                 std::size_t count, BatchMotions& motions) {
+void pass_periods_of_some(const OscillatorBatch& batch, const Kernels& kernels, int periods, std::size_t first,
+                          std::size_t count, BatchMotions& motions) {
   const Task task(batch, first, count);
   std::array<double, chunk> x{};
   std::array<double, chunk> v{};
@@ -216,12 +216,12 @@ void follow_some(const OscillatorBatch& batch, const Kernels& kernels, int perio
   std::array<double, chunk> certified;
   std::copy_n(motions.position.begin() + static_cast<std::ptrdiff_t>(first), count, x.begin());
   std::copy_n(motions.velocity.begin() + static_cast<std::ptrdiff_t>(first), count, v.begin());
-  kernels.follow(task.oscillators(),
-                 {periods, x.data(), v.data(), amplitude.data(), reversals.data(), certified.data()});
+  kernels.pass_periods(task.oscillators(),
+                       {periods, x.data(), v.data(), amplitude.data(), reversals.data(), certified.data()});
   for (std::size_t lane = 0; lane < count; ++lane) {
     const std::size_t i = first + lane;
     if (certified[lane] == 0.0) {
-      follow_by_engine(batch, periods, i, motions);
+      pass_periods_by_engine(batch, periods, i, motions);
       continue;
     }
     motions.position[i] = x[lane];
@@ -231,16 +231,33 @@ void follow_some(const OscillatorBatch& batch, const Kernels& kernels, int perio
   }
 }
 
-struct Levels {
+struct CoulombLimits {
   double kinetic = 0.0;  ///< N
   double static_level = 0.0;
 
-  Levels& operator+=(const Levels& other) {
+  CoulombLimits& operator+=(const CoulombLimits& other) {
     kinetic += other.kinetic;
     static_level += other.static_level;
     return *this;
   }
 };
+
+void check(const OscillatorBatch& batch) {
+  require(batch.type == ExcitationType::base_harmonic || batch.type == ExcitationType::force_harmonic,
+          "a batch works with a harmonic excitation only", "base_harmonic, force_harmonic");
+  for (const std::vector<double>* column :
+       {&batch.damping, &batch.stiffness, &batch.kinetic, &batch.static_level, &batch.amplitude, &batch.frequency})
+    require(column->size() == batch.size(), "the columns of a batch differ in length", "one value for each mass");
+  require_in(positive, "system.mass", batch.mass, "kg");
+  require_in(positive, "system.stiffness", batch.stiffness, "N/m");
+  require_in({}, "system.damping", batch.damping, "N.s/m");
+  require_in(not_negative, "system.friction.kinetic", batch.kinetic, "N");
+  for (std::size_t i = 0; i < batch.size(); ++i)
+    require_in({.low = batch.kinetic[i]}, "system.friction.static", batch.static_level[i], "N");
+  require_in(not_negative, "excitation.amplitude", batch.amplitude,
+             batch.type == ExcitationType::base_harmonic ? "m" : "N");
+  require_in(positive, "excitation.frequency", batch.frequency, "rad/s");
+}
 
 /// The same whatever the motion does.
 bool is_constant(const friction::Affine& form) {
@@ -249,7 +266,7 @@ bool is_constant(const friction::Affine& form) {
 
 /// Of a law that is Coulomb friction, by what it does: nothing remembered, a force that depends on the direction of
 /// slip alone, a constant limit not below it.
-std::optional<Levels> coulomb_levels(const friction::Law& law) {
+std::optional<CoulombLimits> coulomb_limits(const friction::Law& law) {
   if (!law.is_affine() || law.is_modal() || !law.aperiodic().empty()) return std::nullopt;
   const friction::Affine forward = law.affine_force({}, {}, friction::Direction::forward);
   const friction::Affine backward = law.affine_force({}, {}, friction::Direction::backward);
@@ -257,17 +274,17 @@ std::optional<Levels> coulomb_levels(const friction::Law& law) {
   if (!is_constant(forward) || !is_constant(backward) || !is_constant(limit)) return std::nullopt;
   const bool levels = backward.constant == -forward.constant && 0.0 <= forward.constant;
   if (!levels || limit.constant < forward.constant) return std::nullopt;
-  return Levels{forward.constant, limit.constant};
+  return CoulombLimits{forward.constant, limit.constant};
 }
 
-/// Of a model that packs can follow.
-std::optional<Levels> coulomb_levels(const Model& model) {
+/// Of a model that packs can compute.
+std::optional<CoulombLimits> coulomb_limits(const Model& model) {
   const Excitation& drive = model.excitation;
   if (!is_exact(model)) return std::nullopt;
   if (!drive.is_harmonic() || !drive.harmonics.empty() || drive.offset != 0.0) return std::nullopt;
-  Levels sum;
+  CoulombLimits sum;
   for (const friction::Law& law : model.friction) {
-    const std::optional<Levels> levels = coulomb_levels(law);
+    const std::optional<CoulombLimits> levels = coulomb_limits(law);
     if (!levels) return std::nullopt;
     sum += *levels;
   }
@@ -277,7 +294,7 @@ std::optional<Levels> coulomb_levels(const Model& model) {
 }  // namespace
 
 std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
-  const std::optional<Levels> levels = coulomb_levels(model);
+  const std::optional<CoulombLimits> levels = coulomb_limits(model);
   if (!levels) return std::nullopt;
   const Excitation& drive = model.excitation;
   const auto column = [size](double value) { return std::vector<double>(size, value); };
@@ -298,7 +315,7 @@ std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model) {
   const double omega = drive.frequency;
   const double turn = 2.0 * std::numbers::pi;
   const double angle = drive.phase - std::arg(orbit.drive_at_peak);
-  // The half cycle from the trough on is the mirror image of that from the peak on.
+  // The half period from the trough on is the mirror image of that from the peak on.
   const double after_peak = angle - turn * std::floor(angle / turn);
   const double mirror = after_peak < std::numbers::pi ? 1.0 : -1.0;
   const double s = (after_peak - (mirror > 0.0 ? 0.0 : std::numbers::pi)) / omega;
@@ -336,6 +353,7 @@ std::vector<int> batch_widths() {
 }
 
 std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width) {
+  check(batch);
   std::vector<std::optional<SlidingOrbit>> orbits(batch.size());
   const Kernels& kernels = kernels_of(width);
   for (std::size_t first = 0; first < orbits.size(); first += chunk)
@@ -344,7 +362,7 @@ std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& b
 }
 
 std::optional<SlidingOrbit> sliding_orbit(const Model& model) {
-  const std::optional<Levels> levels = coulomb_levels(model);
+  const std::optional<CoulombLimits> levels = coulomb_limits(model);
   if (!levels) return std::nullopt;
   const Oscillator& o = model.oscillator;
   OrbitColumns<1> column;
@@ -362,6 +380,7 @@ std::optional<SlidingOrbit> sliding_orbit(const Model& model) {
 }
 
 BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options) {
+  check(batch);
   BatchSteadyStates result;
   result.outcome.resize(batch.size(), core::OutcomeKind::done);
   for (std::vector<double>* column : {&result.peak, &result.trough, &result.lag, &result.radius})
@@ -374,14 +393,19 @@ BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions
   return result;
 }
 
-void follow(const OscillatorBatch& batch, int periods, BatchMotions& motions, const BatchOptions& options) {
-  assert(motions.position.size() == batch.size() && motions.velocity.size() == batch.size());
+void pass_periods(const OscillatorBatch& batch, int periods, BatchMotions& motions, const BatchOptions& options) {
+  check(batch);
+  require(motions.position.size() == batch.size() && motions.velocity.size() == batch.size(),
+          "a motion of a batch needs a position and a velocity for each oscillator",
+          std::to_string(batch.size()) + " of each");
+  require_in({}, "initial.position", motions.position, "m");
+  require_in({}, "initial.velocity", motions.velocity, "m/s");
   motions.amplitude.assign(batch.size(), 0.0);
   motions.reversals.assign(batch.size(), 0);
   motions.engine.assign(batch.size(), 0);
   const Kernels& kernels = kernels_of(options.width);
   in_parts(batch.size(), chunk, options.threads, [&](std::size_t first, std::size_t count) {
-    follow_some(batch, kernels, periods, first, count, motions);
+    pass_periods_of_some(batch, kernels, periods, first, count, motions);
   });
 }
 

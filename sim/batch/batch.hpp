@@ -5,7 +5,7 @@
 ///
 ///     m x'' + c x' + k x + kinetic sgn x' = drive amplitude cos(w t)
 ///
-/// Packs of 8, 4, 2 or 1 oscillators, as wide as the processor allows, follow the closed form from reversal to
+/// Packs of 8, 4, 2 or 1 oscillators, as wide as the processor allows, pass along the closed form from reversal to
 /// reversal with the certificate of `core/first_crossing.hpp`. What this simple path cannot certify (sticking,
 /// grazing, a static limit met within 1e-9, critical damping, undamped resonance) the exact engine does, one
 /// oscillator at a time, in the same call.
@@ -22,8 +22,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/search_result.hpp"
 #include "core/outcome.hpp"
+#include "core/search_result.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/excitation.hpp"
 #include "sim/model.hpp"
@@ -64,7 +64,7 @@ struct SlidingOrbit {
   double lag = 0.0;                          ///< of x's fundamental behind the drive [rad], in [0, 2 pi)
   double radius = 0.0;                       ///< largest modulus of a Floquet multiplier of the full period
   std::complex<double> drive_at_peak = 1.0;  ///< e^{i angle of the drive} when x is largest
-  core::SearchCount certificate;             ///< of the half cycles on the way to the orbit and on it
+  core::SearchCount certificate;             ///< of the half periods on the way to the orbit and on it
 };
 
 /// Relative closure of a SlidingOrbit.
@@ -77,7 +77,7 @@ inline constexpr double sliding_closure = 1e-14;
 /// The same of one model; nothing where batch_of() gives nothing.
 [[nodiscard]] std::optional<SlidingOrbit> sliding_orbit(const Model& model);
 
-/// Where the orbit of this model is at t = 0; nothing where it turns just then.
+/// Where the orbit of this model is at t = 0; nothing where its velocity is zero just then.
 [[nodiscard]] std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model);
 
 /// Steady states, one entry for each oscillator; where the outcome is not `done` its numbers mean nothing.
@@ -100,10 +100,11 @@ struct BatchMotions {
   std::vector<double> velocity;     ///< m/s; given: at t = 0
   std::vector<double> amplitude{};  ///< half the distance between the last two reversals [m]
   std::vector<long> reversals{};
-  std::vector<unsigned char> engine{};  ///< 1: followed by the exact engine, 0: in a pack
+  std::vector<unsigned char> engine{};  ///< 1: computed by the exact engine, 0: in a pack
 };
 
-/// Follows each motion from t = 0 over whole forcing periods.
-void follow(const OscillatorBatch& batch, int periods, BatchMotions& motions, const BatchOptions& options = {});
+/// Continues each motion from t = 0 over whole forcing periods.
+void pass_periods(const OscillatorBatch& batch, int periods, BatchMotions& motions,
+                  const BatchOptions& options = {});
 
 }  // namespace dualdamp::sim

@@ -3,13 +3,13 @@
 ///
 /// The map. From the turning point x = X, v = 0 at the drive's angle `alpha` the mass moves back until its
 /// certified first reversal, after the time s: (X, alpha) -> (-x(s), alpha + r s - pi). On the orbit both stay; the
-/// second half cycle is the mirror image of the first. Its derivative D is exact: the propagator of the phase, and
-/// the shift of the reversal ds = -dv/a. The full period's Floquet multipliers are the squares of D's eigenvalues.
-/// Newton starts from the response to the fundamental of the friction force (harmonic balance); what it ends with
-/// is taken only when the map itself closes to 1e-14, each half cycle is certified and the mass does not stick at
-/// the turning point (|pull| > static); the caller asks that it attracts. With zeta >= 0 and a friction force that
-/// never falls with speed (static = kinetic) two motions never move apart, so that an orbit that attracts is the
-/// only one.
+/// second half period is the mirror image of the first. Its derivative D is exact: the propagator of the interval,
+/// and the shift of the reversal ds = -dv/a. The full period's Floquet multipliers are the squares of D's
+/// eigenvalues. Newton starts from the response to the fundamental of the friction force (harmonic balance); what
+/// it ends with is taken only when the map itself closes to 1e-14, each half period is certified and the mass does
+/// not stick at the turning point (|pull| > static); the caller asks that it attracts. With zeta >= 0 and a
+/// friction force that never falls with speed (static = kinetic) two motions never move apart, so that an orbit
+/// that attracts is the only one.
 
 #include "sim/batch/reversal_search.hpp"
 
@@ -52,7 +52,7 @@ struct OrbitCandidate {
   [[nodiscard]] Mask closes() const {
     return alive & (abs<P>(peak_gap) <= closure * peak) & (abs<P>(angle_gap) <= closure);
   }
-  /// Largest modulus of the full period's multipliers.
+  /// Largest modulus of the full period's Floquet multipliers.
   [[nodiscard]] Vector radius() const;
 };
 
@@ -75,22 +75,22 @@ OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o)
   for (int i = 0; i < shots; ++i) shoot(o);
 }
 
-/// How the end of a phase depends on its start X, alpha at fixed duration.
+/// How the end of an interval depends on its start X, alpha at fixed duration.
 template <Pack P>
-struct PhaseDerivative {
+struct IntervalDerivative {
   using Vector = typename P::Vector;
   Vector x_peak, x_angle, v_peak, v_angle;
 
   /// For exp(z s) and G e^{i angle} at the end.
-  PhaseDerivative(const Oscillation<P>& o, const Phase<P>& phase, const ComplexPack<P>& own,
-                  const ComplexPack<P>& pushed) {
+  IntervalDerivative(const Oscillation<P>& o, const Interval<P>& interval, const ComplexPack<P>& own,
+                     const ComplexPack<P>& pushed) {
     // Free motion from unit velocity and from unit position.
     const Vector from_velocity = own.im / o.eta;
     const Vector from_position = own.re + o.zeta * from_velocity;
     x_peak = from_position;
     v_peak = -from_velocity;
-    const Vector start_x = phase.forced.im;
-    const Vector start_v = o.r * phase.forced.re;
+    const Vector start_x = interval.forced.im;
+    const Vector start_v = o.r * interval.forced.re;
     x_angle = start_x * from_position + start_v * from_velocity - pushed.im;
     v_angle = start_v * (own.re - o.zeta * from_velocity) - start_x * from_velocity - o.r * pushed.re;
   }
@@ -99,10 +99,10 @@ struct PhaseDerivative {
 /// One Newton step for x = -X and v = 0 after exactly half a period.
 template <Pack P>
 void OrbitCandidate<P>::shoot(const Oscillation<P>& o) {
-  const Phase<P> phase(o, peak, splat<P>(0.0), splat<P>(-1.0), turned);
-  const Complex pushed{-phase.driven.re, -phase.driven.im};
-  const Motion<P> end = phase.at(o, phase.own * half_cycle, pushed);
-  const PhaseDerivative<P> d(o, phase, half_cycle, pushed);
+  const Interval<P> interval(o, peak, splat<P>(0.0), splat<P>(-1.0), turned);
+  const Complex pushed{-interval.driven.re, -interval.driven.im};
+  const Motion<P> end = interval.at(o, interval.own * half_cycle, pushed);
+  const IntervalDerivative<P> d(o, interval, half_cycle, pushed);
   const Vector miss = end.x + peak;
   const Vector x_peak = d.x_peak + 1.0;
   const Vector scale = 1.0 / (x_peak * d.v_angle - d.x_angle * d.v_peak);
@@ -113,18 +113,18 @@ template <Pack P>
 void OrbitCandidate<P>::apply_map(const Oscillation<P>& o) {
   const Vector pull = (o.drive * turned).re - peak;
   alive = alive & (peak > 0.0) & (-pull > o.hold + clearly * (peak + o.hold));
-  const Phase<P> phase(o, peak, splat<P>(0.0), splat<P>(-1.0), turned);
-  const ReversalSearch<P> search(o, phase, 2.0 * pi / o.r, alive, alive);
+  const Interval<P> interval(o, peak, splat<P>(0.0), splat<P>(-1.0), turned);
+  const ReversalSearch<P> search(o, interval, 2.0 * pi / o.r, alive, alive);
   searches = searches + flag<P>(alive);
   panels = panels + search.panels();
   splits = splits + search.halvings();
   alive = search.found();
 
-  const Complex pushed = phase.driven * search.turn();
-  const Motion<P> end = phase.at(o, phase.own * search.own(), pushed);
+  const Complex pushed = interval.driven * search.turn();
+  const Motion<P> end = interval.at(o, interval.own * search.own(), pushed);
   peak_gap = -end.x - peak;
   angle_gap = o.r * search.time() - pi;
-  const PhaseDerivative<P> d(o, phase, search.own(), pushed);
+  const IntervalDerivative<P> d(o, interval, search.own(), pushed);
   d00 = -d.x_peak;
   d01 = -d.x_angle;
   d10 = -o.r * d.v_peak / end.a;

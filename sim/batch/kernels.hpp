@@ -35,13 +35,13 @@ struct Orbits {
   double* turned_re = nullptr;  ///< e^{i angle of the drive at the peak}
   double* turned_im = nullptr;
   double* radius = nullptr;
-  double* searches = nullptr;  ///< core::SearchCount, of the half cycles tried
+  double* searches = nullptr;  ///< core::SearchCount, of the half periods tried
   double* panels = nullptr;
   double* splits = nullptr;
   double* certified = nullptr;
 };
 
-struct Passages {
+struct PeriodsAhead {
   int periods = 0;
   double* position = nullptr;  ///< in and out
   double* velocity = nullptr;  ///< in and out
@@ -53,7 +53,7 @@ struct Passages {
 struct Kernels {
   int width = 0;
   void (*find_orbits)(const Oscillators& oscillators, const Orbits& orbits) = nullptr;
-  void (*follow)(const Oscillators& oscillators, const Passages& passages) = nullptr;
+  void (*pass_periods)(const Oscillators& oscillators, const PeriodsAhead& ahead) = nullptr;
 };
 
 /// Relative closure of an orbit.

@@ -1,7 +1,7 @@
 #include <immintrin.h>
 #include <sleef.h>
 
-#include "sim/batch/follow.hpp"
+#include "sim/batch/pass_periods.hpp"
 #include "sim/batch/vector_register.hpp"
 
 namespace dualdamp::sim::batch {
@@ -20,6 +20,6 @@ struct Avx2 : VectorRegister<4> {
 
 }  // namespace
 
-const Kernels avx2_kernels{Avx2::width, find_orbits<Avx2>, follow<Avx2>};
+const Kernels avx2_kernels{Avx2::width, find_orbits<Avx2>, pass_periods<Avx2>};
 
 }  // namespace dualdamp::sim::batch

@@ -1,7 +1,7 @@
 #include <immintrin.h>
 #include <sleef.h>
 
-#include "sim/batch/follow.hpp"
+#include "sim/batch/pass_periods.hpp"
 #include "sim/batch/vector_register.hpp"
 
 namespace dualdamp::sim::batch {
@@ -21,6 +21,6 @@ struct Avx512 : VectorRegister<8> {
 
 }  // namespace
 
-const Kernels avx512_kernels{Avx512::width, find_orbits<Avx512>, follow<Avx512>};
+const Kernels avx512_kernels{Avx512::width, find_orbits<Avx512>, pass_periods<Avx512>};
 
 }  // namespace dualdamp::sim::batch

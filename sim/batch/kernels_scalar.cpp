@@ -5,7 +5,7 @@
 
 #include <sleef.h>
 
-#include "sim/batch/follow.hpp"
+#include "sim/batch/pass_periods.hpp"
 
 namespace dualdamp::sim::batch {
 namespace {
@@ -32,6 +32,6 @@ struct Scalar {
 
 }  // namespace
 
-const Kernels scalar_kernels{Scalar::width, find_orbits<Scalar>, follow<Scalar>};
+const Kernels scalar_kernels{Scalar::width, find_orbits<Scalar>, pass_periods<Scalar>};
 
 }  // namespace dualdamp::sim::batch

@@ -1,7 +1,7 @@
 #include <immintrin.h>
 #include <sleef.h>
 
-#include "sim/batch/follow.hpp"
+#include "sim/batch/pass_periods.hpp"
 #include "sim/batch/vector_register.hpp"
 
 namespace dualdamp::sim::batch {
@@ -20,6 +20,6 @@ struct Sse2 : VectorRegister<2> {
 
 }  // namespace
 
-const Kernels sse2_kernels{Sse2::width, find_orbits<Sse2>, follow<Sse2>};
+const Kernels sse2_kernels{Sse2::width, find_orbits<Sse2>, pass_periods<Sse2>};
 
 }  // namespace dualdamp::sim::batch

@@ -21,7 +21,7 @@ struct Motion {
   typename P::Vector jerk;
 };
 
-/// Just over pi, so that a resonant half cycle is one panel.
+/// Just over pi, so that a resonant half period is one panel.
 inline constexpr double panel_angle = 3.2;
 
 template <Pack P>
@@ -91,9 +91,9 @@ Oscillation<P>::Oscillation(const Oscillators& all, std::size_t first) {
            (gain.norm() > 1e-200);
 }
 
-/// One phase: the coefficients of the motion from a state on.
+/// One interval: the coefficients of the motion from a state on.
 template <Pack P>
-struct Phase {
+struct Interval {
   using Vector = typename P::Vector;
   using Complex = ComplexPack<P>;
 
@@ -105,12 +105,12 @@ struct Phase {
   Complex own;     ///< c
 
   /// From position x and velocity v; the drive stands at phasor e^{i start_angle}, `turned` is the same number.
-  Phase(const Oscillation<P>& o, Vector x, Vector v, Vector direction, Vector start_angle, const Complex& turned)
+  Interval(const Oscillation<P>& o, Vector x, Vector v, Vector direction, Vector start_angle, const Complex& turned)
       : side(direction), middle(-direction * o.slip), driven(o.gain), angle(start_angle), forced(o.gain * turned) {
     start(o, x, v);
   }
   /// The same where the drive's angle is only known as its phasor.
-  Phase(const Oscillation<P>& o, Vector x, Vector v, Vector direction, const Complex& turned)
+  Interval(const Oscillation<P>& o, Vector x, Vector v, Vector direction, const Complex& turned)
       : side(direction),
         middle(-direction * o.slip),
         driven(o.gain * turned),

@@ -1,7 +1,7 @@
 #pragma once
 /// The first reversal of each oscillator of a pack, with the certificate of core/first_crossing.hpp.
 ///
-/// The guard is g = side v, positive while the phase lasts. A panel's quintic Hermite interpolant less the
+/// The guard is g = side v, positive while the interval lasts. A panel's quintic Hermite interpolant less the
 /// remainder of the sixth derivative, in Bernstein form of degree six, is a lower bound L of g: all coefficients
 /// positive, no zero; one sign change, one root, accepted when g is monotone from where L still is positive up to
 /// it. Everything else halves the panel. A lane that after `most_halvings` is still undecided (a grazing, a flat
@@ -80,7 +80,7 @@ class ReversalSearch {
 
   /// For the lanes of `wanted`; `from_reversal`: g has a simple zero at the start. Behind `horizon` (natural time)
   /// a lane need not look.
-  ReversalSearch(const Oscillation<P>& oscillation, const Phase<P>& phase, Vector horizon, Mask wanted,
+  ReversalSearch(const Oscillation<P>& oscillation, const Interval<P>& interval, Vector horizon, Mask wanted,
                  Mask from_reversal);
 
   /// The reversal of these lanes is certified.
@@ -99,8 +99,8 @@ class ReversalSearch {
   static constexpr int most_halvings = 5;
 
   [[nodiscard]] Jet<P> jet(const Complex& free, const Complex& driven) const {
-    const Motion<P> m = phase_.at(o_, free, driven);
-    return {phase_.side * m.v, phase_.side * m.a, phase_.side * m.jerk};
+    const Motion<P> m = interval_.at(o_, free, driven);
+    return {interval_.side * m.v, interval_.side * m.a, interval_.side * m.jerk};
   }
   [[nodiscard]] Vector slack(Vector s) const { return (16.0 * epsilon + epsilon * o_.fastest * s) * amplitude_; }
   [[nodiscard]] Vector remainder() const {
@@ -116,9 +116,9 @@ class ReversalSearch {
   [[nodiscard]] Mask certify(const Quintic<P>& quintic, Vector root, Vector slope) const;
 
   const Oscillation<P>& o_;
-  const Phase<P>& phase_;
+  const Interval<P>& interval_;
   Vector horizon_;
-  Vector amplitude_;  ///< bounds of |g|, |g''| and the sixth derivative over the whole phase
+  Vector amplitude_;  ///< bounds of |g|, |g''| and the sixth derivative over the whole interval
   Vector curvature_;
   Vector sixth_;
 
@@ -144,15 +144,15 @@ class ReversalSearch {
 };
 
 template <Pack P>
-ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Phase<P>& phase, Vector horizon,
+ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Interval<P>& interval, Vector horizon,
                                   Mask wanted, Mask from_reversal)
     : o_(oscillation),
-      phase_(phase),
+      interval_(interval),
       horizon_(horizon),
       begin_(splat<P>(0.0)),
       width_(oscillation.panel),
-      free_(phase.own),
-      driven_(phase.forced),
+      free_(interval.own),
+      driven_(interval.forced),
       left_(jet(free_, driven_)),
       free_gain_(oscillation.own_panel),
       driven_gain_(oscillation.turn_panel),
@@ -161,8 +161,8 @@ ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Phase
       at_zero_(from_reversal),
       searching_(wanted),
       time_(splat<P>(0.0)),
-      own_(phase.own),
-      turn_(phase.forced) {
+      own_(interval.own),
+      turn_(interval.forced) {
   pending_ = found_ = beyond_ = wanted & !wanted;
   update<P>(left_.value, at_zero_, splat<P>(0.0));
   bound();
@@ -175,8 +175,8 @@ ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Phase
 /// Every |z| of the own motion is 1 in natural time, and it never grows.
 template <Pack P>
 void ReversalSearch<P>::bound() {
-  const Vector free = P::sqrt(phase_.own.norm());
-  const Vector driven = o_.r * P::sqrt(phase_.forced.norm());
+  const Vector free = P::sqrt(interval_.own.norm());
+  const Vector driven = o_.r * P::sqrt(interval_.forced.norm());
   const Vector r2 = o_.r * o_.r;
   amplitude_ = free + driven;
   curvature_ = free + r2 * driven;
@@ -248,8 +248,8 @@ void ReversalSearch<P>::locate() {
   const Vector guess = P::choose((seen > 0.0) & (seen < 1.0), seen, share);
   Vector s = begin_ + width_ * quintic.root(guess);
   Complex own = o_.own(s);
-  Complex turn = phase_.turn(o_, s);
-  Jet<P> at = jet(phase_.own * own, phase_.driven * turn);
+  Complex turn = interval_.turn(o_, s);
+  Jet<P> at = jet(interval_.own * own, interval_.driven * turn);
   const Mask settled = pending_ & polish(s, own, turn, at);
   const Mask accepted = settled & certify(quintic, s, at.slope);
   found_ = found_ | accepted;
@@ -302,7 +302,7 @@ typename P::Mask ReversalSearch<P>::polish(Vector& s, Complex& own, Complex& tur
     Complex next_turn = turned_by<P>(turn, -o_.r * step);
     if (P::any(large)) {
       update<P>(next_own, large, o_.own(next));
-      update<P>(next_turn, large, phase_.turn(o_, next));
+      update<P>(next_turn, large, interval_.turn(o_, next));
     }
     update<P>(s, moving, next);
     update<P>(own, moving, next_own);
@@ -313,7 +313,7 @@ typename P::Mask ReversalSearch<P>::polish(Vector& s, Complex& own, Complex& tur
     settled = settled | last;
     moving = moving & !last;
     if (!P::any(moving)) break;
-    const Jet<P> there = jet(phase_.own * own, phase_.driven * turn);
+    const Jet<P> there = jet(interval_.own * own, interval_.driven * turn);
     at.update(moving, there);
   }
   return settled;

@@ -4,18 +4,20 @@
 #include <cmath>
 #include <limits>
 
+#include "core/cancellation.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/engine/smooth_engine.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
 using friction::Direction;
 
-Engine::Engine(const Model& model) : model_(model), drive_(model.oscillator, model.excitation) {
+Engine::Engine(const Model& model) : model_(valid(model)), drive_(model.oscillator, model.excitation) {
   for (const friction::Law& law : model_.friction) {
     holds_mass_.push_back(law.holds_mass());
     modal_.push_back(law.is_modal());
-    can_rest_ = can_rest_ || law.holds_mass();
+    can_stick_ = can_stick_ || law.holds_mass();
     some_modal_ = some_modal_ || law.is_modal();
     const friction::Memory memory = law.start({.x = model.initial.position, .v = model.initial.velocity});
     scheduled_ = scheduled_ || std::isfinite(law.next_change(memory));
@@ -26,7 +28,7 @@ Engine::~Engine() = default;
 
 void Engine::start(double x, double v) {
   local_time_ = 0.0;
-  cycle_ = 0;
+  periods_passed_ = 0;
   x_ = x;
   v_ = v;
   memories_.clear();
@@ -34,17 +36,9 @@ void Engine::start(double x, double v) {
   place();
 }
 
-void Engine::restart(double x, double v) {
-  local_time_ = 0.0;
-  cycle_ = 0;
-  x_ = x;
-  v_ = v;
-  place();
-}
-
 void Engine::restart(const State& state) {
   local_time_ = 0.0;
-  cycle_ = 0;
+  periods_passed_ = 0;
   x_ = state.x;
   v_ = state.v;
   direction_ = state.direction;
@@ -67,19 +61,23 @@ void Engine::place() {
 }
 
 const Interval* Engine::next(double horizon) {
+  core::stop_if_cancelled();
   // Only now: the interval handed out last lies in the cell before.
-  if (drive_.is_noise() && drive_.cell() != cycle_) {
+  if (drive_.is_noise() && drive_.cell() != periods_passed_) {
     local_time_ = 0.0;
-    drive_.enter(cycle_);
+    drive_.enter(periods_passed_);
   }
-  const double begin = cycle_ == 0 ? 0.0 : static_cast<double>(cycle_) * drive_.period();
+  const double begin = periods_passed_ == 0 ? 0.0 : static_cast<double>(periods_passed_) * drive_.period();
   const double left = (horizon - begin) - local_time_;
   const double in_cell = drive_.period() - local_time_;
   if (drive_.is_noise() && left >= in_cell) return step(in_cell, true);
   return step(std::min(left, drive_.period()), false);
 }
 
-const Interval* Engine::next_in_period() { return step(drive_.period() - local_time_, true); }
+const Interval* Engine::next_in_period() {
+  core::stop_if_cancelled();
+  return step(drive_.period() - local_time_, true);
+}
 
 State Engine::state() const { return {x_, v_, direction_, memories_}; }
 
@@ -89,7 +87,7 @@ void Engine::track_sensitivity(bool track) {
 }
 
 double Engine::time() const {
-  return cycle_ == 0 ? local_time_ : static_cast<double>(cycle_) * drive_.period() + local_time_;
+  return periods_passed_ == 0 ? local_time_ : static_cast<double>(periods_passed_) * drive_.period() + local_time_;
 }
 
 void Engine::change_direction(Direction direction) {
@@ -106,18 +104,23 @@ void Engine::jump(std::size_t law, friction::Trigger trigger) {
   jumped(law, before, trigger);
 }
 
-EventKind Engine::act(const Owner& owner) {
-  switch (owner.kind) {
-    case Owner::Kind::velocity:
-      settle();
-      return direction_ == Direction::none ? EventKind::stop : EventKind::reversal;
-    case Owner::Kind::limit:
-      change_direction(owner.law > 0 ? Direction::forward : Direction::backward);
-      return EventKind::release;
-    case Owner::Kind::law:
-      break;
-  }
-  jump(static_cast<std::size_t>(owner.law), {owner.guard});
+EventKind Engine::act(const Ending& ending) {
+  return std::visit([this](const auto& what) { return act(what); }, ending);
+}
+
+/// Where a slip ends the mass sticks or reverses.
+EventKind Engine::act(SlipEnd) {
+  settle();
+  return direction_ == Direction::none ? EventKind::stop : EventKind::reversal;
+}
+
+EventKind Engine::act(StickEnd end) {
+  change_direction(end.release);
+  return EventKind::release;
+}
+
+EventKind Engine::act(LawGuard guard) {
+  jump(guard.law, {guard.guard});
   return EventKind::switching;
 }
 
@@ -130,7 +133,7 @@ double Engine::next_schedule() const {
   return next;
 }
 
-/// Every law whose time has come; a mass at rest is then weighed anew.
+/// Every law whose time has come; whether a sticking mass goes on sticking is then decided anew.
 void Engine::act_on_schedule(double due) {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});

@@ -3,19 +3,19 @@
 /// exact one (`exact_engine.hpp`) for laws that are affine in every mode, and the smooth one (`smooth_engine.hpp`)
 /// for all others. What they do alike is here: time, the laws' memories, mode changes, what an event means.
 ///
-/// At v = 0 the sum of forces decides:
-///   rest      while |pull| <= sum of static limits, equality included when the excess is not growing;
-///   slip      otherwise, in the direction of the pull.
-/// A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times for each law.
+/// Where a slip ends (v reaches 0) the sum of forces decides (`sim/engine/sticking_gate.hpp`): the mass sticks, or
+/// it reverses. Where a stick ends (the pull exceeds the static limits) the mass slips in the direction of the
+/// pull. A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times for each law.
 ///
 /// Time is kept modulo the forcing period, or the cell of a noise, so that long runs lose no phase.
 
 #include <Eigen/Core>
 #include <memory>
+#include <variant>
 #include <vector>
 
-#include "core/search_result.hpp"
 #include "core/outcome.hpp"
+#include "core/search_result.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/state.hpp"
@@ -34,9 +34,7 @@ class Engine {
 
   /// Places the mass at t = 0 with all laws at their start.
   void start(double x, double v);
-  /// Same, keeping what the laws remember.
-  void restart(double x, double v);
-  /// Same, in a state met earlier: closes a period.
+  /// The same in a state met earlier: closes a period.
   void restart(const State& state);
 
   /// The next interval, ending at an event or at `horizon` [s], whichever is first, and not longer than one forcing
@@ -44,12 +42,14 @@ class Engine {
   /// or outcome() is not ok().
   [[nodiscard]] const Interval* next(double horizon);
   /// The same up to the end of the present forcing period, where time and phase are set exactly: the period map.
-  /// A null pointer only when outcome() is not ok(): watch cycle().
+  /// A null pointer only when outcome() is not ok(): watch periods_passed().
   [[nodiscard]] const Interval* next_in_period();
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
-  [[nodiscard]] double time() const;                    ///< s
-  [[nodiscard]] long cycle() const { return cycle_; }   ///< whole forcing periods passed, or cells of a noise
+  [[nodiscard]] double time() const;  ///< s
+  [[nodiscard]] long periods_passed() const {
+    return periods_passed_;
+  }                                                     ///< whole forcing periods passed, or cells of a noise
   [[nodiscard]] double position() const { return x_; }  ///< m
   [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
@@ -72,16 +72,27 @@ class Engine {
   [[nodiscard]] virtual Eigen::MatrixXd sensitivity() const = 0;
 
  protected:
-  /// What a guard of the present phase belongs to.
-  struct Owner {
-    enum class Kind { velocity, limit, law } kind = Kind::velocity;
-    int law = 0;    ///< index of the law; for a limit the direction of release, +1 or -1
+  /// Where a slip ends: the velocity reaches zero.
+  struct SlipEnd {};
+  /// Where a stick ends: the pull exceeds the static limits in this direction.
+  struct StickEnd {
+    friction::Direction release = friction::Direction::forward;
+  };
+  /// Where a law changes its mode: one of its own guards reaches zero.
+  struct LawGuard {
+    std::size_t law = 0;
     int guard = 0;  ///< index among the law's own guards
   };
+  /// What ends the interval when a guard reaches zero.
+  using Ending = std::variant<SlipEnd, StickEnd, LawGuard>;
+  template <class E>
+  [[nodiscard]] static bool is(const Ending& ending) {
+    return std::holds_alternative<E>(ending);
+  }
 
   /// One interval, at most `left` long; `to_period_end`: `left` ends exactly at a period boundary.
   [[nodiscard]] virtual const Interval* step(double left, bool to_period_end) = 0;
-  /// Decides what happens at v = 0.
+  /// Decides what happens where a slip ends: sets the direction to none (stick) or to that of the slip to come.
   virtual void settle() = 0;
   /// The motion goes on from x_, v_, direction_ and memories_ at local time 0, with nothing known of before.
   virtual void begin_motion() = 0;
@@ -92,7 +103,10 @@ class Engine {
   [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
   void change_direction(friction::Direction direction);
   void jump(std::size_t law, friction::Trigger trigger);
-  EventKind act(const Owner& owner);
+  EventKind act(const Ending& ending);
+  EventKind act(SlipEnd);
+  EventKind act(StickEnd end);
+  EventKind act(LawGuard guard);
   void act_on_schedule(double due);
   [[nodiscard]] double next_schedule() const;
   /// Counts events in a row that take no time; false, with an outcome, when they do not come to an end.
@@ -104,11 +118,11 @@ class Engine {
   std::vector<char> modal_;       ///< of each law
   bool some_modal_ = false;
   bool scheduled_ = false;  ///< some law changes its mode at a known time
-  bool can_rest_ = false;   ///< some law has a static limit
+  bool can_stick_ = false;  ///< some law has a static limit
   double x_ = 0.0;
   double v_ = 0.0;
   double local_time_ = 0.0;  ///< within the forcing period
-  long cycle_ = 0;
+  long periods_passed_ = 0;
   friction::Direction direction_ = friction::Direction::none;
   std::vector<friction::Memory> memories_;
   bool tracking_ = false;

@@ -1,12 +1,13 @@
 #include "sim/engine/exact_engine.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "core/first_crossing.hpp"
 #include "sim/engine/closed_form.hpp"
+#include "sim/engine/sticking_gate.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
@@ -38,11 +39,11 @@ std::string_view name(EventKind kind) {
   return "";
 }
 
-/// One phase as an interval. The engine's functions stay in place until its next call; only the drive has moved on,
-/// so it is read backwards from the end of the interval.
-class ExactEngine::PhaseInterval final : public Interval {
+/// One interval as an interval. The engine's functions stay in place until its next call; only the drive has moved
+/// on, so it is read backwards from the end of the interval.
+class ExactEngine::ExactInterval final : public Interval {
  public:
-  explicit PhaseInterval(const ExactEngine& engine) : engine_(engine) {}
+  explicit ExactInterval(const ExactEngine& engine) : engine_(engine) {}
 
   [[nodiscard]] Sample at(double s) const override {
     const core::ExponentialBasis& basis = engine_.mode_->basis();
@@ -81,7 +82,7 @@ class ExactEngine::PhaseInterval final : public Interval {
     return &form_;
   }
 
-  /// The engine has moved on to another phase.
+  /// The engine has moved on to another interval.
   void forget() { formed_ = false; }
 
   Affine force;  ///< of all laws, without the transients
@@ -96,7 +97,7 @@ class ExactEngine::PhaseInterval final : public Interval {
   mutable bool formed_ = false;
 };
 
-void ExactEngine::PhaseInterval::form() const {
+void ExactEngine::ExactInterval::form() const {
   const LinearMode& mode = *engine_.mode_;
   const core::ExponentialBasis& basis = mode.basis();
   const Drive& drive = engine_.drive_;
@@ -125,8 +126,9 @@ void ExactEngine::PhaseInterval::form() const {
   core::accumulate(basis, force.velocity, form_.v, form_.force);
 }
 
-ExactEngine::ExactEngine(const Model& model) : Engine(model), interval_(std::make_unique<PhaseInterval>(*this)) {
-  assert(std::ranges::all_of(model_.friction, [](const friction::Law& law) { return law.is_affine(); }));
+ExactEngine::ExactEngine(const Model& model) : Engine(model), interval_(std::make_unique<ExactInterval>(*this)) {
+  require(is_exact(model_), "the exact engine needs a linear spring and laws that are affine in every mode",
+          "make_engine() chooses the engine");
   law_guard_counts_.resize(model_.friction.size());
   forcing_.phasors.resize(drive_.frequencies().size());
   start(model.initial.position, model.initial.velocity);
@@ -140,24 +142,20 @@ void ExactEngine::begin_motion() {
   if (tracking_) reset_sensitivity();
 }
 
-/// Decides what happens at v = 0: rest, or slip in the direction of the pull.
+/// Where a slip ends.
 void ExactEngine::settle() {
   change_direction(Direction::none);
   collect(false);
   const double pull = pull_now();
-  const double level = total_->limit.constant;
-  const double scale = force_scale() + level;
-  Direction direction = pull > 0.0 ? Direction::forward : Direction::backward;
-  if (std::abs(pull) < level - clearly * scale) {
-    direction = Direction::none;
-  } else if (std::abs(pull) <= level + clearly * scale) {
-    direction = settle_closely(rounding * scale);
-  }
+  const double limit = total_->limit.constant;
+  const double scale = force_scale() + limit;
+  const Direction direction =
+      direction_after_slip(pull, limit, clearly * scale, [&] { return leaves_limit(rounding * scale); });
   if (direction != Direction::none) change_direction(direction);
 }
 
 /// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
-Direction ExactEngine::settle_closely(double tolerance) {
+Direction ExactEngine::leaves_limit(double tolerance) {
   const LinearMode* present = mode_;
   ModeFunction pull;
   mode_ = &pull_on_mode(pull);
@@ -175,8 +173,8 @@ void ExactEngine::jumped(std::size_t law, const friction::Memory& before, fricti
   sensitivity_.jump(model_.friction[law], law, before, memories_[law], trigger, now(), direction_);
 }
 
-/// How far x and v may be off at the end of a phase: as the search has it (core/first_crossing.hpp), of amplitudes
-/// that may be far larger than those of the phase to come; and when its guard reached zero.
+/// How far x and v may be off at the end of an interval: as the search has it (core/first_crossing.hpp), of
+/// amplitudes that may be far larger than those of the interval to come; and when its guard reached zero.
 void ExactEngine::keep_rounding(double s) {
   x_rounding_ = v_rounding_ = time_rounding_ = 0.0;
   const core::ExponentialBasis& basis = mode_->basis();
@@ -199,7 +197,7 @@ void ExactEngine::keep_time_rounding(double error, double slope, double curvatur
   if (speed > 0.0) time_rounding_ = std::max(time_rounding_, 2.0 * error / speed);
 }
 
-/// Ends the phase after s: position, velocity, drive and the laws' own states.
+/// Ends the interval after s: position, velocity, drive and the laws' own states.
 void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
   if (some_modal_ && s > 0.0) keep_rounding(s);
@@ -208,12 +206,11 @@ void ExactEngine::advance(double s, bool to_period_end) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
     v_ = friction::sign(direction_) * core::evaluate(basis, speed(), crossing_.values);
   }
-  if (crossing_.found && watches_[static_cast<std::size_t>(crossing_.guard)].owner.kind == Owner::Kind::velocity)
-    v_ = 0.0;
+  if (crossing_.found && is<SlipEnd>(watches_[static_cast<std::size_t>(crossing_.guard)].ending)) v_ = 0.0;
   local_time_ += s;
   if (to_period_end || local_time_ >= drive_.period()) {
     local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
-    ++cycle_;
+    ++periods_passed_;
     drive_.end_period(local_time_);
   } else {
     for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) {
@@ -232,7 +229,7 @@ double ExactEngine::start_acceleration() const {
   return friction::sign(direction_) * core::at_start(mode_->basis(), speed_rate());
 }
 
-/// Once the phase is laid: perturbations left at a crossing come back to the common time, unless the next event
+/// Once the interval is laid: perturbations left at a crossing come back to the common time, unless the next event
 /// follows at once.
 void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
   if (!at_once) sensitivity_.leave(start_acceleration(), model_.friction, memories_, begin, direction_);
@@ -240,10 +237,10 @@ void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
   if (sensitivity_.has_states()) memories_before_ = memories_;
 }
 
-/// Over the phase, `s` long: motion and guard, while the memories are still those of its begin.
+/// Over the interval, `s` long: motion and guard, while the memories are still those of its begin.
 void ExactEngine::track_motion(const friction::Instant& begin, double s) {
   if (direction_ == Direction::none) {
-    sensitivity_.rest();
+    sensitivity_.stick();
   } else {
     responses_.clear();
     for (std::size_t j = 0; sensitivity_.has_states() && j <= total_->decays.size(); ++j)
@@ -251,15 +248,16 @@ void ExactEngine::track_motion(const friction::Instant& begin, double s) {
     sensitivity_.slip(mode_->propagator(crossing_.values), responses_);
   }
   if (!crossing_.found || sensitivity_.at_crossing()) return;
-  const Owner& owner = watches_[static_cast<std::size_t>(crossing_.guard)].owner;
-  if (owner.kind == Owner::Kind::limit) sensitivity_.perturb_limit(-owner.law, total_->decays, s);
-  if (owner.kind == Owner::Kind::law) {
-    sensitivity_.perturb_guard(model_.friction, memories_, begin, direction_, static_cast<std::size_t>(owner.law),
-                               static_cast<std::size_t>(owner.guard), s);
+  const Ending& ending = watches_[static_cast<std::size_t>(crossing_.guard)].ending;
+  if (const auto* stick = std::get_if<StickEnd>(&ending))
+    sensitivity_.perturb_limit(-friction::sign(stick->release), total_->decays, s);
+  if (const auto* of = std::get_if<LawGuard>(&ending)) {
+    sensitivity_.perturb_guard(model_.friction, memories_, begin, direction_, of->law,
+                               static_cast<std::size_t>(of->guard), s);
   }
 }
 
-/// Behind the phase: states of the laws, and at an event the way to the crossing.
+/// Behind the interval: states of the laws, and at an event the way to the crossing.
 void ExactEngine::track_states(const friction::Instant& begin, double s, bool event) {
   for (std::size_t i = 0; i < model_.friction.size() && sensitivity_.has_states(); ++i) {
     const friction::Law& law = model_.friction[i];
@@ -292,7 +290,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   const double due = next_schedule();
   const bool by_schedule = due - begin.t < left;
   if (by_schedule) left = std::max(0.0, due - begin.t);
-  lay_phase();
+  lay_interval();
   grazings_.clear();
   const bool at_once = find_violated();
   if (tracking_) track_begin(begin, at_once);
@@ -302,7 +300,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   const core::Crossing& end = crossing_;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
   if (!comes_to_an_end(at_once || left == 0.0)) return nullptr;
-  describe_phase(begin.t);
+  describe_interval(begin.t);
   const bool ends = end.found || by_schedule;
   if (tracking_) track_motion(begin, end.s);
   advance(end.s, to_period_end && !ends);
@@ -312,7 +310,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
     return nullptr;
   }
   if (end.found) {
-    interval_->ending = act(watches_[static_cast<std::size_t>(end.guard)].owner);
+    interval_->ending = act(watches_[static_cast<std::size_t>(end.guard)].ending);
   } else if (by_schedule) {
     act_on_schedule(due);
     interval_->ending = EventKind::switching;
@@ -320,8 +318,8 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   return interval_.get();
 }
 
-/// What the interval tells of the phase laid last.
-void ExactEngine::describe_phase(double begin) {
+/// What the interval tells of the interval laid last.
+void ExactEngine::describe_interval(double begin) {
   interval_->forget();
   interval_->begin = begin;
   interval_->duration = crossing_.s;

@@ -53,23 +53,23 @@ class ExactEngine final : public Engine {
   /// Up to this angle of its fastest element a guard is its tangent parabola, well enough for its rounding.
   static constexpr double parabolic = 0.1;
 
-  /// A guard of the present phase: what it belongs to, and how it depends on the motion.
+  /// A guard of the present interval: what it belongs to, and how it depends on the motion.
   struct Watch {
-    Owner owner;
+    Ending ending;
     double by_position = 0.0;  ///< dg/dx
     double by_velocity = 0.0;  ///< dg/dv
     double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
   };
-  /// All laws together, affine in the phase.
+  /// All laws together, affine in the interval.
   struct Total {
     friction::Affine force;  ///< without its transient
-    friction::Affine limit;  ///< of static friction, at rest only
+    friction::Affine limit;  ///< of static friction, while the mass sticks
     bool lasting = false;    ///< need not be asked for again
     bool ramped = false;     ///< something grows with time: modes without that element are cheaper
     std::vector<double> transients;
     std::vector<double> decays;
   };
-  class PhaseInterval;
+  class ExactInterval;
 
   /// Speed and its rate in a slip, as the first guard has them: velocity and acceleration times the direction.
   [[nodiscard]] const core::ModeFunction& speed() const { return guards_.front().value; }
@@ -83,24 +83,24 @@ class ExactEngine final : public Engine {
   void load_forcing(double extra_constant);
   const LinearMode& pull_on_mode(core::ModeFunction& pull);
   void limit_guard(const core::ModeFunction& pull, double direction, core::ModeFunction& guard) const;
-  void lay_phase();
-  void lay_rest();
+  void lay_interval();
+  void lay_stick();
   void lay_slip();
   void add_law_guards();
   core::Guard& new_guard(const Watch& watch);
   [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
   [[nodiscard]] bool rises_in_time(const core::Guard& guard, double tolerance) const;
-  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, const Owner& owner, double tolerance) const;
+  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, const Ending& ending, double tolerance) const;
   bool find_violated();
   void drop_guard(std::size_t i);
   void settle() override;
-  friction::Direction settle_closely(double tolerance);
+  friction::Direction leaves_limit(double tolerance);
   [[nodiscard]] double pull_now() const;
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
   void track_begin(const friction::Instant& begin, bool at_once);
   void track_motion(const friction::Instant& begin, double s);
   void track_states(const friction::Instant& begin, double s, bool event);
-  void describe_phase(double begin);
+  void describe_interval(double begin);
   void begin_motion() override;
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
   void keep_rounding(double s);
@@ -110,17 +110,18 @@ class ExactEngine final : public Engine {
   [[nodiscard]] double force_rounding() const;
   [[nodiscard]] double velocity_rounding() const;
 
-  double x_rounding_ = 0.0;  ///< of x_ and v_ from the phase before
+  double x_rounding_ = 0.0;  ///< of x_ and v_ from the interval before
   double v_rounding_ = 0.0;
   double time_rounding_ = 0.0;  ///< of the events at this instant [s]
   std::map<ModeKey, LinearMode> modes_;
   ModeKey key_;
-  const LinearMode* mode_ = nullptr;  ///< of the present phase
+  const LinearMode* mode_ = nullptr;  ///< of the present interval
   ModeForcing forcing_;
   std::array<Total, 3> totals_;    ///< by direction
-  Total* total_ = totals_.data();  ///< of the present phase
+  Total* total_ = totals_.data();  ///< of the present interval
   double force_scale_ = 0.0;
-  double instant_scale_ = 0.0;  ///< the largest of the phases that met at this instant, the one before it included
+  double instant_scale_ =
+      0.0;  ///< the largest of the intervals that met at this instant, the one before it included
   core::ModeFunction motion_;
   std::vector<core::Guard> guards_;
   std::vector<Watch> watches_;
@@ -130,9 +131,9 @@ class ExactEngine final : public Engine {
   core::Crossing crossing_;
 
   Sensitivity sensitivity_;
-  std::vector<friction::Memory> memories_before_;  ///< at the begin of the phase, while tracking
+  std::vector<friction::Memory> memories_before_;  ///< at the start of the interval, while tracking
   std::vector<Eigen::Vector2d> responses_;
-  std::unique_ptr<PhaseInterval> interval_;
+  std::unique_ptr<ExactInterval> interval_;
 };
 
 }  // namespace dualdamp::sim

@@ -141,7 +141,7 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
   }
 }
 
-/// Sum of the laws' forces; at rest, of those that do not hold the mass.
+/// Sum of the laws' forces; while the mass sticks, of those that do not hold the mass.
 double Flow::resisting(std::span<const double> X, double t) const {
   double force = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) {

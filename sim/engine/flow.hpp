@@ -6,11 +6,11 @@
 ///   v' = (k (y - x) + k3 (y - x)^3 + c (y' - v, or -v) + f(t) - F) / m
 ///   states by their rates
 ///
-/// At rest x' = v' = 0. The direction of slip and the modes of the laws are those given to freeze(), whatever X:
-/// the field is analytic beyond the event that ends the phase. Time runs within the forcing period.
+/// While the mass sticks x' = v' = 0. The direction of slip and the modes of the laws are those given to freeze(),
+/// whatever X: the field is analytic beyond the event that ends the interval. Time runs within the forcing period.
 ///
 /// The Jacobian is that of the known part exactly and of the laws by central differences, relative error about
-/// 1e-10: enough for Newton iterations and multipliers, and the same for every law (decision 017).
+/// 1e-10: enough for Newton iterations and Floquet multipliers, and the same for every law (decision 017).
 
 #include <array>
 #include <limits>
@@ -47,7 +47,7 @@ class Flow final : public VectorField {
   void gather(double x, double v, const std::vector<friction::Memory>& memories, std::vector<double>& X) const;
   void scatter(std::span<const double> X, std::vector<friction::Memory>& memories) const;
 
-  /// At rest: all forces on the mass but those of laws that hold it, and how much those hold [N].
+  /// While the mass sticks: all forces on the mass but those of laws that hold it, and how much those hold [N].
   [[nodiscard]] double pull(std::span<const double> X, double t) const;
   [[nodiscard]] double limit(std::span<const double> X, double t) const;
   /// Guards of law i, appended.

@@ -2,7 +2,7 @@
 /// An interval: the motion between two events, as a function of time.
 ///
 /// Both engines hand out a stream of intervals; sampling, extremes, energy and event logs are observers of that
-/// stream (`sim/motion/observers.hpp`). Within an interval the velocity keeps one sign or the mass rests, so
+/// stream (`sim/motion/observers.hpp`). Within an interval the velocity keeps one sign or the mass sticks, so
 /// extremes of x lie at interval ends only.
 
 #include <optional>
@@ -16,9 +16,9 @@ struct ClosedForm;
 
 enum class EventKind {
   reversal,   ///< the velocity changes sign and the mass moves on
-  stop,       ///< the mass comes to rest and stays
-  release,    ///< the mass leaves rest
-  grazing,    ///< a guard is touched within rounding and not crossed
+  stop,       ///< a slip ends and the mass sticks
+  release,    ///< a stick ends and the mass slips
+  grazing,    ///< a guard touches zero within rounding and does not cross
   switching,  ///< a law changes its mode, the mass moving on
 };
 

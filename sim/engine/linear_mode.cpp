@@ -51,7 +51,7 @@ LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<
   basis_.finish(expected_turn(frequencies));
 }
 
-/// A periodic motion mostly turns twice a forcing period, a free one twice a period of its own.
+/// A periodic motion mostly reverses twice a forcing period, a free one twice a period of its own.
 double LinearMode::expected_turn(std::span<const double> frequencies) const {
   if (!frequencies.empty()) return std::numbers::pi / frequencies.front();
   return own_form_ == OwnForm::oscillating ? std::numbers::pi * inverse_gap_ : 0.0;

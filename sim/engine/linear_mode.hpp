@@ -3,9 +3,9 @@
 ///     f(s) = constant + ramp s + sum_i transient_i exp(-decay_i s) + Re sum_j phasor_j exp(i w_j s)      [N].
 ///
 /// C [N.s/m] and K [N/m] of any sign, zero included. A basis of exponentials is laid out once for (m, C, K, w);
-/// each phase then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's own
-/// (resonance with little damping, vanishing stiffness), or those two lie close to each other (critical damping),
-/// the solution is written on divided differences, so that nothing cancels.
+/// each interval then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's
+/// own (resonance with little damping, vanishing stiffness), or those two lie close to each other (critical
+/// damping), the solution is written on divided differences, so that nothing cancels.
 
 #include <Eigen/Core>
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace dualdamp::sim {
 
-/// The right-hand side of a mode, relative to the start of the phase.
+/// The right-hand side of a mode, relative to the start of the interval.
 struct ModeForcing {
   double constant = 0.0;                 ///< N
   double ramp = 0.0;                     ///< N/s; only for a mode laid out with a ramp

@@ -77,7 +77,7 @@ void Sensitivity::slip(const Eigen::Matrix2d& propagator, std::span<const Eigen:
   }
 }
 
-void Sensitivity::rest() {
+void Sensitivity::stick() {
   for (Eigen::Vector2d& column : motion_) column.y() = 0.0;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The derivative of a motion with respect to where it started: d(x, v, states of the laws)(now)/d(same)(start).
 ///
-/// Columns are perturbations of the start. Within a phase (x, v) obey the mode's propagator and the force that
+/// Columns are perturbations of the start. Within an interval (x, v) obey the mode's propagator and the force that
 /// perturbed states exert; at an event a perturbation comes late or early by its own `shift`, and the saltation
 /// matrix follows from that (filippov1988, leine2004): a perturbation is carried to the crossing with the motion
 /// before, through the laws' jumps, and back with the motion behind.
@@ -9,7 +9,8 @@
 /// The laws know nothing of this. Their forms and jumps are affine in their states (law.hpp), so that the
 /// difference of two evaluations is the derivative, exact to rounding however large the perturbation.
 ///
-/// Cost: per phase and column some ten multiplications and, where laws have states, two evaluations of their forms.
+/// Cost: per interval and column some ten multiplications and, where laws have states, two evaluations of their
+/// forms.
 
 #include <Eigen/Core>
 #include <span>
@@ -26,7 +27,7 @@ class Sensitivity {
 
   /// The instant of an event, on the motion before it.
   struct Event {
-    double by_position = 0.0;  ///< dg/dx of the guard that ends the phase
+    double by_position = 0.0;  ///< dg/dx of the guard that ends the interval
     double by_velocity = 0.0;  ///< dg/dv
     double slope = 0.0;        ///< dg/dt
     double velocity = 0.0;     ///< m/s
@@ -36,25 +37,25 @@ class Sensitivity {
   /// Identity, for a motion that begins with these memories. `modal`: some law may come to have states.
   void begin(const Memories& memories, bool modal);
 
-  /// Asks the laws what perturbed states exert in the phase that begins now. `silent`: laws whose force does not
-  /// act, for the mass rests; `decays`: of the mode's transients.
+  /// Asks the laws what perturbed states exert in the interval that begins now. `silent`: laws whose force does not
+  /// act, for the mass sticks; `decays`: of the mode's transients.
   void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,
            const std::vector<char>& silent, const std::vector<double>& decays);
 
-  /// Over a phase of slip. `responses`: (x, v) at its end to a unit constant force and to a unit of each transient,
+  /// Over a slip. `responses`: (x, v) at its end to a unit constant force and to a unit of each transient,
   /// from rest at zero.
   void slip(const Eigen::Matrix2d& propagator, std::span<const Eigen::Vector2d> responses);
-  /// Over a phase of rest.
-  void rest();
+  /// Over a stick.
+  void stick();
 
-  /// What perturbed states add to a guard of law `law` at the end of the phase laid last; `duration` of it [s].
+  /// What perturbed states add to a guard of law `law` at the end of the interval laid last; `duration` of it [s].
   /// Call before the memories move on.
   void perturb_guard(Laws laws, const Memories& memories, const friction::Instant& begin,
                      friction::Direction direction, std::size_t law, std::size_t guard, double duration);
   /// The same of the pull's limit: `factor` times the perturbed force.
   void perturb_limit(double factor, const std::vector<double>& decays, double duration);
 
-  /// States of law `law` over the phase, for a law that advances. `before`: its memory at the begin.
+  /// States of law `law` over the interval, for a law that advances. `before`: its memory at the begin.
   void advance(const friction::Law& law, std::size_t index, const friction::Memory& before,
                const friction::Memory& after, const friction::Instant& begin, const friction::Instant& end,
                double duration, friction::Direction direction);
@@ -86,7 +87,7 @@ class Sensitivity {
             friction::Direction direction);
 
   std::vector<Eigen::Vector2d> motion_;  ///< of each column
-  std::vector<Eigen::Vector2d> begin_;   ///< motion_ at the begin of the phase
+  std::vector<Eigen::Vector2d> begin_;   ///< motion_ at the start of the interval
   std::vector<Eigen::MatrixXd> states_;  ///< of each law: state by column
   std::vector<Eigen::VectorXd> force_;   ///< of each column: constant part, then the transients [N]
   std::vector<double> guard_;            ///< of each column: what its states add to the guard

@@ -24,7 +24,7 @@ constexpr double safety = 0.9;
 constexpr double stiff = 0.5;
 constexpr int stiff_enough = 15;
 
-/// A step is at most this part of the shortest period, so that five points show every turn of a guard.
+/// A step is at most this part of the shortest period, so that five points show every minimum of a guard.
 constexpr double part_of_period = 0.125;
 
 /// Part of force/stiffness that counts as the size of a motion that has none yet.
@@ -115,7 +115,7 @@ void SmoothEngine::set_scales() {
   judge_.set_scales(x_scale_, wn * x_scale_);
 }
 
-void SmoothEngine::lay_phase() {
+void SmoothEngine::lay_interval() {
   if (is_laid_) return;
   is_laid_ = true;
   flow_.freeze(memories_, direction_, time() - local_time_);
@@ -256,7 +256,7 @@ bool SmoothEngine::move(double left, Hit& hit, bool& found) {
     grazings_.clear();
     found = find_hit(hit);
     if (!found || land(hit)) {
-      // Beyond the event nothing was touched.
+      // Beyond the event nothing grazed.
       std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });
       count_.grazings += static_cast<long>(grazings_.size());
       return true;
@@ -275,7 +275,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   if (by_schedule) left = std::max(0.0, due - time());
   grazings_.clear();
   changes_.clear();
-  lay_phase();
+  lay_interval();
   Hit hit;
   const bool at_once = find_violated(hit);
   bool found = at_once;
@@ -292,20 +292,20 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     if (found && !at_once) carry_to_event(hit.watch);
     if (is_over && by_schedule) delay_of_event_.setZero(columns_.cols());
   }
-  const Owner owner = found ? watches_[hit.watch].owner : Owner{};
-  take_over(found ? &owner : nullptr);
+  const Ending ending = found ? watches_[hit.watch].ending : Ending{};
+  take_over(found && is<SlipEnd>(ending));
   pass_time(to_period_end && is_over && !by_schedule);
   if (!std::isfinite(x_) || !std::isfinite(v_)) {
     outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
     return nullptr;
   }
   if (!found && !(is_over && by_schedule)) {
-    // A guard that the next phase finds violated was not crossed at an event: nothing delays it.
+    // A guard that the next interval finds violated was not crossed at an event: nothing delays it.
     delay_of_event_.setZero();
     return interval_.get();
   }
   if (found) {
-    interval_->ending = act(owner);
+    interval_->ending = act(ending);
   } else {
     act_on_schedule(due);
     interval_->ending = EventKind::switching;
@@ -325,8 +325,8 @@ void SmoothEngine::describe_step() {
   interval_->ending.reset();
 }
 
-/// The step's end becomes the present; `owner`: of the guard that ended it.
-void SmoothEngine::take_over(const Owner* owner) {
+/// The step's end becomes the present; `at_slip_end`: there the velocity is zero.
+void SmoothEngine::take_over(bool at_slip_end) {
   if (reach_ > 0.0 && taken_ > 0.0) {
     VelocityHistory::Values values{};
     interval_->state.resize(end_.size());
@@ -337,7 +337,7 @@ void SmoothEngine::take_over(const Owner* owner) {
     past_.add(local_time_, taken_, values);
   }
   X_ = end_;
-  if (owner != nullptr && owner->kind == Owner::Kind::velocity) {
+  if (at_slip_end) {
     X_[1] = 0.0;
     for (const friction::Law& law : model_.friction) {
       for (int j = 1; j <= echoes && law.delay() > 0.0; ++j)
@@ -354,7 +354,7 @@ void SmoothEngine::pass_time(bool to_period_end) {
   local_time_ += taken_;
   if (!to_period_end && local_time_ < drive_.period()) return;
   local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
-  ++cycle_;
+  ++periods_passed_;
   past_.shift(drive_.period());
   for (double& kink : breaks_) kink -= drive_.period();
   std::erase_if(breaks_, [&](double kink) { return kink < local_time_; });

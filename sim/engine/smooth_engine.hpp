@@ -45,9 +45,9 @@ class SmoothEngine final : public Engine {
  private:
   class StepInterval;
   static constexpr std::size_t points = 5;
-  /// A guard of the present phase, and its values at 0, 1/4, ..., 1 of the step taken last.
+  /// A guard of the present interval, and its values at 0, 1/4, ..., 1 of the step taken last.
   struct Watch {
-    Owner owner;
+    Ending ending;
     std::array<double, points> values{};
     double scale = 0.0;  ///< its size, to judge rounding by
   };
@@ -71,7 +71,7 @@ class SmoothEngine final : public Engine {
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
 
   // The step.
-  void lay_phase();
+  void lay_interval();
   void set_scales();
   void allow();
   [[nodiscard]] double first_step();
@@ -83,7 +83,7 @@ class SmoothEngine final : public Engine {
   void notice_stiffness();
   [[nodiscard]] bool use_implicit_steps();
   void describe_step();
-  void take_over(const Owner* owner);
+  void take_over(bool at_slip_end);
   void pass_time(bool to_period_end);
 
   // Events.
@@ -109,7 +109,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] Eigen::MatrixXd jump_derivative() const;
 
   VelocityHistory past_;
-  Flow flow_;   ///< of the present phase
+  Flow flow_;   ///< of the present interval
   Flow judge_;  ///< of the instant of an event
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<Stepper> displaced_stepper_;  ///< for derivatives: the dense output stays
@@ -117,7 +117,7 @@ class SmoothEngine final : public Engine {
   int stiff_steps_ = 0;
   double reach_ = 0.0;       ///< longest delay of a law [s]
   double x_scale_ = 0.0;     ///< m
-  bool is_laid_ = false;     ///< flow_ and watches_ are those of the present phase
+  bool is_laid_ = false;     ///< flow_ and watches_ are those of the present interval
   double h_ = 0.0;           ///< proposed next step [s]; 0: none
   double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
   long steps_ = 0;

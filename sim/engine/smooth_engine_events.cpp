@@ -1,4 +1,4 @@
-// Events of the smooth engine: guards watched on the dense output, landing on a crossing, what follows at v = 0.
+// Events of the smooth engine: guards watched on the dense output, landing on a crossing, what happens at v = 0.
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "friction_models/law_fault.hpp"
 #include "sim/engine/smooth_engine.hpp"
+#include "sim/engine/sticking_gate.hpp"
 
 namespace dualdamp::sim {
 
@@ -17,7 +18,7 @@ namespace {
 
 /// Guards this close to zero, relative to their size, are zero: steps end at a crossing to within this.
 constexpr double resolution = 1e-13;
-/// Crossings within this part of the longest step are at the begin of the phase.
+/// Crossings within this part of the longest step are at the start of the interval.
 constexpr double shortest_part = 1e-15;
 /// Sums of forces within this part of their parts' sizes are equal.
 constexpr double equal = 1e-12;
@@ -27,19 +28,18 @@ constexpr double equal = 1e-12;
 void SmoothEngine::lay_watches() {
   watches_.clear();
   if (direction_ != Direction::none) {
-    watches_.push_back({.owner = {.kind = Owner::Kind::velocity}, .scale = flow_.scales()[1]});
-  } else if (can_rest_) {
+    watches_.push_back({.ending = SlipEnd{}, .scale = flow_.scales()[1]});
+  } else if (can_stick_) {
     const double scale = drive_.force_scale() + flow_.limit(X_, local_time_);
-    for (const int direction : {1, -1})
-      watches_.push_back({.owner = {.kind = Owner::Kind::limit, .law = direction}, .scale = scale});
+    for (const Direction release : {Direction::forward, Direction::backward})
+      watches_.push_back({.ending = StickEnd{release}, .scale = scale});
   }
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (!modal_[i]) continue;
     guard_values_.clear();
     flow_.guards(i, X_, local_time_, guard_values_);
     for (std::size_t j = 0; j < guard_values_.size(); ++j) {
-      watches_.push_back(
-          {.owner = {.kind = Owner::Kind::law, .law = static_cast<int>(i), .guard = static_cast<int>(j)}});
+      watches_.push_back({.ending = LawGuard{i, static_cast<int>(j)}});
     }
   }
   size_up_guards();
@@ -53,7 +53,7 @@ void SmoothEngine::size_up_guards() {
   evaluate_guards(X_, local_time_, here);
   const auto add = [&](const std::vector<double>& values, double factor) {
     for (std::size_t w = 0; w < watches_.size(); ++w) {
-      if (watches_[w].owner.kind == Owner::Kind::law) watches_[w].scale += factor * std::abs(values[w]);
+      if (is<LawGuard>(watches_[w].ending)) watches_[w].scale += factor * std::abs(values[w]);
     }
   };
   add(here, 1.0);
@@ -72,7 +72,7 @@ void SmoothEngine::evaluate_guards(std::span<const double> X, double t, std::vec
   values.clear();
   if (direction_ != Direction::none) {
     values.push_back(friction::sign(direction_) * X[1]);
-  } else if (can_rest_) {
+  } else if (can_stick_) {
     const double pull = flow_.pull(X, t);
     const double limit = flow_.limit(X, t);
     values.push_back(limit - pull);
@@ -94,7 +94,7 @@ double SmoothEngine::guard(std::size_t watch, double part) const {
 /// Its rate along the motion, by a central difference along the flow.
 double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, double t) const {
   flow_.evaluate(X, t, rates_);
-  if (watches_[watch].owner.kind == Owner::Kind::velocity) return friction::sign(direction_) * rates_[1];
+  if (is<SlipEnd>(watches_[watch].ending)) return friction::sign(direction_) * rates_[1];
   const double step = 1e-5 * (taken_ > 0.0 ? taken_ : longest_step());
   const auto value_after = [&](double s) {
     probe_.assign(X.begin(), X.end());
@@ -106,7 +106,7 @@ double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, do
   return (above - value_after(-step)) / (2.0 * step);
 }
 
-/// Whether a guard that is zero at the begin of the phase goes negative: by where a step of the midpoint rule
+/// Whether a guard that is zero at the start of the interval goes negative: by where a step of the midpoint rule
 /// leads, a longer one where the first leaves it within rounding.
 bool SmoothEngine::goes_negative(std::size_t watch) const {
   for (const double part : {1e-6, 1e-4, 1e-2}) {
@@ -123,17 +123,16 @@ bool SmoothEngine::goes_negative(std::size_t watch) const {
   return false;
 }
 
-/// A guard that is negative at the begin of the phase, or zero and going to be.
+/// A guard that is negative at the start of the interval, or zero and going to be.
 bool SmoothEngine::find_violated(Hit& hit) const {
   evaluate_guards(X_, local_time_, guard_values_);
   const std::vector<double> values = guard_values_;
   for (std::size_t w = 0; w < watches_.size(); ++w) {
-    const Owner::Kind kind = watches_[w].owner.kind;
     // The direction of a slip was decided by the forces.
-    if (kind == Owner::Kind::velocity) continue;
+    if (is<SlipEnd>(watches_[w].ending)) continue;
     const double level = equal * watches_[w].scale;
     if (values[w] > level) continue;
-    if (values[w] >= -level && (kind == Owner::Kind::limit || !goes_negative(w))) continue;
+    if (values[w] >= -level && (is<StickEnd>(watches_[w].ending) || !goes_negative(w))) continue;
     hit = {w, 0.0};
     return true;
   }
@@ -177,7 +176,7 @@ double SmoothEngine::first_negative(std::size_t watch) {
   return -1.0;
 }
 
-/// Whether a minimum near this point goes below zero: where; below zero when not. One that just touches is a
+/// Whether a minimum near this point goes below zero: where; below zero when not. One that only grazes is a
 /// grazing.
 double SmoothEngine::dip(std::size_t watch, std::size_t point) {
   const Watch& w = watches_[watch];
@@ -199,15 +198,15 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
     at[1] = lowest;
     value[1] = there;
   }
-  const double touch = 100.0 * model_.solver.tolerance * w.scale;
-  if (value[1] < touch && w.values[point - 1] > touch && w.values[point + 1] > touch) {
+  const double grazed = 100.0 * model_.solver.tolerance * w.scale;
+  if (value[1] < grazed && w.values[point - 1] > grazed && w.values[point + 1] > grazed) {
     grazings_.push_back({static_cast<int>(watch), at[1] / (points - 1) * taken_});
   }
   return -1.0;
 }
 
 /// The root between a point where the guard counts as positive and one where it is negative. At the begin of a
-/// phase a guard may be zero: it is positive just after.
+/// interval a guard may be zero: it is positive just after.
 double SmoothEngine::crossing(std::size_t watch, double before, double negative) const {
   double low = before;
   double value_low = guard(watch, low);
@@ -232,7 +231,7 @@ double SmoothEngine::crossing(std::size_t watch, double before, double negative)
 }
 
 /// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
-/// step is not accurate; an implicit step that overran the crossing may have followed what only lies beyond it.
+/// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
 bool SmoothEngine::land(const Hit& hit) {
   const double whole = taken_;
   double h = hit.part * whole;
@@ -254,7 +253,7 @@ bool SmoothEngine::land(const Hit& hit) {
   return true;
 }
 
-/// Decides what happens at v = 0. Where the pull equals the limit within rounding, what both do next decides.
+/// Where a slip ends. Where the pull equals the limit within rounding, what both do next decides.
 void SmoothEngine::settle() {
   change_direction(Direction::none);
   judge_.freeze(memories_, Direction::none, time() - local_time_);
@@ -265,19 +264,26 @@ void SmoothEngine::settle() {
   const double pull = judge_.pull(X, local_time_);
   const double limit = judge_.limit(X, local_time_);
   const double parts = drive_.force_scale() + limit + model_.oscillator.stiffness * std::abs(x_);
-  double excess = std::abs(pull) - limit;
-  double sign = pull;
-  for (const double part : {1e-6, 1e-4, 1e-2}) {
-    if (std::abs(excess) > equal * parts) break;
-    const double later = part * longest_step();
-    probe_ = X;
-    for (std::size_t k = 2; k < probe_.size(); ++k) probe_[k] += later * rates[k];
-    sign = judge_.pull(probe_, local_time_ + later);
-    excess = std::abs(sign) - judge_.limit(probe_, local_time_ + later);
-  }
-  // Without a law that holds it a mass that nothing moves slips, at no speed.
-  if (can_rest_ && excess <= equal * parts) return;
-  change_direction(sign < 0.0 ? Direction::backward : Direction::forward);
+  const double tolerance = equal * parts;
+  const auto at_limit = [&] {
+    double pull_then = pull;
+    double limit_then = limit;
+    for (const double part : {1e-6, 1e-4, 1e-2}) {
+      const double later = part * longest_step();
+      probe_ = X;
+      for (std::size_t k = 2; k < probe_.size(); ++k) probe_[k] += later * rates[k];
+      pull_then = judge_.pull(probe_, local_time_ + later);
+      limit_then = judge_.limit(probe_, local_time_ + later);
+      if (std::abs(std::abs(pull_then) - limit_then) > tolerance) break;
+    }
+    return direction_after_slip(pull_then, limit_then, tolerance, [&] {
+      if (can_stick_) return Direction::none;
+      // Without a law that holds it a mass that nothing moves slips, at no speed.
+      return pull_then < 0.0 ? Direction::backward : Direction::forward;
+    });
+  };
+  const Direction direction = direction_after_slip(pull, limit, tolerance, at_limit);
+  if (direction != Direction::none) change_direction(direction);
 }
 
 }  // namespace dualdamp::sim

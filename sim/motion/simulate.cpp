@@ -5,10 +5,13 @@
 
 #include "sim/engine/engine.hpp"
 #include "sim/motion/observers.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
 History simulate(const Model& model, const SimulateOptions& options) {
+  require_in(not_negative, "analysis.duration", options.duration, "s");
+  require_in(not_negative, "analysis.sample_rate", options.sample_rate, "Hz");
   History history;
   const std::unique_ptr<Engine> owned = make_engine(model);
   Engine& engine = *owned;
@@ -18,8 +21,8 @@ History simulate(const Model& model, const SimulateOptions& options) {
     sampler.observe(*interval);
     energy.observe(*interval);
     for (const core::Grazing& grazing : engine.grazings()) {
-      const Sample touch = interval->at(grazing.s);
-      history.events.push_back({touch.t, EventKind::grazing, touch.x, touch.v});
+      const Sample grazed = interval->at(grazing.s);
+      history.events.push_back({grazed.t, EventKind::grazing, grazed.x, grazed.v});
     }
     history.final = interval->at(interval->duration);
     if (!interval->ending) continue;
@@ -41,12 +44,12 @@ History simulate(const Model& model, const SimulateOptions& options) {
 
 FreeDecay free_decay(const Model& model, int peaks) {
   FreeDecay decay;
-  const std::unique_ptr<Engine> owned = make_engine(model);
+  const std::unique_ptr<Engine> owned = make_engine(valid_free(model, "free_decay"));
   Engine& engine = *owned;
   if (engine.velocity() == 0.0) decay.peaks.push_back({0.0, engine.position()});
-  // A motion that creeps without turning (strong damping, friction that never quite holds) has no further extreme.
-  // With damping so near the critical that a swing lasts a hundred natural periods, it ends at exp(-628) of its
-  // start.
+  // A motion that creeps without reversals (strong damping, friction that never quite holds) has no further
+  // extreme. With damping so near the critical that a swing lasts a hundred natural periods, it ends at exp(-628)
+  // of its start.
   const double patience = 100.0 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
   double deadline = patience;
   while (static_cast<int>(decay.peaks.size()) < peaks) {

@@ -1,19 +1,19 @@
 #pragma once
-/// A branch of steady states, followed by pseudo-arc-length in amplitude or frequency (keller1977).
+/// Continuation: a branch of steady states over amplitude or frequency, by pseudo-arc-length (keller1977).
 ///
 /// Unknowns are the start of the orbit and the parameter; each step predicts along the branch's tangent and
 /// corrects by Newton's method on the period map, so that folds are passed and unstable orbits found. The engine
-/// finds the sequence of sticks and slips at each point anew. Where it changes the derivative of the period map
-/// jumps; the place is then located by bisection and is a result of its own.
+/// finds the sequence of sticks and slips at each point anew. Where it changes the monodromy matrix jumps; the
+/// place is then located by bisection and is a result of its own.
 ///
-/// A branch of a non-smooth system may end: at a place where the orbit's own phase disappears and none continues it
-/// (static friction above kinetic). That too is a change, `end`.
+/// A branch of a non-smooth system may end: at a place where one of the orbit's own intervals disappears and no
+/// orbit continues the branch (static friction above kinetic). That too is a change, `end`.
 
 #include <string_view>
 #include <vector>
 
-#include "core/search_result.hpp"
 #include "core/outcome.hpp"
+#include "core/search_result.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {
@@ -24,9 +24,9 @@ enum class BranchParameter { amplitude, frequency };
 enum class ChangeKind {
   sequence,   ///< other events in one period
   sticking,   ///< the first stick appears, or the last one goes
-  stops,      ///< more or fewer stops in a cycle
+  stops,      ///< more or fewer stops in a period
   fold,       ///< the branch turns back
-  stability,  ///< a multiplier crosses the unit circle
+  stability,  ///< a Floquet multiplier crosses the unit circle
   end,        ///< no orbit continues the branch
 };
 
@@ -42,7 +42,7 @@ struct BranchChange {
   ChangeKind kind = ChangeKind::sequence;
   double parameter = 0.0;
   double amplitude = 0.0;  ///< of x there [m]
-  int stops_before = 0;    ///< per cycle
+  int stops_before = 0;    ///< per forcing period
   int stops_after = 0;
 };
 
@@ -64,7 +64,7 @@ struct BranchOptions {
 
 /// From the steady state at `from`, the one approached from the model's initial state, until the parameter leaves
 /// the range between `from` and `to` (both > 0), the branch ends or max_points are reached.
-[[nodiscard]] Branch follow_branch(const Model& model, BranchParameter parameter, double from, double to,
-                                   const BranchOptions& options = {});
+[[nodiscard]] Branch continue_branch(const Model& model, BranchParameter parameter, double from, double to,
+                                     const BranchOptions& options = {});
 
 }  // namespace dualdamp::sim

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "sim/parallel.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
@@ -123,6 +124,16 @@ Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyS
   return curve;
 }
 
+/// Checks the model and what takes the place of its excitation's frequency and amplitude.
+void check(Model model, std::span<const double> frequencies, std::span<const double> amplitudes,
+           std::string_view analysis) {
+  require_in(positive, "analysis.frequencies", frequencies, "rad/s");
+  require_in(not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
+  if (!frequencies.empty()) model.excitation.frequency = frequencies.front();
+  if (!amplitudes.empty()) model.excitation.amplitude = amplitudes.front();
+  valid_harmonic(model, analysis);
+}
+
 /// For points without a phase.
 SteadyStateOptions brief(SteadyStateOptions options) {
   options.full_account = false;
@@ -133,6 +144,7 @@ SteadyStateOptions brief(SteadyStateOptions options) {
 
 Curve xy_curve(const Model& model, const std::vector<double>& amplitudes, const SteadyStateOptions& options,
                const BatchOptions& batch) {
+  check(model, {}, amplitudes, "xy_curve");
   std::vector<CurvePoint> points;
   points.reserve(amplitudes.size());
   for (const double Y : amplitudes) points.push_back({.omega = model.excitation.frequency, .Y = Y});
@@ -141,6 +153,7 @@ Curve xy_curve(const Model& model, const std::vector<double>& amplitudes, const 
 
 Curve frequency_response(const Model& model, const std::vector<double>& frequencies,
                          const SteadyStateOptions& options, const BatchOptions& batch) {
+  check(model, frequencies, {}, "frequency_response");
   std::vector<CurvePoint> points;
   points.reserve(frequencies.size());
   for (const double omega : frequencies) points.push_back({.omega = omega, .Y = model.excitation.amplitude});
@@ -149,6 +162,7 @@ Curve frequency_response(const Model& model, const std::vector<double>& frequenc
 
 Curve regime_map(const Model& model, const std::vector<double>& frequencies, const std::vector<double>& amplitudes,
                  const SteadyStateOptions& options, const BatchOptions& batch) {
+  check(model, frequencies, amplitudes, "regime_map");
   std::vector<CurvePoint> points;
   points.reserve(frequencies.size() * amplitudes.size());
   for (const double omega : frequencies)

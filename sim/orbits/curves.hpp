@@ -22,8 +22,8 @@ struct CurvePoint {
   double Y = 0.0;      ///< m (base) or N (force)
   double x = 0.0;      ///< output amplitude (peak - trough)/2 [m]
   double phase = 0.0;  ///< lag of x's fundamental [rad], in [0, 2 pi); of a frequency response only
-  int stops = 0;       ///< instants per period at which the mass comes to rest and stays
-  int sticks = 0;      ///< rests per period
+  int stops = 0;       ///< stops per forcing period
+  int sticks = 0;      ///< sticks per forcing period
   bool stable = false;
   std::uint32_t reason = 0;  ///< 0: there is a steady state; else why not, an index into `Curve::reasons`
 

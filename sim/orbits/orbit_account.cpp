@@ -17,7 +17,7 @@ OrbitAccount::OrbitAccount(const Model& model, bool full)
 
 void OrbitAccount::begin(const State& start) {
   peak_ = trough_ = start.x;
-  rests_at_start_ = start.direction == Direction::none;
+  sticks_at_start_ = start.direction == Direction::none;
 }
 
 void OrbitAccount::observe(const Interval& interval, double x) {
@@ -29,16 +29,16 @@ void OrbitAccount::observe(const Interval& interval, double x) {
     energy_.observe(interval);
     fundamental_.observe(interval);
   }
-  const bool rest = interval.direction == Direction::none;
-  if (rest) collect_stick(interval, x);
-  resting_ = rest;
+  const bool sticks = interval.direction == Direction::none;
+  if (sticks) collect_stick(interval, x);
+  sticking_ = sticks;
   if (interval.ending == EventKind::stop) ++stops_;
   if (interval.ending) sequence_.push_back(*interval.ending);
 }
 
-/// Merges rest intervals into sticks.
+/// Merges intervals of sticking into sticks.
 void OrbitAccount::collect_stick(const Interval& interval, double x) {
-  if (resting_ && !sticks_.empty()) {
+  if (sticking_ && !sticks_.empty()) {
     sticks_.back().duration += interval.duration;
   } else {
     sticks_.push_back({interval.begin, interval.duration, x});
@@ -47,7 +47,7 @@ void OrbitAccount::collect_stick(const Interval& interval, double x) {
 
 /// A stick that crosses the period boundary counts once and starts in the period before.
 void OrbitAccount::join_stick_across_boundary() {
-  if (!resting_ || !rests_at_start_ || sticks_.size() < 2) return;
+  if (!sticking_ || !sticks_at_start_ || sticks_.size() < 2) return;
   sticks_.back().duration += sticks_.front().duration;
   sticks_.erase(sticks_.begin());
 }
@@ -75,7 +75,7 @@ void OrbitAccount::write(SteadyState& result) {
 
 void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result) {
   OrbitAccount account(model, full);
-  (void)map.from(result.start, Derivative::without, &account);
+  (void)map.from(result.start, Monodromy::without, &account);
   account.write(result);
 }
 

@@ -33,8 +33,8 @@ class OrbitAccount final : public PeriodObserver {
   int stops_ = 0;
   std::vector<Stick> sticks_;
   std::vector<EventKind> sequence_;
-  bool rests_at_start_ = false;
-  bool resting_ = false;  ///< at the end of the last interval
+  bool sticks_at_start_ = false;
+  bool sticking_ = false;  ///< at the end of the last interval
 };
 
 /// Walks along the orbit that begins at `result.start` and fills the other numbers of `result`.

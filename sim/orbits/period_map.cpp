@@ -10,7 +10,7 @@ namespace dualdamp::sim {
 
 using friction::Direction;
 
-double Passage::closure(double omega) const {
+double ForcingPeriod::closure(double omega) const {
   const double scale = std::max(size, std::abs(begin.v) / omega);
   if (!same_mode(begin, end)) return std::numeric_limits<double>::infinity();
   const double x_gap = (end.x - begin.x) / scale;
@@ -28,68 +28,68 @@ double Passage::closure(double omega) const {
   return result;
 }
 
-std::vector<std::complex<double>> Passage::multipliers() const {
-  if (derivative.rows() == 2 && derivative.cols() == 2) {
+std::vector<std::complex<double>> ForcingPeriod::multipliers() const {
+  if (monodromy.rows() == 2 && monodromy.cols() == 2) {
     // Without law states there are two: a quadratic equation, without the cost of a general solver.
-    const double half_trace = 0.5 * (derivative(0, 0) + derivative(1, 1));
-    const double half_gap = 0.5 * (derivative(0, 0) - derivative(1, 1));
+    const double half_trace = 0.5 * (monodromy(0, 0) + monodromy(1, 1));
+    const double half_gap = 0.5 * (monodromy(0, 0) - monodromy(1, 1));
     const std::complex<double> root =
-        std::sqrt(std::complex<double>(half_gap * half_gap + derivative(0, 1) * derivative(1, 0)));
+        std::sqrt(std::complex<double>(half_gap * half_gap + monodromy(0, 1) * monodromy(1, 0)));
     return {half_trace + root, half_trace - root};
   }
-  const Eigen::VectorXcd values = derivative.eigenvalues();
+  const Eigen::VectorXcd values = monodromy.eigenvalues();
   return {values.begin(), values.end()};
 }
 
-double Passage::radius() const {
+double ForcingPeriod::radius() const {
   double largest = 0.0;
   for (const std::complex<double>& value : multipliers()) largest = std::max(largest, std::abs(value));
   return largest;
 }
 
-bool Passage::holds(Eigen::Index row) const {
-  if (row < 2 || derivative.rows() != derivative.cols()) return false;
-  return derivative(row, row) == 1.0 && (derivative.row(row).array() != 0.0).count() == 1;
+bool ForcingPeriod::holds(Eigen::Index row) const {
+  if (row < 2 || monodromy.rows() != monodromy.cols()) return false;
+  return monodromy(row, row) == 1.0 && (monodromy.row(row).array() != 0.0).count() == 1;
 }
 
-double Passage::free_radius() const {
+double ForcingPeriod::free_radius() const {
   std::vector<Eigen::Index> free;
-  for (Eigen::Index row = 0; row < derivative.rows(); ++row) {
+  for (Eigen::Index row = 0; row < monodromy.rows(); ++row) {
     if (!holds(row)) free.push_back(row);
   }
-  return derivative(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
+  return monodromy(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
 }
 
-Passage PeriodMap::pass(Derivative derivative, PeriodObserver* observer) {
-  Passage passage;
-  passage.begin = engine_->state();
-  passage.size = std::abs(engine_->position());
-  engine_->track_sensitivity(derivative == Derivative::with);
-  if (observer != nullptr) observer->begin(passage.begin);
-  const long cycle = engine_->cycle();
-  while (engine_->cycle() == cycle) {
+ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
+  ForcingPeriod period;
+  period.begin = engine_->state();
+  period.size = std::abs(engine_->position());
+  engine_->track_sensitivity(monodromy == Monodromy::with);
+  if (observer != nullptr) observer->begin(period.begin);
+  const long cycle = engine_->periods_passed();
+  while (engine_->periods_passed() == cycle) {
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
-    passage.moves = passage.moves || interval->direction != Direction::none;
-    passage.size = std::max(passage.size, std::abs(engine_->position()));
+    period.moves = period.moves || interval->direction != Direction::none;
+    period.size = std::max(period.size, std::abs(engine_->position()));
     if (observer != nullptr) observer->observe(*interval, engine_->position());
   }
-  passage.end = engine_->state();
-  if (derivative == Derivative::with) passage.derivative = engine_->sensitivity();
-  return passage;
+  period.end = engine_->state();
+  if (monodromy == Monodromy::with) period.monodromy = engine_->sensitivity();
+  return period;
 }
 
-Passage PeriodMap::from_start(double x, double v, Derivative derivative) {
+ForcingPeriod PeriodMap::from_start(double x, double v, Monodromy monodromy) {
   engine_->start(x, v);
-  return pass(derivative);
+  return pass(monodromy);
 }
 
-Passage PeriodMap::from(const State& state, Derivative derivative, PeriodObserver* observer) {
+ForcingPeriod PeriodMap::from(const State& state, Monodromy monodromy, PeriodObserver* observer) {
   engine_->restart(state);
-  return pass(derivative, observer);
+  return pass(monodromy, observer);
 }
 
-Passage PeriodMap::next(Derivative derivative) { return pass(derivative); }
+ForcingPeriod PeriodMap::next(Monodromy monodromy) { return pass(monodromy); }
 
 Eigen::VectorXd coordinates(const State& state) {
   std::vector<double> list{state.x, state.v};
@@ -109,13 +109,13 @@ State displaced(const State& state, const Eigen::VectorXd& change) {
   return result;
 }
 
-Eigen::VectorXd newton_step(const Passage& passage) {
-  if (!same_mode(passage.begin, passage.end)) return {};
-  const Eigen::VectorXd gap = coordinates(passage.end) - coordinates(passage.begin);
+Eigen::VectorXd newton_step(const ForcingPeriod& period) {
+  if (!same_mode(period.begin, period.end)) return {};
+  const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
-  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - passage.derivative;
+  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - period.monodromy;
   for (Eigen::Index row = 2; row < n; ++row) {
-    if (gap[row] == 0.0 && passage.holds(row)) system(row, row) = 1.0;
+    if (gap[row] == 0.0 && period.holds(row)) system(row, row) = 1.0;
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(system);
   if (!lu.isInvertible()) return {};

@@ -1,8 +1,10 @@
 #pragma once
-/// The period map: the state one forcing period later, and its derivative.
+/// The period map: the state one forcing period later, and the monodromy matrix: the derivative of that state by
+/// the state at the start of the period. Its eigenvalues are the Floquet multipliers.
 ///
 /// Coordinates of a state are x, v and the states of every law, in this order. A mass at rest at a period boundary
-/// and a law in a mode whose state does not act make the derivative singular: their multipliers are zero.
+/// and a law in a mode whose state does not act make the monodromy matrix singular: their Floquet multipliers are
+/// zero.
 
 #include <Eigen/Core>
 #include <complex>
@@ -16,11 +18,11 @@
 namespace dualdamp::sim {
 
 /// One forcing period: where it starts, where it ends, how the end depends on the start.
-struct Passage {
+struct ForcingPeriod {
   State begin;
   State end;
-  Eigen::MatrixXd derivative;  ///< of the end's coordinates by the begin's; empty unless asked for
-  double size = 0.0;           ///< largest |x| met [m]
+  Eigen::MatrixXd monodromy;  ///< empty unless asked for
+  double size = 0.0;          ///< largest |x| met [m]
   bool moves = false;
 
   /// Distance of end and begin relative to the size of the motion, velocities scaled by omega [rad/s]; law states
@@ -31,13 +33,14 @@ struct Passage {
   /// The largest modulus of them.
   [[nodiscard]] double radius() const;
   /// The same without the coordinates that a period leaves as they are, whatever the others do: sliders that never
-  /// slip. Their multipliers are 1.
+  /// slip. Their Floquet multipliers are 1.
   [[nodiscard]] double free_radius() const;
   /// Whether the period leaves law state `row` (2, 3, ...) as it is.
   [[nodiscard]] bool holds(Eigen::Index row) const;
 };
 
-enum class Derivative { without, with };
+/// Whether the monodromy matrix is computed too.
+enum class Monodromy { without, with };
 
 /// Is told of the period on the way.
 class PeriodObserver {
@@ -53,27 +56,27 @@ class PeriodMap {
   explicit PeriodMap(const Model& model) : engine_(make_engine(model)) {}
 
   /// From the model's initial state, laws at their start.
-  [[nodiscard]] Passage from_start(double x, double v, Derivative derivative);
-  [[nodiscard]] Passage from(const State& state, Derivative derivative, PeriodObserver* observer = nullptr);
+  [[nodiscard]] ForcingPeriod from_start(double x, double v, Monodromy monodromy);
+  [[nodiscard]] ForcingPeriod from(const State& state, Monodromy monodromy, PeriodObserver* observer = nullptr);
   /// From where the last one ended.
-  [[nodiscard]] Passage next(Derivative derivative);
+  [[nodiscard]] ForcingPeriod next(Monodromy monodromy);
 
   [[nodiscard]] const core::Outcome& outcome() const { return engine_->outcome(); }
   [[nodiscard]] Engine& engine() { return *engine_; }
 
  private:
-  Passage pass(Derivative derivative, PeriodObserver* observer = nullptr);
+  ForcingPeriod pass(Monodromy monodromy, PeriodObserver* observer = nullptr);
 
   std::unique_ptr<Engine> engine_;
 };
 
 [[nodiscard]] Eigen::VectorXd coordinates(const State& state);
-/// `state` with its coordinates changed by `change`; a mass at rest stays at rest.
+/// `state` with its coordinates changed by `change`; a mass that sticks goes on sticking.
 [[nodiscard]] State displaced(const State& state, const Eigen::VectorXd& change);
 
 /// The change of begin that Newton's method takes to make end = begin, or an empty vector where it has none:
-/// the passage ends in another mode, or the derivative is singular. A coordinate that the period does not change
-/// and that depends on itself alone (a slider that never slips) stays as it is.
-[[nodiscard]] Eigen::VectorXd newton_step(const Passage& passage);
+/// the period ends in another mode, or the monodromy matrix is singular. A coordinate that the period does not
+/// change and that depends on itself alone (a slider that never slips) stays as it is.
+[[nodiscard]] Eigen::VectorXd newton_step(const ForcingPeriod& period);
 
 }  // namespace dualdamp::sim

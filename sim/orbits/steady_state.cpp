@@ -10,6 +10,7 @@
 #include "sim/motion/observers.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/period_map.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
@@ -17,7 +18,7 @@ using friction::Direction;
 
 namespace {
 
-/// Rounding of a multiplier on the unit circle.
+/// Rounding of a Floquet multiplier on the unit circle.
 constexpr double on_circle = 1e-9;
 
 /// Closure that counts as an orbit when Newton's corrections have sunk into rounding.
@@ -26,7 +27,7 @@ constexpr double rounding_closure = 1e-12;
 /// A motion that closes this well after thousands of periods and still is not periodic creeps.
 constexpr double creeping = 1e-3;
 
-/// Where orbits may coexist the motion is followed until it closes this well before Newton's method takes over.
+/// Where orbits may coexist the motion is integrated until it closes this well before Newton's method takes over.
 constexpr double near_orbit = 1e-2;
 constexpr int periods_to_near_orbit = 500;
 
@@ -88,11 +89,11 @@ class OrbitFinder {
   void describe(SteadyState& result);
 
  private:
-  bool begin_on_sliding_orbit(Passage& passage);
-  bool newton(Passage& passage, SteadyState& result);
-  bool follow_to_orbit(Passage& passage, SteadyState& result);
-  bool follow(Passage& passage, double closure, int periods, SteadyState& result);
-  [[nodiscard]] core::Outcome failure(const Passage& passage) const;
+  bool begin_on_sliding_orbit(ForcingPeriod& period);
+  bool newton(ForcingPeriod& period, SteadyState& result);
+  bool integrate_to_orbit(ForcingPeriod& period, SteadyState& result);
+  bool integrate(ForcingPeriod& period, double closure, int periods, SteadyState& result);
+  [[nodiscard]] core::Outcome failure(const ForcingPeriod& period) const;
 
   const Model& model_;
   SteadyStateOptions options_;
@@ -101,63 +102,63 @@ class OrbitFinder {
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< beside those of the engine
   double rounding_closure_ = 0.0;
-  double first_half_ = 0.0;  ///< largest |x| in either half of the periods followed [m]
+  double first_half_ = 0.0;  ///< largest |x| in either half of the periods integrated [m]
   double second_half_ = 0.0;
   bool grows_ = false;        ///< and nothing slows it down
   bool may_coexist_ = false;  ///< static above kinetic, or laws that remember: more than one orbit may attract
 };
 
-/// Follows the motion until one period closes to `closure`; gives up on a motion that grows without bound.
-bool OrbitFinder::follow(Passage& passage, double closure, int periods, SteadyState& result) {
+/// Integrates the transient until one period closes to `closure`; gives up on a motion that grows without bound.
+bool OrbitFinder::integrate(ForcingPeriod& period, double closure, int periods, SteadyState& result) {
   first_half_ = second_half_ = 0.0;
-  const double early = passage.size;
+  const double early = period.size;
   Growth growth;
   for (int i = 0; i < periods; ++i) {
-    if (passage.closure(omega_) <= closure) return true;
-    if (early > 0.0 && passage.size > runaway * early) return false;
-    grows_ = growth.goes_on(i, passage.size);
+    if (period.closure(omega_) <= closure) return true;
+    if (early > 0.0 && period.size > runaway * early) return false;
+    grows_ = growth.goes_on(i, period.size);
     if (grows_) return false;
     double& largest = i < periods / 2 ? first_half_ : second_half_;
-    largest = std::max(largest, passage.size);
-    passage = map_.next(Derivative::without);
+    largest = std::max(largest, period.size);
+    period = map_.next(Monodromy::without);
     ++result.transient_periods;
     if (!map_.outcome().ok()) return false;
   }
-  return passage.closure(omega_) <= closure;
+  return period.closure(omega_) <= closure;
 }
 
 /// Newton on the period map; a step that does not bring the orbit closer is replaced by one period of transient.
-bool OrbitFinder::newton(Passage& passage, SteadyState& result) {
-  passage = map_.from(passage.begin, Derivative::with, account_ ? &*account_ : nullptr);
+bool OrbitFinder::newton(ForcingPeriod& period, SteadyState& result) {
+  period = map_.from(period.begin, Monodromy::with, account_ ? &*account_ : nullptr);
   for (int i = 0; i < max_newton && map_.outcome().ok(); ++i) {
-    const double closure = passage.closure(omega_);
+    const double closure = period.closure(omega_);
     if (closure <= options_.tolerance) return true;
     account_.reset();
-    const Eigen::VectorXd step = newton_step(passage);
+    const Eigen::VectorXd step = newton_step(period);
     ++result.newton_steps;
-    const State fallback = passage.end;
+    const State fallback = period.end;
     if (step.size() > 0) {
-      const Passage trial = map_.from(displaced(passage.begin, step), Derivative::with);
+      const ForcingPeriod trial = map_.from(displaced(period.begin, step), Monodromy::with);
       if (trial.closure(omega_) < 0.5 * closure) {
-        passage = trial;
+        period = trial;
         continue;
       }
     }
     if (closure <= rounding_closure_) return true;
-    passage = map_.from(fallback, Derivative::with);
+    period = map_.from(fallback, Monodromy::with);
     ++result.transient_periods;
   }
   return false;
 }
 
-/// Why following the motion found no orbit. Without numbers of one point, so that many can share a reason.
-core::Outcome OrbitFinder::failure(const Passage& passage) const {
+/// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.
+core::Outcome OrbitFinder::failure(const ForcingPeriod& period) const {
   const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
-  if (grows_ || second_half_ > 1.5 * first_half_ || passage.size > 1.5 * first_half_) {
+  if (grows_ || second_half_ > 1.5 * first_half_ || period.size > 1.5 * first_half_) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the amplitude still grows; damping limits it far out or not at all"};
   }
-  if (passage.closure(omega_) < creeping) {
+  if (period.closure(omega_) < creeping) {
     return {
         core::OutcomeKind::not_unique,
         "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
@@ -168,30 +169,30 @@ core::Outcome OrbitFinder::failure(const Passage& passage) const {
 }
 
 /// The orbit that the motion from the initial state itself leads to: among neighbours that are steady too.
-bool OrbitFinder::follow_to_orbit(Passage& passage, SteadyState& result) {
-  passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
-  if (!follow(passage, settled, options_.max_periods, result)) return false;
+bool OrbitFinder::integrate_to_orbit(ForcingPeriod& period, SteadyState& result) {
+  period = map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
+  if (!integrate(period, settled, options_.max_periods, result)) return false;
   // Sliders at rest: where they stand is settled, and Newton's method finds the rest of the orbit.
-  Passage trial = map_.from(passage.begin, Derivative::with);
+  ForcingPeriod trial = map_.from(period.begin, Monodromy::with);
   if (same_mode(trial.begin, trial.end) && trial.free_radius() < 1.0 - neutral_margin && newton(trial, result) &&
       trial.free_radius() < 1.0 - neutral_margin) {
-    passage = std::move(trial);
+    period = std::move(trial);
     return true;
   }
-  passage = map_.from(passage.begin, Derivative::without);
-  const bool found = follow(passage, 10.0 * options_.tolerance, options_.max_periods, result);
-  if (found) passage = map_.from(passage.begin, Derivative::with);
+  period = map_.from(period.begin, Monodromy::without);
+  const bool found = integrate(period, 10.0 * options_.tolerance, options_.max_periods, result);
+  if (found) period = map_.from(period.begin, Monodromy::with);
   return found;
 }
 
-/// An orbit without sticking that attracts every motion is found without following any; Newton's method then has
+/// An orbit without sticking that attracts every motion is found without integrating any; Newton's method then has
 /// nothing left to do.
-bool OrbitFinder::begin_on_sliding_orbit(Passage& passage) {
+bool OrbitFinder::begin_on_sliding_orbit(ForcingPeriod& period) {
   const std::optional<SlidingOrbit> orbit = may_coexist_ ? std::nullopt : sliding_orbit(model_);
   if (!orbit) return false;
   const std::optional<State> start = start_of(*orbit, model_);
   if (!start) return false;
-  passage.begin = *start;
+  period.begin = *start;
   // Newton's method will find nothing left to do: one walk along the orbit is enough.
   account_.emplace(model_, options_.full_account);
   searched_ += orbit->certificate;
@@ -204,35 +205,36 @@ void OrbitFinder::describe(SteadyState& result) {
 }
 
 void OrbitFinder::find(SteadyState& result) {
-  Passage passage;
-  if (!begin_on_sliding_orbit(passage)) {
-    passage = map_.from_start(model_.initial.position, model_.initial.velocity, Derivative::without);
-    passage = map_.next(Derivative::without);
+  ForcingPeriod period;
+  if (!begin_on_sliding_orbit(period)) {
+    period = map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
+    period = map_.next(Monodromy::without);
     result.transient_periods = 2;
     // Where orbits may coexist Newton could land on another one than the motion approaches.
-    if (may_coexist_) follow(passage, near_orbit, periods_to_near_orbit, result);
+    if (may_coexist_) integrate(period, near_orbit, periods_to_near_orbit, result);
   }
-  // A motion that depends on its past has no state that Newton's method could change: it is followed.
+  // A motion that depends on its past has no state that Newton's method could change: the transient is integrated.
   const bool has_past = map_.engine().has_past();
   bool found =
-      has_past ? follow(passage, options_.tolerance, options_.max_periods, result) : newton(passage, result);
-  const bool attracting = found && (has_past || passage.radius() < 1.0 - neutral_margin);
+      has_past ? integrate(period, options_.tolerance, options_.max_periods, result) : newton(period, result);
+  const bool attracting = found && (has_past || period.radius() < 1.0 - neutral_margin);
   if (!attracting && map_.outcome().ok()) {
     account_.reset();
-    found = follow_to_orbit(passage, result);
-    if (found && passage.moves && passage.radius() >= 1.0 - neutral_margin) {
+    found = integrate_to_orbit(period, result);
+    if (found && period.moves && period.radius() >= 1.0 - neutral_margin) {
       result.warnings.emplace_back(
-          "not unique: a multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
+          "not unique: a Floquet multiplier lies on the unit circle, so that neighbouring orbits are steady too; "
+          "this is "
           "the one approached from the initial state");
     }
   }
   if (!map_.outcome().ok()) {
     result.outcome = map_.outcome();
   } else if (!found) {
-    result.outcome = failure(passage);
+    result.outcome = failure(period);
   }
-  result.start = passage.begin;
-  if (found && !has_past) result.multipliers = passage.multipliers();
+  result.start = period.begin;
+  if (found && !has_past) result.multipliers = period.multipliers();
 }
 
 }  // namespace
@@ -243,6 +245,7 @@ bool SteadyState::stable() const {
 }
 
 SteadyState steady_state(const Model& model, const SteadyStateOptions& options) {
+  valid_harmonic(model, "steady_state");
   SteadyState result;
   result.period = 2.0 * std::numbers::pi / model.excitation.frequency;
   for (const friction::Law& law : model.friction) {
@@ -258,11 +261,14 @@ SteadyState steady_state(const Model& model, const SteadyStateOptions& options) 
 }
 
 std::vector<Sample> one_period(const Model& model, const SteadyState& state, int count) {
+  valid_harmonic(model, "one_period");
+  require(count > 0 && state.period > 0.0 && state.start.memories.size() == model.friction.size(),
+          "one period needs a steady state of the same model and a number of samples", "steady_state(model), > 0");
   const std::unique_ptr<Engine> engine = make_engine(model);
   engine->restart(state.start);
   Sampler sampler(count / state.period);
   Sample final;
-  while (engine->cycle() == 0) {
+  while (engine->periods_passed() == 0) {
     const Interval* interval = engine->next_in_period();
     if (interval == nullptr) break;
     sampler.observe(*interval);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/search_result.hpp"
 #include "core/outcome.hpp"
+#include "core/search_result.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/model.hpp"
@@ -32,7 +32,7 @@ struct SteadyState {
   double period = 0.0;             ///< s
   double max_speed = 0.0;          ///< m/s
   double mean_square_speed = 0.0;  ///< m^2/s^2
-  int stops_per_cycle = 0;         ///< instants per period at which the mass comes to rest and stays
+  int stops_per_cycle = 0;         ///< stops per forcing period
   std::vector<Stick> sticks;
   std::vector<EventKind> sequence;                ///< events of one period in order
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
@@ -43,17 +43,18 @@ struct SteadyState {
   int transient_periods = 0;
   core::SearchCount certificate;  ///< of all searches for events on the way to the orbit and on it
 
-  /// No multiplier outside the unit circle; one on it is a mass that never moves, or a continuum (see `warnings`).
+  /// No Floquet multiplier outside the unit circle; one on it is a mass that never moves, or a continuum (see
+  /// `warnings`).
   [[nodiscard]] bool stable() const;
 };
 
-/// Multipliers this close to the unit circle do not attract within any laboratory's patience; and Newton's method
-/// meets them at the end of a continuum, whose double root it knows to half the digits only.
+/// Floquet multipliers this close to the unit circle do not attract within any laboratory's patience; and Newton's
+/// method meets them at the end of a continuum, whose double root it knows to half the digits only.
 inline constexpr double neutral_margin = 1e-6;
 
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
-  int max_periods = 20'000;  ///< of transient followed before giving up
+  int max_periods = 20'000;  ///< of transient integrated before giving up
   /// Phase, fundamental, speeds and energy cost more than the orbit itself; without this they stay zero.
   bool full_account = true;
 };

@@ -5,6 +5,7 @@
 
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
@@ -15,32 +16,32 @@ namespace {
 constexpr double precision = 1e-12;
 constexpr int max_doublings = 60;
 
-/// Friction levels of the laws together at the start [N].
-struct Levels {
+/// Force limits of the laws together at the start [N].
+struct ForceLimits {
   double kinetic = 0.0;
   double holding = 0.0;
   bool rigid = true;  ///< no law remembers anything
 };
 
-Levels levels_of(const Model& model) {
-  Levels levels;
+ForceLimits limits_of(const Model& model) {
+  ForceLimits limits;
   for (const friction::Law& law : model.friction) {
     const friction::Memory memory = law.start({});
-    levels.kinetic += law.force(memory, {}, Direction::forward);
-    levels.holding += law.static_limit(memory, {});
-    levels.rigid = levels.rigid && !law.is_modal();
+    limits.kinetic += law.force(memory, {}, Direction::forward);
+    limits.holding += law.static_limit(memory, {});
+    limits.rigid = limits.rigid && !law.is_modal();
   }
-  return levels;
+  return limits;
 }
 
-std::optional<double> den_hartogs(const Model& model, const Levels& levels) {
+std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits) {
   const Oscillator& o = model.oscillator;
-  const bool his = levels.rigid && levels.kinetic == levels.holding && o.damper_to == DamperTo::ground &&
+  const bool his = limits.rigid && limits.kinetic == limits.holding && o.damper_to == DamperTo::ground &&
                    model.excitation.type == ExcitationType::base_harmonic && model.excitation.harmonics.empty();
   if (!his) return std::nullopt;
   const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
   const double r = model.excitation.frequency / std::sqrt(o.stiffness / o.mass);
-  return levels.kinetic / o.stiffness / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
+  return limits.kinetic / o.stiffness / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
 }
 
 SteadyState at(Model& model, double amplitude) {
@@ -48,12 +49,12 @@ SteadyState at(Model& model, double amplitude) {
   return steady_state(model, {.full_account = false});
 }
 
-BoundaryPoint find(Model model, const Levels& levels, double omega) {
+BoundaryPoint find(Model model, const ForceLimits& limits, double omega) {
   model.excitation.frequency = omega;
   BoundaryPoint point{.omega = omega};
   const bool base = model.excitation.type == ExcitationType::base_harmonic;
   // A drive this weak cannot move the mass.
-  double low = levels.holding / (base ? model.oscillator.stiffness : 1.0);
+  double low = limits.holding / (base ? model.oscillator.stiffness : 1.0);
   double high = 2.0 * low;
   SteadyState state = at(model, high);
   for (int i = 0; i < max_doublings && state.outcome.ok() && !state.sticks.empty(); ++i) {
@@ -72,16 +73,25 @@ BoundaryPoint find(Model model, const Levels& levels, double omega) {
     point.outcome = {core::OutcomeKind::no_steady_state, "the mass sticks at every amplitude"};
   point.amplitude = high;
   point.x = state.amplitude;
-  if (point.outcome.ok()) point.closed_form = den_hartogs(model, levels);
+  if (point.outcome.ok()) point.closed_form = den_hartogs(model, limits);
   return point;
+}
+
+/// With a frequency and an amplitude that stand for those to come.
+Model driven(Model model) {
+  model.excitation.frequency = 1.0;
+  model.excitation.amplitude = 0.0;
+  return model;
 }
 
 }  // namespace
 
 std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies) {
-  const Levels levels = levels_of(model);
+  require_in(positive, "analysis.frequencies", frequencies, "rad/s");
+  const ForceLimits limits = limits_of(valid_harmonic(driven(model), "sticking_boundary"));
+  require(limits.holding > 0.0, "sticking_boundary needs a law that holds the mass", "a law with static friction");
   std::vector<BoundaryPoint> boundary;
-  for (const double omega : frequencies) boundary.push_back(find(model, levels, omega));
+  for (const double omega : frequencies) boundary.push_back(find(model, limits, omega));
   return boundary;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 /// The sticking boundary: at each frequency the smallest excitation amplitude whose steady state never sticks.
 ///
-/// Found from the engine, for any law, by bisection: below it every orbit sticks somewhere in the cycle. Where the
-/// oscillator is the one of denhartog1931 (all friction Coulomb's with static = kinetic, one harmonic, damper to
-/// ground) his closed form stands beside it (`sim/analytic/den_hartog.hpp`): two routes that share no code.
+/// Found from the engine, for any law, by bisection: below it every orbit sticks somewhere in the forcing period.
+/// Where the oscillator is the one of denhartog1931 (all friction Coulomb's with static = kinetic, one harmonic,
+/// damper to ground) his closed form stands beside it (`sim/analytic/den_hartog.hpp`): two routes that share no
+/// code.
 ///
 /// Cost: some fifty steady states a frequency.
 

@@ -244,13 +244,40 @@ class Refusals(Case):
                 self.assertIn(message, self.run_program(*words, status=2).stderr)
 
     def test_interrupt(self):
+        """Each of these runs for minutes; the time it may take to end is generous because the machine may be busy."""
+        lugre = "{law: lugre, kinetic: 2 N, static: 2.5 N, stribeck_velocity: 1 mm/s, sigma0: 1e6 N/m, sigma1: 300 N.s/m}"
+        history = "simulate, cycles: 1e5"
+        for name, friction, analysis in [
+                ("xy_curve", None, "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}"),
+                ("simulate", lugre, history),
+                ("regime_map", lugre, "regime_map, frequencies: {from: 5 rad/s, to: 15 rad/s, count: 100}, "
+                                      "amplitudes: {from: 0.05 m, to: 0.2 m, count: 100}")]:
+            with self.subTest(name):
+                text = BASE.replace("steady_state", analysis)
+                self.write("long.yaml", text.replace("{law: coulomb, kinetic: 2 N}", friction) if friction else text)
+                process = subprocess.Popen([PROGRAM, "run", "long.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                time.sleep(0.5)
+                self.assertIsNone(process.poll(), "it ended before it could be interrupted")
+                process.send_signal(signal.SIGINT)
+                begin = time.monotonic()
+                _, errors = process.communicate(timeout=60)
+                self.assertLess(time.monotonic() - begin, 10.0)
+                self.assertEqual(process.returncode, 130)
+                self.assertEqual(errors, b"interrupted\n")
+                self.assertEqual(list(tree(self.folder)), ["base.yaml", "long.yaml"])
+
+    def test_an_interrupted_list_of_files_stops_and_keeps_what_is_complete(self):
         self.write("long.yaml", BASE.replace("steady_state", "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}"))
-        process = subprocess.Popen([PROGRAM, "run", "long.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen([PROGRAM, "run", "base.yaml", "long.yaml", "base.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        done = self.folder / "results/base/report.html"
+        deadline = time.monotonic() + 60.0
+        while not done.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
+        process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
-        self.assertFalse((self.folder / "results").exists())
+        self.assertEqual(list(tree(self.folder / "results")), [f"base/{name}" for name in FILES])
 
 
 class Others(Case):

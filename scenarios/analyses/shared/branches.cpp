@@ -61,7 +61,7 @@ ResultFields branch_fields(const ResultField& parameter) {
 }
 
 Answer BranchQuestion::run(const RunContext& context) const {
-  const sim::Branch branch = sim::follow_branch(context.model, parameter_, from_, to_);
+  const sim::Branch branch = sim::continue_branch(context.model, parameter_, from_, to_);
   if (!branch.outcome.ok()) return failed("the branch has no first point: " + branch.outcome.reason);
   const bool amplitude = parameter_ == sim::BranchParameter::amplitude;
   Answer answer;

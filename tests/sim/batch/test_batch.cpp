@@ -100,8 +100,8 @@ TEST_CASE("Batches give the same bits for every width and number of threads") {
   const OscillatorBatch batch = random_batch(1, 10'007, true);
   const BatchSteadyStates reference = steady_states(batch, {.width = 1, .threads = 1});
   BatchMotions motions{.position = std::vector<double>(batch.size(), 0.0), .velocity = batch.amplitude};
-  BatchMotions followed = motions;
-  follow(batch, 5, followed, {.width = 1, .threads = 1});
+  BatchMotions expected = motions;
+  pass_periods(batch, 5, expected, {.width = 1, .threads = 1});
   for (const int width : batch_widths()) {
     for (const int threads : {1, 0}) {
       INFO("width " << width << ", threads " << threads);
@@ -113,17 +113,17 @@ TEST_CASE("Batches give the same bits for every width and number of threads") {
       CHECK(other.stops == reference.stops);
       CHECK(other.engine == reference.engine);
       BatchMotions here = motions;
-      follow(batch, 5, here, {.width = width, .threads = threads});
-      CHECK(same_bits(here.position, followed.position));
-      CHECK(same_bits(here.velocity, followed.velocity));
-      CHECK(same_bits(here.amplitude, followed.amplitude));
-      CHECK(here.reversals == followed.reversals);
-      CHECK(here.engine == followed.engine);
+      pass_periods(batch, 5, here, {.width = width, .threads = threads});
+      CHECK(same_bits(here.position, expected.position));
+      CHECK(same_bits(here.velocity, expected.velocity));
+      CHECK(same_bits(here.amplitude, expected.amplitude));
+      CHECK(here.reversals == expected.reversals);
+      CHECK(here.engine == expected.engine);
     }
   }
   // The comparison is one of packs, not of the engine with itself.
   CHECK(std::count(reference.engine.begin(), reference.engine.end(), 0) > 9'000);
-  CHECK(std::count(followed.engine.begin(), followed.engine.end(), 0) > 9'000);
+  CHECK(std::count(expected.engine.begin(), expected.engine.end(), 0) > 9'000);
 }
 
 TEST_CASE("Steady states of batches are those of the exact engine") {
@@ -213,7 +213,7 @@ TEST_CASE("Motions of batches are those of the exact engine, transients included
   }
   const BatchMotions starts = motions;
   constexpr int periods = 6;
-  follow(batch, periods, motions);
+  pass_periods(batch, periods, motions);
   int in_packs = 0;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     if (motions.engine[i] != 0) continue;
@@ -224,7 +224,7 @@ TEST_CASE("Motions of batches are those of the exact engine, transients included
     double size = 0.0;
     double turning = 0.0;
     double amplitude = 0.0;
-    while (engine.cycle() < periods) {
+    while (engine.periods_passed() < periods) {
       const Interval* interval = engine.next_in_period();
       REQUIRE(interval != nullptr);
       CHECK(interval->ending != EventKind::stop);
@@ -360,6 +360,6 @@ TEST_CASE("Packs leave out an orbit whose neighbours are steady within 1e-6, as 
 TEST_CASE("An empty batch has no steady states") {
   CHECK(steady_states(OscillatorBatch{}).peak.empty());
   BatchMotions motions;
-  follow(OscillatorBatch{}, 3, motions);
+  pass_periods(OscillatorBatch{}, 3, motions);
   CHECK(motions.position.empty());
 }

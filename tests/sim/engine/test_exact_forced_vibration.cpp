@@ -232,7 +232,7 @@ TEST_CASE("Walking by periods gives the events of walking by time", "[exact]") {
   const auto expected = events_of(model, 10.0 * period);
   ExactEngine engine(model);
   std::vector<Event> found;
-  while (engine.cycle() < 10) {
+  while (engine.periods_passed() < 10) {
     const Interval* interval = engine.next_in_period();
     REQUIRE(interval != nullptr);
     if (interval->ending) found.push_back({interval->end(), *interval->ending, engine.position()});

@@ -104,7 +104,7 @@ TEST_CASE("smooth engine: exact laws come out as in the exact engine", "[sim][sm
   }
 }
 
-TEST_CASE("smooth engine: the derivative of the period map is that of the exact engine", "[sim][smooth]") {
+TEST_CASE("smooth engine: the monodromy matrix is that of the exact engine", "[sim][smooth]") {
   const std::vector<std::pair<std::string_view, ParameterValues>> laws = {
       {"coulomb", {{"kinetic", 2.0}}},
       {"coulomb", {{"kinetic", 7.0}, {"static", 7.5}}},
@@ -119,12 +119,12 @@ TEST_CASE("smooth engine: the derivative of the period map is that of the exact 
     smooth.solver.kind = SolverKind::implicit_steps;
     sim::PeriodMap exact_map(model);
     sim::PeriodMap smooth_map(smooth);
-    const sim::Passage expected = exact_map.from_start(0.03, 0.5, sim::Derivative::with);
-    const sim::Passage found = smooth_map.from_start(0.03, 0.5, sim::Derivative::with);
-    REQUIRE(found.derivative.rows() == expected.derivative.rows());
+    const sim::ForcingPeriod expected = exact_map.from_start(0.03, 0.5, sim::Monodromy::with);
+    const sim::ForcingPeriod found = smooth_map.from_start(0.03, 0.5, sim::Monodromy::with);
+    REQUIRE(found.monodromy.rows() == expected.monodromy.rows());
     // Central differences of steps: relative error 1e-8 at worst over some twenty steps.
-    CHECK((found.derivative - expected.derivative).cwiseAbs().maxCoeff() <
-          1e-7 * expected.derivative.cwiseAbs().maxCoeff());
+    CHECK((found.monodromy - expected.monodromy).cwiseAbs().maxCoeff() <
+          1e-7 * expected.monodromy.cwiseAbs().maxCoeff());
   }
 }
 

@@ -87,7 +87,7 @@ TEST_CASE("Accounts in closed form are those of quadrature") {
     ExactEngine engine(model);
     Account account(model);
     Account reference(model);
-    while (engine.cycle() < 2) {
+    while (engine.periods_passed() < 2) {
       const Interval* interval = engine.next_in_period();
       REQUIRE(interval != nullptr);
       closed += interval->closed_form() != nullptr ? 1 : 0;
@@ -177,7 +177,7 @@ TEST_CASE("The energy defect is a check of the forces, not zero by construction"
   model.initial = {0.1, 1.0};
   ExactEngine engine(model);
   EnergyAudit audit(model.oscillator);
-  while (engine.cycle() < 3) audit.observe(Wrong(*engine.next_in_period()));
+  while (engine.periods_passed() < 3) audit.observe(Wrong(*engine.next_in_period()));
   const Energy energy = audit.account();
   CHECK(energy.friction > 1.0);
   CHECK(energy.defect == Approx(-1e-6 * energy.friction).epsilon(1e-5));
@@ -193,7 +193,7 @@ TEST_CASE("The largest speed and the fundamental of a linear response are those 
     model.initial = {response.real(), (response * Complex(0.0, frequency)).real()};
     ExactEngine engine(model);
     Account account(model);
-    while (engine.cycle() < 1) account.observe(*engine.next_in_period());
+    while (engine.periods_passed() < 1) account.observe(*engine.next_in_period());
     INFO("frequency " << frequency);
     CHECK(account.extremes.max_speed() == Approx(frequency * std::abs(response)).epsilon(1e-14));
     CHECK(std::abs(account.fundamental.coefficient() - response) < 1e-14 * std::abs(response));

@@ -54,7 +54,7 @@ long count(const sim::Branch& branch, ChangeKind kind) {
 
 TEST_CASE("a branch in amplitude passes through the steady states found one by one") {
   sim::Model model = coulomb_driven(0.1, 1.0, 1.0, 0.5);
-  const sim::Branch branch = follow_branch(model, BranchParameter::amplitude, 4.0, 1.05);
+  const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 4.0, 1.05);
   REQUIRE(branch.outcome.ok());
   CHECK(branch.points.back().parameter == 1.05);
   CHECK(branch.points.size() > 40);
@@ -78,8 +78,8 @@ TEST_CASE("sticking sets in where Den Hartog's boundary says") {
     CAPTURE(ratio);
     const double zeta = 0.05;
     const double boundary = 1.0 / sim::analytic::non_sticking_boundary(sim::analytic::den_hartog(zeta, ratio));
-    const sim::Branch branch = follow_branch(coulomb_driven(2.0 * zeta, 1.0, 1.0, ratio),
-                                             BranchParameter::amplitude, 1.6 * boundary, 0.9 * boundary);
+    const sim::Branch branch = continue_branch(coulomb_driven(2.0 * zeta, 1.0, 1.0, ratio),
+                                               BranchParameter::amplitude, 1.6 * boundary, 0.9 * boundary);
     REQUIRE(branch.outcome.ok());
     REQUIRE(count(branch, ChangeKind::sticking) == 1);
     const auto onset =
@@ -94,7 +94,7 @@ TEST_CASE("sticking sets in where Den Hartog's boundary says") {
 
 TEST_CASE("the number of stops grows as the frequency falls, and every change is reported") {
   const sim::Branch branch =
-      follow_branch(coulomb_driven(0.1, 0.2, 1.0, 0.5), BranchParameter::frequency, 0.5, 0.1);
+      continue_branch(coulomb_driven(0.1, 0.2, 1.0, 0.5), BranchParameter::frequency, 0.5, 0.1);
   REQUIRE(branch.outcome.ok());
   CHECK(branch.points.back().parameter == 0.1);
   CHECK(branch.points.front().state.stops_per_cycle < branch.points.back().state.stops_per_cycle);
@@ -111,7 +111,7 @@ TEST_CASE("the response of a bilinear spring folds; the branch between is unstab
   model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.06};
   model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.12, .frequency = 1.0};
   model.friction.emplace_back(Stop{.k = 3.0, .gap = 1.0});
-  const sim::Branch branch = follow_branch(model, BranchParameter::frequency, 0.9, 1.5);
+  const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.9, 1.5);
   REQUIRE(branch.outcome.ok());
   CHECK(branch.points.back().parameter == 1.5);
   std::vector<sim::BranchChange> folds;

@@ -1,5 +1,5 @@
-// Laying a phase: what the laws do in it, its mode, its motion and its guards. What the engine does with it is in
-// exact_engine.cpp.
+// Laying an interval: what the laws do in it, its mode, its motion and its guards. What the engine does with it is
+// in exact_engine.cpp.
 
 #include <algorithm>
 #include <cassert>
@@ -14,8 +14,8 @@ using core::ModeFunction;
 using friction::Affine;
 using friction::Direction;
 
-/// Asks every law once what it does in this phase: forces of a slip, or at rest the limits of the laws that hold
-/// the mass and the forces of the others; and the guards.
+/// Asks every law once what it does in this interval: forces of a slip, or while the mass sticks the limits of the
+/// laws that hold the mass and the forces of the others; and the guards.
 void ExactEngine::collect(bool with_guards) {
   const int index = static_cast<int>(direction_) + 1;
   total_ = &totals_[static_cast<std::size_t>(index)];
@@ -23,7 +23,7 @@ void ExactEngine::collect(bool with_guards) {
   if (total_->lasting) return;
   total_->lasting = !some_modal_;
   const friction::Instant at = now();
-  const bool resting = direction_ == Direction::none;
+  const bool sticks = direction_ == Direction::none;
   total_->force = total_->limit = {};
   total_->ramped = drive_.ramped();
   total_->transients.clear();
@@ -31,7 +31,7 @@ void ExactEngine::collect(bool with_guards) {
   law_guards_.clear();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     const friction::Law& law = model_.friction[i];
-    if (resting && holds_mass_[i]) {
+    if (sticks && holds_mass_[i]) {
       add_limit(law.affine_limit(memories_[i], at));
     } else {
       add_force(law.affine_force(memories_[i], at, direction_));
@@ -107,7 +107,7 @@ double ExactEngine::force_scale() const {
          (model_.oscillator.stiffness + std::abs(total_->force.position)) * std::abs(x_);
 }
 
-/// All forces on the mass at rest here, except those of laws that hold it, as a function of time.
+/// All forces on the mass while it sticks here, except those of laws that hold it, as a function of time.
 const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
   const Oscillator& o = model_.oscillator;
   const double stiffness = o.stiffness + total_->force.position;
@@ -145,25 +145,26 @@ core::Guard& ExactEngine::new_guard(const Watch& watch) {
   return guards_[guard_count_++];
 }
 
-void ExactEngine::lay_rest() {
+void ExactEngine::lay_stick() {
   ModeFunction pull;
   mode_ = &pull_on_mode(pull);
   const core::ExponentialBasis& basis = mode_->basis();
   core::clear(basis, motion_);
   mode_->represent({.constant = x_}, motion_);
   force_scale_ = force_scale();
-  if (!can_rest_) return;
+  if (!can_stick_) return;
   const double stiffness = model_.oscillator.stiffness + total_->force.position;
-  for (const int direction : {1, -1}) {
-    core::Guard& guard = new_guard({.owner = {.kind = Owner::Kind::limit, .law = direction},
-                                    .by_position = direction * stiffness,
-                                    .tolerance = rounding * force_scale_});
+  for (const Direction release : {Direction::forward, Direction::backward}) {
+    const double direction = friction::sign(release);
+    core::Guard& guard = new_guard(
+        {.ending = StickEnd{release}, .by_position = direction * stiffness, .tolerance = rounding * force_scale_});
     limit_guard(pull, direction, guard.value);
     core::prepare(basis, guard);
   }
 }
 
-/// Of all phases that met at this instant: a law that lets go takes its large forces away, but not their rounding.
+/// Of all intervals that met at this instant: a law that lets go takes its large forces away, but not their
+/// rounding.
 double ExactEngine::force_rounding() const { return rounding * std::max(force_scale_, instant_scale_); }
 
 /// In a slip. Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
@@ -179,8 +180,7 @@ void ExactEngine::lay_slip() {
   mode_->solve(forcing_, x_, v_, motion_);
   force_scale_ = force_scale();
   const double sign = friction::sign(direction_);
-  core::Guard& guard =
-      new_guard({.owner = {.kind = Owner::Kind::velocity}, .by_velocity = sign, .tolerance = velocity_rounding()});
+  core::Guard& guard = new_guard({.ending = SlipEnd{}, .by_velocity = sign, .tolerance = velocity_rounding()});
   core::differentiate(basis, motion_, guard.value);
   if (sign < 0.0) core::assign(basis, -1.0, guard.value, guard.value);
   core::differentiate(basis, guard.value, guard.slope);
@@ -193,12 +193,11 @@ void ExactEngine::add_law_guards() {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     for (std::size_t j = 0; j < law_guard_counts_[i]; ++j) {
       const Affine& g = law_guards_[next++];
-      core::Guard& guard =
-          new_guard({.owner = {.kind = Owner::Kind::law, .law = static_cast<int>(i), .guard = static_cast<int>(j)},
-                     .by_position = g.position,
-                     .by_velocity = g.velocity,
-                     .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
-                                              std::abs(g.velocity * v_) + g.cancelled)});
+      core::Guard& guard = new_guard({.ending = LawGuard{i, static_cast<int>(j)},
+                                      .by_position = g.position,
+                                      .by_velocity = g.velocity,
+                                      .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
+                                                               std::abs(g.velocity * v_) + g.cancelled)});
       if (direction_ != Direction::none) {
         watches_[guard_count_ - 1].tolerance +=
             velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
@@ -217,11 +216,11 @@ void ExactEngine::add_law_guards() {
   }
 }
 
-void ExactEngine::lay_phase() {
+void ExactEngine::lay_interval() {
   guard_count_ = 0;
   collect(true);
   if (direction_ == Direction::none) {
-    lay_rest();
+    lay_stick();
   } else {
     lay_slip();
   }
@@ -250,8 +249,8 @@ bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) cons
 
 /// Two modes of a law may have the same zero by different formulas, each with its own rounding, and both could then
 /// send the law to the other one. The event is known to a time: what rises through zero within it begins at zero.
-core::Germ ExactEngine::start_germ(const core::Guard& guard, const Owner& owner, double tolerance) const {
-  if (owner.kind == Owner::Kind::velocity && v_ == 0.0) return slip_germ(guard, tolerance);
+core::Germ ExactEngine::start_germ(const core::Guard& guard, const Ending& ending, double tolerance) const {
+  if (is<SlipEnd>(ending) && v_ == 0.0) return slip_germ(guard, tolerance);
   const core::Germ germ = core::germ(mode_->basis(), guard, tolerance);
   if (germ.sign >= 0 || germ.zeros > 0 || !rises_in_time(guard, tolerance)) return germ;
   const core::Germ from_zero = core::germ(mode_->basis(), guard, tolerance, 1);
@@ -268,7 +267,7 @@ bool ExactEngine::find_violated() {
     const double tolerance =
         watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
-    const core::Germ germ = start_germ(guard, watch.owner, tolerance);
+    const core::Germ germ = start_germ(guard, watch.ending, tolerance);
     if (germ.sign < 0) {
       if (germ.zeros > 0) {
         keep_time_rounding(tolerance + std::abs(core::at_start(basis, guard.value)),
@@ -286,7 +285,7 @@ bool ExactEngine::find_violated() {
   return false;
 }
 
-/// Beside a mass at rest a guard that is zero to every order stays zero; a search would take its rounding for
+/// Beside a sticking mass a guard that is zero to every order stays zero; a search would take its rounding for
 /// crossings.
 void ExactEngine::drop_guard(std::size_t i) {
   --guard_count_;

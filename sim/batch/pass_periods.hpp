@@ -5,7 +5,7 @@
 
 namespace dualdamp::sim::batch {
 
-/// A motion in each lane, at the start of a phase.
+/// A motion in each lane, at the start of an interval.
 template <Pack P>
 struct Traveller {
   using Vector = typename P::Vector;
@@ -37,33 +37,33 @@ struct Traveller {
     arrived = running & !running;
   }
 
-  void pass_phase(const Oscillation<P>& o);
+  void pass_interval(const Oscillation<P>& o);
 };
 
 /// To the next reversal, or to the end where that comes first.
 template <Pack P>
-void Traveller<P>::pass_phase(const Oscillation<P>& o) {
-  const Phase<P> phase(o, x, v, side, angle, turned);
-  const Vector rest = (left * (2.0 * pi) - angle) / o.r;
-  const ReversalSearch<P> search(o, phase, rest, running, running & (v == 0.0));
+void Traveller<P>::pass_interval(const Oscillation<P>& o) {
+  const Interval<P> interval(o, x, v, side, angle, turned);
+  const Vector remaining = (left * (2.0 * pi) - angle) / o.r;
+  const ReversalSearch<P> search(o, interval, remaining, running, running & (v == 0.0));
 
-  const Mask reverses = search.found() & (search.time() < rest);
-  const Motion<P> turn = phase.after(o, search.own(), search.turn());
+  const Mask reverses = search.found() & (search.time() < remaining);
+  const Motion<P> reversal = interval.after(o, search.own(), search.turn());
   // The new direction is that of the pull, which has to overcome the static limit.
-  const Mask moves = reverses & (abs<P>(turn.a) > o.slip + o.hold + clearly * (abs<P>(turn.x) + o.hold));
+  const Mask moves = reverses & (abs<P>(reversal.a) > o.slip + o.hold + clearly * (abs<P>(reversal.x) + o.hold));
   const Mask ends = search.beyond() | (search.found() & !reverses);
   if (P::any(ends)) {
-    const Motion<P> end = phase.after(o, o.own(rest), phase.turn(o, rest));
+    const Motion<P> end = interval.after(o, o.own(remaining), interval.turn(o, remaining));
     update<P>(x, ends, end.x);
     update<P>(v, ends, end.v);
   }
   arrived = arrived | ends;
   running = moves;
 
-  update<P>(amplitude, moves, 0.5 * abs<P>(turn.x - turning));
-  update<P>(turning, moves, turn.x);
+  update<P>(amplitude, moves, 0.5 * abs<P>(reversal.x - turning));
+  update<P>(turning, moves, reversal.x);
   update<P>(reversals, moves, reversals + 1.0);
-  update<P>(x, moves, turn.x);
+  update<P>(x, moves, reversal.x);
   update<P>(v, moves, splat<P>(0.0));
   side = -side;
   turned = search.turn();
@@ -74,17 +74,17 @@ void Traveller<P>::pass_phase(const Oscillation<P>& o) {
 }
 
 template <Pack P>
-void follow(const Oscillators& all, const Passages& passages) {
+void pass_periods(const Oscillators& all, const PeriodsAhead& ahead) {
   for (std::size_t first = 0; first < all.count; first += P::width) {
     const Oscillation<P> oscillation(all, first);
-    Traveller<P> traveller(oscillation, P::load(passages.position + first), P::load(passages.velocity + first),
-                           passages.periods);
-    while (P::any(traveller.running)) traveller.pass_phase(oscillation);
-    P::store(traveller.x, passages.position + first);
-    P::store(traveller.v * oscillation.natural, passages.velocity + first);
-    P::store(traveller.amplitude, passages.amplitude + first);
-    P::store(traveller.reversals, passages.reversals + first);
-    P::store(flag<P>(traveller.arrived), passages.certified + first);
+    Traveller<P> traveller(oscillation, P::load(ahead.position + first), P::load(ahead.velocity + first),
+                           ahead.periods);
+    while (P::any(traveller.running)) traveller.pass_interval(oscillation);
+    P::store(traveller.x, ahead.position + first);
+    P::store(traveller.v * oscillation.natural, ahead.velocity + first);
+    P::store(traveller.amplitude, ahead.amplitude + first);
+    P::store(traveller.reversals, ahead.reversals + first);
+    P::store(flag<P>(traveller.arrived), ahead.certified + first);
   }
 }
 
