@@ -17,8 +17,8 @@ namespace dualdamp::sim::analytic {
 [[nodiscard]] std::optional<double> transition_velocity(double omega, double X, double F, double K);
 
 /// The inverse of Eq (18), K = 2 F/(X - sqrt(X^2 - V_s^2/w^2)) [N/m]: of the two solutions the stiffer, for which
-/// sliding sets in during the first quarter of the cycle (F/K <= X/2). Nothing when V_s exceeds the greatest speed
-/// w X.
+/// sliding sets in during the first quarter of the forcing period (F/K <= X/2). Nothing when V_s exceeds the
+/// greatest speed w X.
 [[nodiscard]] std::optional<double> contact_stiffness(double omega, double X, double F, double V_s);
 
 }  // namespace dualdamp::sim::analytic

@@ -11,7 +11,7 @@
 /// with x_o the output amplitude [m], x_f = F0/k [m], zeta = c/(2 sqrt(m k)). A bracket of Eq (6) lost its square
 /// in print; docs/theory.md derives all of this. For zeta >= 1 sine and cosine turn into their hyperbolic forms.
 ///
-/// Holds where the velocity keeps one sign over the half cycle between turning points. Eq (3) gives a plausible
+/// Holds where the velocity keeps one sign over the half period between turning points. Eq (3) gives a plausible
 /// number beyond that range too, so `non_sticking_state` tests it and answers with nothing where the true motion
 /// sticks.
 ///
@@ -56,7 +56,7 @@ struct DenHartogSlopes {
 
 /// S [-]: the motion of amplitude x_o does not stick if and only if x_o/x_f > S.
 ///
-/// On the half cycle after the upper turning point x' = -x_o w sin(wt) + x_f b(t) with b free of x_o and Y, so
+/// On the half period after the upper turning point x' = -x_o w sin(wt) + x_f b(t) with b free of x_o and Y, so
 /// S = max b/(w sin wt) over 0 < wt < pi. The end points count with their limits; the maximum may lie inside, below
 /// r = 1/2 above all. Absolute error about 1e-15 (1 + G). Needs r >= 1e-4. Infinite when singular.
 [[nodiscard]] double non_sticking_limit(const DenHartog& functions);

@@ -48,11 +48,11 @@ LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<
     harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
   }
   for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), slow_beside_decay));
-  basis_.finish(expected_turn(frequencies));
+  basis_.finish(expected_reversal(frequencies));
 }
 
 /// A periodic motion mostly reverses twice a forcing period, a free one twice a period of its own.
-double LinearMode::expected_turn(std::span<const double> frequencies) const {
+double LinearMode::expected_reversal(std::span<const double> frequencies) const {
   if (!frequencies.empty()) return std::numbers::pi / frequencies.front();
   return own_form_ == OwnForm::oscillating ? std::numbers::pi * inverse_gap_ : 0.0;
 }

@@ -63,7 +63,7 @@ class LinearMode {
   };
 
   void lay_own_motion();
-  [[nodiscard]] double expected_turn(std::span<const double> frequencies) const;
+  [[nodiscard]] double expected_reversal(std::span<const double> frequencies) const;
   [[nodiscard]] bool close_to_own(core::Complex z, double slow) const;
   Driven drive(core::Complex z, int source, double slow);
 

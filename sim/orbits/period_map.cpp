@@ -66,8 +66,8 @@ ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
   period.size = std::abs(engine_->position());
   engine_->track_sensitivity(monodromy == Monodromy::with);
   if (observer != nullptr) observer->begin(period.begin);
-  const long cycle = engine_->periods_passed();
-  while (engine_->periods_passed() == cycle) {
+  const long passed = engine_->periods_passed();
+  while (engine_->periods_passed() == passed) {
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
     period.moves = period.moves || interval->direction != Direction::none;

@@ -33,7 +33,7 @@ Model base_driven(double zeta, double r, double x_f) {
 
 TEST_CASE("Den Hartog's steady state is the engine's, amplitude, phase and sticking alike") {
   // Both are exact up to rounding. The engine's orbit closes to 1e-14 of its size, and the error of a closed orbit
-  // is that over the distance of its multipliers from 1, here 1 - exp(-2 pi zeta/r) > 0.03.
+  // is that over the distance of its Floquet multipliers from 1, here 1 - exp(-2 pi zeta/r) > 0.03.
   std::mt19937 random(101);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   int sliding = 0;

@@ -20,7 +20,7 @@ struct State {
   double v = 0.0;
 };
 
-/// x'' + 2 zeta x' + x - x_f = Y cos(r t + phi), time in units of 1/wn: the half cycle with x' < 0, whatever the
+/// x'' + 2 zeta x' + x - x_f = Y cos(r t + phi), time in units of 1/wn: the half period with x' < 0, whatever the
 /// sign x' really takes. Runge-Kutta of order four with step pi/(r steps); an independent way to the same motion.
 std::vector<State> integrate_half_cycle(double zeta, double r, double Y, double x_f, double phi, State s,
                                         int steps) {
@@ -46,7 +46,7 @@ std::vector<State> integrate_half_cycle(double zeta, double r, double Y, double 
 }
 
 /// Amplitude and lag behind cos(theta) of the fundamental of a half-wave antisymmetric motion sampled over its half
-/// cycle: the trapezoidal rule on half a period of an even function is the full periodic rule, whose error here is
+/// period: the trapezoidal rule on half a period of an even function is the full periodic rule, whose error here is
 /// that of the jump in x''' at the turning points, of order steps^-4.
 std::array<double, 2> fundamental(const std::vector<State>& half_cycle) {
   double cosine = 0.0;
@@ -157,8 +157,8 @@ TEST_CASE("Table 1 of the paper") {
 }
 
 TEST_CASE("The closed form is a motion of the differential equation") {
-  // Started at the turning point in the stated phase, half a cycle must end at the opposite turning point, at rest.
-  // Runge-Kutta with 4000 steps over at most three free periods: error (h wn)^4 of order 1e-10 at the most.
+  // Started at the turning point in the stated phase, half a period must end at the opposite turning point, at
+  // rest. Runge-Kutta with 4000 steps over at most three free periods: error (h wn)^4 of order 1e-10 at the most.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   int tried = 0;
@@ -187,7 +187,7 @@ TEST_CASE("The closed form is a motion of the differential equation") {
 }
 
 TEST_CASE("The boundary of sticking is sharp in the integrated motion") {
-  // Eq (3) continued beyond the boundary must show a velocity of the wrong sign within the half cycle, and none
+  // Eq (3) continued beyond the boundary must show a velocity of the wrong sign within the half period, and none
   // short of it. At a relative distance d beyond it the wrong velocity is of order d where the maximum lies inside,
   // of order d^2 where the turning point decides; d = 1e-3 leaves 1e-6 and less, the integration errs by (h wn)^4 =
   // 1e-14.
@@ -228,7 +228,7 @@ TEST_CASE("The turning point decides near resonance and not at low frequency") {
     CAPTURE(d.zeta, d.r);
     CHECK(non_sticking_limit(d) == Approx(turning_point_limit(d)).epsilon(1e-12 * (1.0 + d.G)));
   }
-  // At r = 0.34 the mass first stops inside the half cycle: the turning point alone misses it by a factor.
+  // At r = 0.34 the mass first stops inside the half period: the turning point alone misses it by a factor.
   const DenHartog low = den_hartog(0.001, 0.34);
   CHECK(non_sticking_limit(low) > 5.0 * turning_point_limit(low));
   // Just below r = 1/2 the maximum lies close to the turning point, at wt = 0.017, and is higher by 1e-4 only.

@@ -21,7 +21,7 @@ TEST_CASE("Every half swing of the closed form solves the differential equation"
 }
 
 TEST_CASE("The closed form is exact in its limits") {
-  // Coulomb friction alone: 2 x_f a half swing, 4 F/k a cycle. No friction: a geometric sequence.
+  // Coulomb friction alone: 2 x_f a half swing, 4 F/k a period. No friction: a geometric sequence.
   for (int n = 0; n < 12; ++n) {
     CHECK(decrement_amplitude(0.0, 0.25, 8.0, n) == 8.0 - 0.5 * n);
     CHECK(decrement_amplitude(0.1, 0.0, 8.0, n) == Approx(8.0 * std::pow(half_swing_decay(0.1), n)).epsilon(1e-14));

@@ -13,7 +13,10 @@ using namespace dualdamp::sim;
 using namespace dualdamp::test;
 using friction::Direction;
 
-TEST_CASE("Free Coulomb decay loses 4F/k a cycle, to the last bit, and stops inside the rest set", "[exact]") {
+TEST_CASE(
+    "Free Coulomb decay loses 4F/k a period, to the last bit, and stops inside the set of positions that friction "
+    "holds",
+    "[exact]") {
   // k = 64, F = 1, so F/k = 2^-6 and all turning points are exact numbers.
   for (const double static_level : {1.0, 1.75}) {
     for (const double start : {5.0, -5.0, 12.25, 40.0, -3.5, 1.0, 0.75, -1.0, 1.5, 2.0}) {

@@ -212,7 +212,7 @@ TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and st
         CHECK(release.kind == EventKind::release);
         CHECK(stop.kind == EventKind::stop);
         // Pull and speed are known to a few eps of static and of static/(m w): as times, over their rates k V and
-        // D/m; the errors of all cycles add up.
+        // D/m; the errors of all periods add up.
         const double allowed =
             64 * epsilon * (n + 1) * (begin + static_level / (k * speed) + static_level / (excess * w));
         CHECK(std::abs(release.t - begin) <= allowed);

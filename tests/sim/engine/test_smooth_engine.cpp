@@ -178,7 +178,7 @@ TEST_CASE("smooth engine: the stick-slip example of the LuGre paper", "[sim][smo
   REQUIRE(history.outcome.ok());
   double low = 1e9;
   double high = -1e9;
-  std::vector<double> rises;  // the spring force crosses 1 N upwards once a cycle
+  std::vector<double> rises;  // the spring force crosses 1 N upwards once a period
   double before = 0.0;
   for (const sim::Sample& sample : history.samples) {
     const double spring = 2.0 * (sample.y - sample.x);
@@ -204,14 +204,14 @@ TEST_CASE("smooth engine: a motion too sharp to integrate is given up", "[sim][s
                                                               {"b", 0.015},
                                                               {"slip_distance", 1e-4},
                                                               {"reference_velocity", 1e-3}}));
-  model.excitation.amplitude = 0.035;  // m: beyond break-away for a part of each cycle
+  model.excitation.amplitude = 0.035;  // m: beyond break-away for a part of each period
   const sim::SteadyState state = sim::steady_state(model);
   CHECK(state.outcome.kind == core::OutcomeKind::event_limit);
   CHECK(state.outcome.reason.find("too fast") != std::string::npos);
 }
 
-TEST_CASE("smooth engine: a free vibration that creeps for ever ends after its last turn", "[sim][smooth]") {
-  // Rock creeps ever more slowly and neither turns nor rests; waiting for a ninth turn took minutes.
+TEST_CASE("smooth engine: a free vibration that creeps for ever ends after its last reversal", "[sim][smooth]") {
+  // Rock creeps ever more slowly and neither reverses nor sticks; waiting for a ninth reversal took minutes.
   sim::Model model;
   model.oscillator = {.mass = 1.042, .stiffness = 1568.0, .damping = 8.0};
   model.initial = {.position = 0.04};

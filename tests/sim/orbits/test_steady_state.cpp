@@ -118,7 +118,7 @@ TEST_CASE("a stick across the period boundary counts once") {
   }
 }
 
-TEST_CASE("the multipliers are those of a difference quotient of the period map") {
+TEST_CASE("the Floquet multipliers are those of a difference quotient of the period map") {
   const sim::Model model = base_driven(1.3, 80.0, 0.9, 1.1, 1.1, 0.06, 7.1);
   const sim::SteadyState state = sim::steady_state(model);
   REQUIRE(state.outcome.ok());
@@ -144,7 +144,7 @@ TEST_CASE("the multipliers are those of a difference quotient of the period map"
   CHECK(product.real() == Approx(a * d - b * c).margin(1e-8));
 }
 
-TEST_CASE("1,000 forced cycles balance their energy, sticking included") {
+TEST_CASE("1,000 forcing periods balance their energy, sticking included") {
   for (const sim::Model& model : {stick_slip(), base_driven(1.0, 100.0, 4.0, 2.0, 2.0, 0.1, 10.0),
                                   base_driven(1.0, 100.0, 1.0, 1.0, 1.4, 0.05, 3.0)}) {
     const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
@@ -208,7 +208,7 @@ TEST_CASE("a drive that friction holds leaves the mass where it was, and says so
   CHECK_FALSE(state.warnings.empty());
 }
 
-TEST_CASE("low frequencies stop more than twice a cycle") {
+TEST_CASE("low frequencies stop more than twice a period") {
   // After each base reversal the mass follows in several slips: 2, 4, 6 stops as the drive slows down.
   CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.2)).stops_per_cycle == 2);
   CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.1)).stops_per_cycle == 4);
