@@ -24,7 +24,7 @@ using sim::Model;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Model sound() {
@@ -44,29 +44,30 @@ struct Fault {
 std::vector<Fault> faults() {
   return {
       {"system.mass", "> 0 kg", [](Model& m) { m.oscillator.mass = 0.0; }},
-      {"system.mass", "> 0 kg", [](Model& m) { m.oscillator.mass = nan; }},
+      {"system.mass", "> 0 kg", [](Model& m) { m.oscillator.mass = not_a_number; }},
       {"system.stiffness", "> 0 N/m", [](Model& m) { m.oscillator.stiffness = -1.0; }},
       {"system.damping", "any finite value", [](Model& m) { m.oscillator.damping = infinity; }},
-      {"system.cubic_stiffness", "any finite value", [](Model& m) { m.oscillator.cubic_stiffness = nan; }},
+      {"system.cubic_stiffness", "any finite value", [](Model& m) { m.oscillator.cubic_stiffness = not_a_number; }},
       {"system.friction", "1 to 16 items",
        [](Model& m) { m.friction.resize(17, friction::Law(friction::Coulomb(1.0, 1.0))); }},
       {"excitation.amplitude", ">= 0 m", [](Model& m) { m.excitation.amplitude = -1.0; }},
       {"excitation.amplitude", ">= 0 m", [](Model& m) { m.excitation.amplitude = infinity; }},
       {"excitation.frequency", "> 0 rad/s", [](Model& m) { m.excitation.frequency = 0.0; }},
-      {"excitation.frequency", "> 0 rad/s", [](Model& m) { m.excitation.frequency = nan; }},
-      {"excitation.phase", "any finite value", [](Model& m) { m.excitation.phase = nan; }},
+      {"excitation.frequency", "> 0 rad/s", [](Model& m) { m.excitation.frequency = not_a_number; }},
+      {"excitation.phase", "any finite value", [](Model& m) { m.excitation.phase = not_a_number; }},
       {"excitation.offset", "any finite value",
        [](Model& m) {
          m.excitation.type = sim::ExcitationType::force_harmonic;
-         m.excitation.offset = nan;
+         m.excitation.offset = not_a_number;
        }},
       {"excitation.harmonics.order", ">= 2 and <= 1000",
        [](Model& m) { m.excitation.harmonics = {{1, 1.0, 0.0}}; }},
-      {"excitation.harmonics.amplitude", ">= 0 m", [](Model& m) { m.excitation.harmonics = {{2, nan, 0.0}}; }},
+      {"excitation.harmonics.amplitude", ">= 0 m",
+       [](Model& m) { m.excitation.harmonics = {{2, not_a_number, 0.0}}; }},
       {"excitation.harmonics", "1 to 8 items", [](Model& m) { m.excitation.harmonics.resize(9, {3, 0.1, 0.0}); }},
-      {"initial.position", "any finite value", [](Model& m) { m.initial.position = nan; }},
+      {"initial.position", "any finite value", [](Model& m) { m.initial.position = not_a_number; }},
       {"initial.velocity", "any finite value", [](Model& m) { m.initial.velocity = infinity; }},
-      {"numerics.tolerance", ">= 1e-15 and <= 0.001", [](Model& m) { m.solver.tolerance = 0.0; }},
+      {"numerics.tolerance", ">= 1.0e-15 and <= 0.001", [](Model& m) { m.solver.tolerance = 0.0; }},
   };
 }
 
@@ -129,7 +130,7 @@ TEST_CASE("Noise and ramps are checked by their own numbers") {
   model.excitation = {.type = sim::ExcitationType::force_noise, .noise = {.intensity = -1.0, .bandwidth = 0.0}};
   REQUIRE(sim::validate(model).size() == 2);
   CHECK(sim::validate(model)[0].allowed == ">= 0 N^2.s");
-  model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = nan};
+  model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = not_a_number};
   REQUIRE(sim::validate(model).size() == 1);
   CHECK(sim::validate(model)[0].message == "'excitation.velocity' is out of range");
 }
@@ -153,9 +154,9 @@ TEST_CASE("Arguments beside the model are checked too") {
   CHECK_THROWS_AS(sim::steady_state(free), core::InputError);
   CHECK_THROWS_AS(sim::xy_curve(free, {1.0}), core::InputError);
   CHECK_THROWS_AS(sim::free_decay(model, 3), core::InputError);
-  CHECK_THROWS_AS(sim::simulate(model, {.duration = nan}), core::InputError);
+  CHECK_THROWS_AS(sim::simulate(model, {.duration = not_a_number}), core::InputError);
   CHECK_THROWS_AS(sim::simulate(model, {.duration = 1.0, .sample_rate = -1.0}), core::InputError);
-  CHECK_THROWS_AS(sim::xy_curve(model, {1.0, nan}), core::InputError);
+  CHECK_THROWS_AS(sim::xy_curve(model, {1.0, not_a_number}), core::InputError);
   CHECK_THROWS_AS(sim::frequency_response(model, {1.0, 0.0}), core::InputError);
   CHECK_THROWS_AS(sim::regime_map(model, {1.0}, {-1.0}), core::InputError);
   CHECK_THROWS_AS(sim::continue_branch(model, sim::BranchParameter::frequency, 0.0, 1.0), core::InputError);
@@ -182,7 +183,7 @@ TEST_CASE("A batch with columns of different length or values out of range is re
   };
   refused([](auto& b) { b.damping.pop_back(); });
   refused([](auto& b) { b.mass[1] = 0.0; });
-  refused([](auto& b) { b.stiffness[2] = nan; });
+  refused([](auto& b) { b.stiffness[2] = not_a_number; });
   refused([](auto& b) { b.static_level[0] = 0.5; });
   refused([](auto& b) { b.frequency[0] = 0.0; });
   refused([](auto& b) { b.type = sim::ExcitationType::none; });
