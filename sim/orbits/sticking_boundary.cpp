@@ -89,7 +89,6 @@ Model driven(Model model) {
 std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies) {
   require_in(positive, "analysis.frequencies", frequencies, "rad/s");
   const ForceLimits limits = limits_of(valid_harmonic(driven(model), "sticking_boundary"));
-  require(limits.holding > 0.0, "sticking_boundary needs a law that holds the mass", "a law with static friction");
   std::vector<BoundaryPoint> boundary;
   for (const double omega : frequencies) boundary.push_back(find(model, limits, omega));
   return boundary;

@@ -162,9 +162,6 @@ TEST_CASE("Arguments beside the model are checked too") {
   CHECK_THROWS_AS(sim::continue_branch(model, sim::BranchParameter::frequency, 0.0, 1.0), core::InputError);
   CHECK_THROWS_AS(sim::sticking_boundary(model, std::vector{-1.0}), core::InputError);
   CHECK_THROWS_AS(sim::one_period(model, {}, 10), core::InputError);
-  Model without_friction = model;
-  without_friction.friction.clear();
-  CHECK_THROWS_AS(sim::sticking_boundary(without_friction, std::vector{1.0}), core::InputError);
   Model cubic = model;
   cubic.oscillator.cubic_stiffness = 1.0;
   CHECK_THROWS_AS(sim::ExactEngine(cubic), core::InputError);
