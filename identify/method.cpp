@@ -3,7 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/validate.hpp"
+
 namespace dualdamp::identify {
+
+namespace {
+
+/// Why no method may look at this input; empty when one may. Histories and extremes are left to the methods, which
+/// leave out what they cannot use.
+std::string fault_of_input(const Record& record, const KnownConstants& constants) {
+  if (const auto faults = faults_of(constants); !faults.empty()) return faults.front().message;
+  if (const auto faults = faults_of(Record{record.pairs, {}, {}}); !faults.empty()) return faults.front().message;
+  return {};
+}
+
+}  // namespace
 
 std::string_view describe(RecordKind kind) {
   switch (kind) {
@@ -17,6 +31,28 @@ std::string_view describe(RecordKind kind) {
       return "time histories";
   }
   return {};
+}
+
+bool MethodEntry::has(const Option& option) const { return std::ranges::find(options(), &option) != options().end(); }
+
+OptionValues MethodEntry::own(const OptionValues& values) const {
+  OptionValues result;
+  for (const Option* option : options())
+    if (const auto found = values.find(option->name); found != values.end()) result.insert(*found);
+  return result;
+}
+
+Estimate MethodEntry::run(const Record& record, const KnownConstants& constants, const OptionValues& values) const {
+  if (std::vector<core::Diagnostic> faults = faults_of(values, options()); !faults.empty())
+    throw core::InputError(std::move(faults));
+  if (const std::string fault = fault_of_input(record, constants); !fault.empty()) {
+    Estimate estimate;
+    estimate.method = name;
+    estimate.outcome = {core::OutcomeKind::not_identifiable, fault};
+    estimate.reason = fault;
+    return estimate;
+  }
+  return call.run(record, constants, values);
 }
 
 std::string lacks_pairs(const Record& record) {

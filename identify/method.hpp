@@ -2,10 +2,12 @@
 /// The contract of an identification method: a record in, an estimate out. A header of a method defines its
 /// `MethodEntry`; `methods.cpp` lists them.
 
+#include <span>
+#include <string>
 #include <string_view>
-#include <vector>
 
 #include "identify/estimate.hpp"
+#include "identify/options.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -21,34 +23,34 @@ enum class RecordKind {
 /// "x-Y pairs", "extremes of a free vibration", ...
 [[nodiscard]] std::string_view describe(RecordKind kind);
 
-struct MethodOptions {
-  /// G from the exact Eq (4) at w = wn, or from the paper's approximation Eq (15) as a named variant.
-  bool approximate_G = false;
-  /// Numbers of the two pairs used by resonance_two_point; 0: the outermost usable pairs.
-  int first_pair = 0;
-  int second_pair = 0;
-  /// Standard deviations of one measured output and input amplitude (of one extreme: sigma_x) [m]. When either is
-  /// positive they replace the scatter of the residuals, so that even two pairs have standard errors.
-  double sigma_x = 0.0;
-  double sigma_Y = 0.0;
-  /// free_decay: the extremes are about zero, so three of them suffice.
-  bool zero_offset = false;
-  /// den_hartog_fit: the natural frequency is fitted too.
-  bool free_natural_frequency = false;
-  /// Cut-off frequencies of the low-pass filter that histories are differentiated with [Hz]: the estimate is made
-  /// with the first, and made again with the others to show what the choice matters. Empty: the method's own.
-  std::vector<double> cutoffs;
-  /// Samples slower than this are left out where friction is regressed on speed [m/s]; 0: the method's own choice.
-  double least_speed = 0.0;
-  /// Replicates of a bootstrap by sweeps (by residuals where there is one sweep); 0: none.
-  int bootstrap = 0;
-  /// Profiles of the likelihood of zeta and F0, as curves with the intervals that follow from them.
-  bool profile = false;
-  /// recursive_least_squares: forgetting factor, in (0, 1]; 1 forgets nothing.
-  double forgetting = 1.0;
-  /// extended_kalman: width of the smoothed sign of the velocity [m/s]; 0: the method's own choice.
-  double sign_width = 0.0;
+/// The options that a method declares, and how it is run.
+struct MethodCall {
+  std::span<const Option* const> options;
+  Estimate (*run)(const Record&, const KnownConstants&, const OptionValues&) = nullptr;
 };
+
+template <auto method>
+struct CallOf;
+
+template <class Options, Estimate (*method)(const Record&, const KnownConstants&, const Options&)>
+struct CallOf<method> {
+  static Estimate run(const Record& record, const KnownConstants& constants, const OptionValues& values) {
+    return method(record, constants, taken_from<Options>(values));
+  }
+  static constexpr MethodCall value{declarations_of<Options>, run};
+};
+
+template <Estimate (*method)(const Record&, const KnownConstants&)>
+struct CallOf<method> {
+  static Estimate run(const Record& record, const KnownConstants& constants, const OptionValues& /*none*/) {
+    return method(record, constants);
+  }
+  static constexpr MethodCall value{{}, run};
+};
+
+/// The call of a method: a function of a record, constants and, where it has options, the struct of their values.
+template <auto method>
+inline constexpr MethodCall call_of = CallOf<method>::value;
 
 struct MethodEntry {
   std::string_view name;      ///< contract
@@ -59,8 +61,18 @@ struct MethodEntry {
   RecordKind needs;
   /// Why this record does not hold what the method needs; empty when it does.
   std::string (*lacks)(const Record&);
-  /// A record that lacks something, or has not enough usable data: `outcome` not ok() with the reason.
-  Estimate (*run)(const Record&, const KnownConstants&, const MethodOptions&);
+  MethodCall call;
+
+  [[nodiscard]] std::span<const Option* const> options() const { return call.options; }
+  [[nodiscard]] bool has(const Option& option) const;
+  /// Those of the values that are of the method's options.
+  [[nodiscard]] OptionValues own(const OptionValues& values) const;
+
+  /// A record or constants that are not sound (validate.hpp), a record that lacks something or has not enough usable
+  /// data: `outcome` not ok() with the reason. Values that are not those of the method's options throw a
+  /// `core::InputError`.
+  [[nodiscard]] Estimate run(const Record& record, const KnownConstants& constants,
+                             const OptionValues& values = {}) const;
 };
 
 /// `lacks` of the methods that ask for no more: "the record holds no x-Y pairs". `lacks_resonance_pairs` wants them

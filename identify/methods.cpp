@@ -54,4 +54,16 @@ const MethodEntry* find_method(std::string_view name) {
   return found == list.end() ? nullptr : &*found;
 }
 
+const std::vector<const Option*>& options() {
+  static const std::vector<const Option*> list = [] {
+    std::vector<const Option*> all;
+    for (const MethodEntry& method : methods())
+      for (const Option* option : method.options())
+        if (std::ranges::find(all, option) == all.end()) all.push_back(option);
+    std::ranges::sort(all, {}, &Option::name);
+    return all;
+  }();
+  return list;
+}
+
 }  // namespace dualdamp::identify

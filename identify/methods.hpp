@@ -13,4 +13,7 @@ namespace dualdamp::identify {
 /// nullptr when there is no such method.
 [[nodiscard]] const MethodEntry* find_method(std::string_view name);
 
+/// The options of all methods, by name, each once.
+[[nodiscard]] const std::vector<const Option*>& options();
+
 }  // namespace dualdamp::identify

@@ -41,7 +41,7 @@ identify::Record fifty_pairs() {
   return measured(curve, 0.0);
 }
 
-double seconds_for(const char* method, const identify::Record& record, const identify::MethodOptions& options) {
+double seconds_for(const char* method, const identify::Record& record, const identify::OptionValues& options) {
   const identify::MethodEntry& entry = *identify::find_method(method);
   const sim::Model model = bearing();
   const identify::KnownConstants constants{model.oscillator.mass, model.oscillator.stiffness,
@@ -58,9 +58,7 @@ double seconds_for(const char* method, const identify::Record& record, const ide
 }  // namespace
 
 double seconds_for_bootstrap() {
-  identify::MethodOptions options;
-  options.bootstrap = 1000;
-  return seconds_for("resonance_least_squares", fifty_pairs(), options);
+  return seconds_for("resonance_least_squares", fifty_pairs(), {{"bootstrap", 1000}});
 }
 
 double seconds_for_output_error() {

@@ -171,7 +171,7 @@ Motion motion_of(const History& history, double cutoff) {
   return motion;
 }
 
-std::vector<double> cutoffs_for(const History& history, const MethodOptions& options) {
+std::vector<double> cutoffs_for(const History& history, const FilterOptions& options) {
   if (!options.cutoffs.empty()) return options.cutoffs;
   if (!history.v.empty() && !history.a.empty()) return {0.0};
   const double rate = history.sample_rate;
@@ -201,7 +201,7 @@ std::string fault_of_cutoff(const History& history, double cutoff) {
   return {};
 }
 
-std::vector<NumberedHistory> usable_histories(const Record& record, const MethodOptions& options,
+std::vector<NumberedHistory> usable_histories(const Record& record, const FilterOptions& options,
                                               Estimate& estimate) {
   std::vector<NumberedHistory> usable;
   if (std::string lack = lacks_histories(record); !lack.empty()) {
@@ -225,11 +225,8 @@ std::vector<NumberedHistory> usable_histories(const Record& record, const Method
   return usable;
 }
 
-std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
-                                               const MethodOptions& options, Estimate& estimate) {
-  MethodOptions unfiltered = options;
-  unfiltered.cutoffs = {0.0};
-  const std::vector<NumberedHistory> histories = usable_histories(record, unfiltered, estimate);
+std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants, Estimate& estimate) {
+  const std::vector<NumberedHistory> histories = usable_histories(record, {.cutoffs = {0.0}}, estimate);
   if (histories.empty()) return std::nullopt;
   if (std::string fault = fault_of(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
@@ -243,7 +240,7 @@ std::optional<NumberedHistory> longest_history(const Record& record, const Known
   return longest;
 }
 
-double least_speed_for(const std::vector<Motion>& motions, const MethodOptions& options) {
+double least_speed_for(const std::vector<Motion>& motions, const RegressionOptions& options) {
   if (options.least_speed > 0.0) return options.least_speed;
   double fastest = 0.0;
   for (const Motion& motion : motions)

@@ -71,7 +71,7 @@ struct Motion {
 /// Cut-offs to use [Hz]: those of the options, or else the method's own choice: a twentieth of the rate, or eight
 /// times the mean frequency of the motion where that is more, and 0.6 and 0.4 of it; no filter at all (one cut-off
 /// 0) where velocity and acceleration were measured.
-[[nodiscard]] std::vector<double> cutoffs_for(const History& history, const MethodOptions& options);
+[[nodiscard]] std::vector<double> cutoffs_for(const History& history, const FilterOptions& options);
 
 /// Why a history cannot be used at all: no x, signals of different length or not finite, no rate; empty: it can.
 [[nodiscard]] std::string fault_of(const History& history);
@@ -85,17 +85,17 @@ struct NumberedHistory {
   int number = 0;
   const History* history = nullptr;
 };
-[[nodiscard]] std::vector<NumberedHistory> usable_histories(const Record& record, const MethodOptions& options,
+[[nodiscard]] std::vector<NumberedHistory> usable_histories(const Record& record, const FilterOptions& options,
                                                             Estimate& estimate);
 
 /// The longest history that can be used as it is, for the methods that take one alone and need mass and stiffness;
 /// the others go to the exclusions. Nothing: the estimate has been refused.
 [[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
-                                                             const MethodOptions& options, Estimate& estimate);
+ Estimate& estimate);
 
 /// Samples slower than this are left out of a regression on speed [m/s]: the option, or a hundredth of the largest
 /// speed, for the sign of a slower one is that of the noise.
-[[nodiscard]] double least_speed_for(const std::vector<Motion>& motions, const MethodOptions& options);
+[[nodiscard]] double least_speed_for(const std::vector<Motion>& motions, const RegressionOptions& options);
 
 /// `lacks` of the methods on histories: "the record holds no time histories".
 [[nodiscard]] std::string lacks_histories(const Record& record);

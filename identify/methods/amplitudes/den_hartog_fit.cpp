@@ -335,7 +335,7 @@ std::string fault_of(const Model& model, const std::vector<Exclusion>& excluded)
 
 }  // namespace
 
-Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, const DenHartogOptions& options) {
   Estimate estimate;
   estimate.method = den_hartog_fit_method.name;
   std::optional<ResonanceData> data = take_pairs(record, constants, estimate);

@@ -19,8 +19,24 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate den_hartog_fit(const Record& record, const KnownConstants& constants,
-                                      const MethodOptions& options);
+inline constexpr Option free_natural_frequency_option{
+    .name = "free_natural_frequency", .meaning = "den_hartog_fit fits the natural frequency too"};
+
+struct DenHartogOptions : KnownDeviations {
+  bool free_natural_frequency = false;
+  int bootstrap = 0;     ///< replicates; 0: none
+  bool profile = false;  ///< curves of the likelihood of zeta and F0
+
+  static constexpr auto declared() {
+    return std::tuple_cat(
+        KnownDeviations::declared(),
+        std::tuple{Use{&free_natural_frequency_option, &DenHartogOptions::free_natural_frequency},
+                   Use{&bootstrap_option, &DenHartogOptions::bootstrap},
+                   Use{&profile_option, &DenHartogOptions::profile}});
+  }
+};
+
+[[nodiscard]] Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, const DenHartogOptions& options = {});
 
 inline constexpr MethodEntry den_hartog_fit_method{
     "den_hartog_fit",
@@ -33,6 +49,6 @@ inline constexpr MethodEntry den_hartog_fit_method{
     "denhartog1931, hundal1979, liang2004identifying",
     RecordKind::states,
     lacks_pairs,
-    den_hartog_fit};
+    call_of<den_hartog_fit>};
 
 }  // namespace dualdamp::identify

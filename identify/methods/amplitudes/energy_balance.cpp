@@ -101,7 +101,7 @@ int cycles_of(const std::vector<double>& x, double band) {
 /// Histories in windows of about a cycle each, filtered with the first cut-off. Where the mass rests all that moves
 /// is noise, whose way is no motion: such windows are left out.
 std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
-                                               const MethodOptions& options, Estimate& estimate) {
+                                               const FilterOptions& options, Estimate& estimate) {
   std::vector<EnergyTerms> accounts;
   for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
     const Motion motion = motion_of(*item.history, cutoffs_for(*item.history, options).front());
@@ -117,7 +117,7 @@ std::vector<EnergyTerms> accounts_of_histories(const Record& record, const Known
   return accounts;
 }
 
-Estimate of_histories(const Record& record, const KnownConstants& constants, const MethodOptions& options,
+Estimate of_histories(const Record& record, const KnownConstants& constants, const FilterOptions& options,
                       Estimate estimate) {
   if (std::string fault = fault_of(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
@@ -174,7 +174,7 @@ std::string lacks_energy(const Record& record) {
 }
 
 /// States, being averaged over many cycles, come before histories.
-Estimate energy_balance(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate energy_balance(const Record& record, const KnownConstants& constants, const FilterOptions& options) {
   Estimate estimate;
   estimate.method = energy_balance_method.name;
   if (record.histories.empty() || lacks_phases(record).empty())

@@ -46,8 +46,7 @@ using OwnAccounts = std::function<std::vector<EnergyTerms>(const ParameterSet&)>
 bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& constants, Estimate& estimate,
              std::vector<std::string>& faults, const OwnAccounts& own = {});
 
-[[nodiscard]] Estimate energy_balance(const Record& record, const KnownConstants& constants,
-                                      const MethodOptions& options);
+[[nodiscard]] Estimate energy_balance(const Record& record, const KnownConstants& constants, const FilterOptions& options = {});
 
 /// Two pairs with phases, or histories, are asked for.
 [[nodiscard]] std::string lacks_energy(const Record& record);
@@ -62,6 +61,6 @@ inline constexpr MethodEntry energy_balance_method{
     "tomlinson1979, liang2006balancing",
     RecordKind::states,
     lacks_energy,
-    energy_balance};
+    call_of<energy_balance>};
 
 }  // namespace dualdamp::identify

@@ -289,7 +289,7 @@ std::optional<ForceLine> fit_sliding(std::vector<Pair>& states, const KnownConst
 
 }  // namespace
 
-Estimate harmonic_balance(const Record& record, const KnownConstants& constants, const MethodOptions& /*options*/) {
+Estimate harmonic_balance(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
   estimate.method = harmonic_balance_method.name;
   std::optional<std::vector<Pair>> states = take_states(record, constants, false, estimate);

@@ -35,8 +35,7 @@ namespace dualdamp::identify {
 [[nodiscard]] double friction_from_fundamental(const std::function<double(double)>& Phi,
                                                const std::function<double(double)>& Phi_slope, double u);
 
-[[nodiscard]] Estimate harmonic_balance(const Record& record, const KnownConstants& constants,
-                                        const MethodOptions& options);
+[[nodiscard]] Estimate harmonic_balance(const Record& record, const KnownConstants& constants);
 
 inline constexpr MethodEntry harmonic_balance_method{
     "harmonic_balance",
@@ -48,6 +47,6 @@ inline constexpr MethodEntry harmonic_balance_method{
     "iourtchenko2002, tomlinson1980",
     RecordKind::states,
     lacks_pairs,
-    harmonic_balance};
+    call_of<harmonic_balance>};
 
 }  // namespace dualdamp::identify

@@ -418,12 +418,8 @@ std::vector<Fit> fit_laws(const Test& test, std::size_t levels, Estimate& estima
 
 }  // namespace
 
-Estimate law_selection(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
-  MethodOptions plain = options;
-  plain.free_natural_frequency = false;
-  plain.profile = false;
-  plain.bootstrap = 0;
-  Estimate estimate = den_hartog_fit(record, constants, plain);
+Estimate law_selection(const Record& record, const KnownConstants& constants, const KnownDeviations& options) {
+  Estimate estimate = den_hartog_fit(record, constants, DenHartogOptions{options});
   estimate.method = law_selection_method.name;
   if (!estimate.outcome.ok()) return estimate;
   estimate.lack_of_fit.reset();

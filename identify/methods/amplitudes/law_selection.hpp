@@ -24,8 +24,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate law_selection(const Record& record, const KnownConstants& constants,
-                                     const MethodOptions& options);
+[[nodiscard]] Estimate law_selection(const Record& record, const KnownConstants& constants, const KnownDeviations& options = {});
 
 inline constexpr MethodEntry law_selection_method{
     "law_selection",
@@ -37,6 +36,6 @@ inline constexpr MethodEntry law_selection_method{
     "burnham2002, schwarz1978, denhartog1931",
     RecordKind::states,
     lacks_pairs,
-    law_selection};
+    call_of<law_selection>};
 
 }  // namespace dualdamp::identify

@@ -63,7 +63,7 @@ double slope_variance(const Moments& m, const Line& line, double lambda, double 
   return scatter / S * (1.0 + (m.count - 1.0) * scatter * lambda / (width * width * S));
 }
 
-std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope, const MethodOptions& options,
+std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope, const KnownDeviations& options,
                                   double unit) {
   const double sigma_x = std::max(options.sigma_x, 0.0) / unit;
   const double sigma_Y = std::max(options.sigma_Y, 0.0) / unit;
@@ -306,7 +306,7 @@ void bootstrap(const LineRule& rule, const Fit& fit, const ResonanceData& data, 
 }  // namespace
 
 Estimate estimate_by_line(const LineRule& rule, const Record& record, const KnownConstants& constants,
-                          const MethodOptions& options) {
+                          const LineOptions& options) {
   Estimate estimate;
   estimate.method = rule.method;
   const std::optional<ResonanceData> data = prepare(record, constants, options, estimate);

@@ -52,7 +52,7 @@ struct Scatter {
 /// From the standard deviations in `options` where one is given, else from the residuals with `freedom` degrees of
 /// freedom; nothing when there are neither.
 [[nodiscard]] std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope,
-                                                const MethodOptions& options, double unit);
+                                                const KnownDeviations& options, double unit);
 
 /// The quadratic columns of the test for curvature: 1, u, and u^2 apart, u the input over the range of inputs.
 struct CurvatureColumns {
@@ -82,6 +82,6 @@ struct LineRule {
 
 /// Prepares the record, leaves out what sticks, draws the line, and reports and doubts it.
 [[nodiscard]] Estimate estimate_by_line(const LineRule& rule, const Record& record, const KnownConstants& constants,
-                                        const MethodOptions& options);
+                                        const LineOptions& options);
 
 }  // namespace dualdamp::identify

@@ -236,7 +236,7 @@ std::string lacks_receptance(const Record& record) {
   return frequencies.size() >= 3 ? "" : "the pairs with phases are at fewer than three frequencies";
 }
 
-Estimate receptance(const Record& record, const KnownConstants& constants, const MethodOptions& /*options*/) {
+Estimate receptance(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
   estimate.method = receptance_method.name;
   if (std::string lack = lacks_receptance(record); !lack.empty()) {

@@ -21,8 +21,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate receptance(const Record& record, const KnownConstants& constants,
-                                  const MethodOptions& options);
+[[nodiscard]] Estimate receptance(const Record& record, const KnownConstants& constants);
 
 /// Phases at three frequencies are asked for.
 [[nodiscard]] std::string lacks_receptance(const Record& record);
@@ -37,6 +36,6 @@ inline constexpr MethodEntry receptance_method{
     "tomlinson1980",
     RecordKind::states,
     lacks_receptance,
-    receptance};
+    call_of<receptance>};
 
 }  // namespace dualdamp::identify

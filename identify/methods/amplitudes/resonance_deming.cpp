@@ -4,7 +4,7 @@
 
 namespace dualdamp::identify {
 
-Estimate resonance_deming(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate resonance_deming(const Record& record, const KnownConstants& constants, const LineOptions& options) {
   const auto lambda = [&options](const Moments& moments) {
     const bool known = options.sigma_x > 0.0 || options.sigma_Y > 0.0;
     const double ratio = known ? options.sigma_x / options.sigma_Y : moments.mean_x / moments.mean_Y;

@@ -18,8 +18,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate resonance_deming(const Record& record, const KnownConstants& constants,
-                                        const MethodOptions& options);
+[[nodiscard]] Estimate resonance_deming(const Record& record, const KnownConstants& constants, const LineOptions& options = {});
 
 inline constexpr MethodEntry resonance_deming_method{
     "resonance_deming",
@@ -34,6 +33,6 @@ inline constexpr MethodEntry resonance_deming_method{
     "liang2004identifying, deming1943, fuller1987",
     RecordKind::pairs,
     lacks_resonance_pairs,
-    resonance_deming};
+    call_of<resonance_deming>};
 
 }  // namespace dualdamp::identify

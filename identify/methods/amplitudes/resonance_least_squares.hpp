@@ -18,8 +18,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate resonance_least_squares(const Record& record, const KnownConstants& constants,
-                                               const MethodOptions& options);
+[[nodiscard]] Estimate resonance_least_squares(const Record& record, const KnownConstants& constants, const LineOptions& options = {});
 
 inline constexpr MethodEntry resonance_least_squares_method{
     "resonance_least_squares",
@@ -30,6 +29,6 @@ inline constexpr MethodEntry resonance_least_squares_method{
     "liang2004identifying",
     RecordKind::pairs,
     lacks_resonance_pairs,
-    resonance_least_squares};
+    call_of<resonance_least_squares>};
 
 }  // namespace dualdamp::identify

@@ -89,7 +89,7 @@ std::optional<ResonanceData> take_pairs(const Record& record, const KnownConstan
 }
 
 std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
-                                     const MethodOptions& options, Estimate& estimate) {
+                                     const ResonanceOptions& options, Estimate& estimate) {
   if (std::string lack = lacks_resonance_pairs(record); !lack.empty()) {
     refuse(estimate, std::move(lack));
     return std::nullopt;

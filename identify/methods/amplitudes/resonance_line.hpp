@@ -58,7 +58,7 @@ struct LineFriction {
 /// The same for pairs at one frequency near resonance. Refused beyond that: another record, a frequency far from
 /// resonance, fewer than two pairs with positive finite amplitudes.
 [[nodiscard]] std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
-                                                   const MethodOptions& options, Estimate& estimate);
+                                                   const ResonanceOptions& options, Estimate& estimate);
 
 /// Nothing for a line that does not rise, or for numbers beyond double precision.
 [[nodiscard]] std::optional<LineFriction> friction_of(const Line& line, const ResonanceG& G);

@@ -49,13 +49,13 @@ class Outermost {
 };
 
 /// The named pairs in the order of naming; empty after `estimate` has been refused.
-std::vector<Datum> named_pairs(const ResonanceData& data, const MethodOptions& options, Estimate& estimate) {
-  if (options.first_pair == options.second_pair) {
-    refuse(estimate, "the two named pairs are the same");
+std::vector<Datum> named_pairs(const ResonanceData& data, const TwoPointOptions& options, Estimate& estimate) {
+  if (options.pairs.size() != 2 || options.pairs[0] == options.pairs[1]) {
+    refuse(estimate, options.pairs.size() == 2 ? "the two named pairs are the same" : "two pairs must be named");
     return {};
   }
   std::vector<Datum> named;
-  for (const int number : {options.first_pair, options.second_pair}) {
+  for (const int number : options.pairs) {
     const auto found = std::find_if(data.pairs.begin(), data.pairs.end(),
                                     [number](const Datum& datum) { return datum.number == number; });
     if (found == data.pairs.end()) {
@@ -84,10 +84,10 @@ void judge_others(const std::vector<Datum>& sliding, const std::vector<Datum>& t
 
 /// The two pairs to use, none of which sticks at their own estimate; empty after `estimate` has been refused.
 /// `sliding` receives all pairs that do not stick.
-std::vector<Datum> choose(const ResonanceData& data, const MethodOptions& options, std::vector<Datum>& sliding,
+std::vector<Datum> choose(const ResonanceData& data, const TwoPointOptions& options, std::vector<Datum>& sliding,
                           Estimate& estimate) {
   const auto total = data.pairs.size() + estimate.excluded.size();
-  const bool by_name = options.first_pair != 0 || options.second_pair != 0;
+  const bool by_name = !options.pairs.empty();
   std::vector<Datum> two;
   std::size_t first = 0;
   if (by_name) {
@@ -115,7 +115,7 @@ std::vector<Datum> choose(const ResonanceData& data, const MethodOptions& option
   return {};
 }
 
-void add_uncertainty(const ResonanceData& data, const TwoPointSensitivity& s, const MethodOptions& options,
+void add_uncertainty(const ResonanceData& data, const TwoPointSensitivity& s, const TwoPointOptions& options,
                      Estimate& estimate) {
   if (!(options.sigma_x > 0.0) && !(options.sigma_Y > 0.0)) return;
   Eigen::Matrix<double, 2, 4> jacobian;
@@ -129,7 +129,7 @@ void add_uncertainty(const ResonanceData& data, const TwoPointSensitivity& s, co
 
 }  // namespace
 
-Estimate resonance_two_point(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate resonance_two_point(const Record& record, const KnownConstants& constants, const TwoPointOptions& options) {
   Estimate estimate;
   estimate.method = "resonance_two_point";
   const std::optional<ResonanceData> data = prepare(record, constants, options, estimate);

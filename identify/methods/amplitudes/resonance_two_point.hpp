@@ -15,8 +15,24 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate resonance_two_point(const Record& record, const KnownConstants& constants,
-                                           const MethodOptions& options);
+inline constexpr Option pairs_option{
+    .name = "pairs",
+    .kind = OptionKind::counts,
+    .range = {.low = 1.0},
+    .least_items = 2,
+    .most_items = 2,
+    .otherwise = "the outermost",
+    .meaning = "numbers of the two pairs that resonance_two_point uses; default: the outermost"};
+
+struct TwoPointOptions : ResonanceOptions {
+  std::vector<int> pairs;  ///< numbers of two; empty: the outermost usable pairs
+
+  static constexpr auto declared() {
+    return std::tuple_cat(ResonanceOptions::declared(), std::tuple{Use{&pairs_option, &TwoPointOptions::pairs}});
+  }
+};
+
+[[nodiscard]] Estimate resonance_two_point(const Record& record, const KnownConstants& constants, const TwoPointOptions& options = {});
 
 inline constexpr MethodEntry resonance_two_point_method{
     "resonance_two_point",
@@ -28,6 +44,6 @@ inline constexpr MethodEntry resonance_two_point_method{
     "liang2004identifying",
     RecordKind::pairs,
     lacks_resonance_pairs,
-    resonance_two_point};
+    call_of<resonance_two_point>};
 
 }  // namespace dualdamp::identify

@@ -149,7 +149,7 @@ double combined_freedom(double first, double first_freedom, double second, doubl
 }
 
 void add_uncertainty(const ParallelLines& lines, const std::vector<Sweep>& sweeps, const LineFriction& friction,
-                     const ResonanceData& data, const MethodOptions& options, Estimate& estimate) {
+                     const ResonanceData& data, const WithinSweepOptions& options, Estimate& estimate) {
   const auto scatter = scatter_of(lines.sum_of_squares, lines.freedom(), lines.slope, options, data.unit);
   if (!scatter) return;
   const auto count = static_cast<double>(sweeps.size());
@@ -220,7 +220,7 @@ std::string lacks_sweeps(const Record& record) {
 }
 
 Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants,
-                                const MethodOptions& options) {
+                                const WithinSweepOptions& options) {
   Estimate estimate;
   estimate.method = resonance_within_sweep_method.name;
   if (std::string lack = lacks_sweeps(record); !lack.empty()) {

@@ -21,8 +21,16 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants,
-                                              const MethodOptions& options);
+struct WithinSweepOptions : ResonanceOptions {
+  int bootstrap = 0;  ///< replicates by sweeps; 0: none
+
+  static constexpr auto declared() {
+    return std::tuple_cat(ResonanceOptions::declared(),
+                          std::tuple{Use{&bootstrap_option, &WithinSweepOptions::bootstrap}});
+  }
+};
+
+[[nodiscard]] Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants, const WithinSweepOptions& options = {});
 
 /// Two sweeps with two pairs each are asked for.
 [[nodiscard]] std::string lacks_sweeps(const Record& record);
@@ -39,6 +47,6 @@ inline constexpr MethodEntry resonance_within_sweep_method{
     "liang2004identifying, draper1998, welch1947",
     RecordKind::pairs,
     lacks_sweeps,
-    resonance_within_sweep};
+    call_of<resonance_within_sweep>};
 
 }  // namespace dualdamp::identify

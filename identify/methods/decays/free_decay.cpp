@@ -250,7 +250,7 @@ void list_windows(const Extremes& extremes, const KnownConstants& constants, Est
   }
 }
 
-void add_uncertainty(const DecayModel& model, const Solution& solution, const MethodOptions& options, double unit,
+void add_uncertainty(const DecayModel& model, const Solution& solution, const FreeDecayOptions& options, double unit,
                      const KnownConstants& constants, Estimate& estimate) {
   const auto freedom = static_cast<double>(estimate.used.size()) - (options.zero_offset ? 3.0 : 4.0);
   const bool known = options.sigma_x > 0.0;
@@ -278,7 +278,7 @@ DecayFit decay_fit(const Solution& solution, std::size_t unknowns, double unit) 
 
 }  // namespace
 
-Estimate free_decay(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate free_decay(const Record& record, const KnownConstants& constants, const FreeDecayOptions& options) {
   Estimate estimate;
   estimate.method = "free_decay";
   std::optional<Extremes> extremes = take_extremes(record, constants, estimate);

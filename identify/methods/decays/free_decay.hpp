@@ -20,8 +20,20 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate free_decay(const Record& record, const KnownConstants& constants,
-                                  const MethodOptions& options);
+inline constexpr Option zero_offset_option{
+    .name = "zero_offset", .meaning = "the extremes of a free vibration are known to be about zero"};
+
+struct FreeDecayOptions {
+  double sigma_x = 0.0;      ///< standard deviation of one extreme [m]; 0: from the residuals
+  bool zero_offset = false;  ///< the extremes are about zero, so three of them suffice
+
+  static constexpr auto declared() {
+    return std::tuple{Use{&sigma_x_option, &FreeDecayOptions::sigma_x},
+                      Use{&zero_offset_option, &FreeDecayOptions::zero_offset}};
+  }
+};
+
+[[nodiscard]] Estimate free_decay(const Record& record, const KnownConstants& constants, const FreeDecayOptions& options = {});
 
 inline constexpr MethodEntry free_decay_method{
     "free_decay",
@@ -33,6 +45,6 @@ inline constexpr MethodEntry free_decay_method{
     "feeny1996decrement, liang1998decrement",
     RecordKind::decay,
     lacks_decay,
-    free_decay};
+    call_of<free_decay>};
 
 }  // namespace dualdamp::identify

@@ -68,7 +68,7 @@ void judge_bias(const Friction& crude, const std::optional<Friction>& better, Es
 
 }  // namespace
 
-Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, const JacobsenAyreOptions& options) {
   Estimate estimate;
   estimate.method = jacobsen_ayre_method.name;
   if (std::string lack = lacks_decay(record); !lack.empty()) {

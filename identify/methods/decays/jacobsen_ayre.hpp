@@ -18,8 +18,13 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants,
-                                     const MethodOptions& options);
+struct JacobsenAyreOptions {
+  double sigma_x = 0.0;  ///< standard deviation of one extreme [m]; 0: not known
+
+  static constexpr auto declared() { return std::tuple{Use{&sigma_x_option, &JacobsenAyreOptions::sigma_x}}; }
+};
+
+[[nodiscard]] Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, const JacobsenAyreOptions& options = {});
 
 inline constexpr MethodEntry jacobsen_ayre_method{
     "jacobsen_ayre",
@@ -31,6 +36,6 @@ inline constexpr MethodEntry jacobsen_ayre_method{
     "jacobsen1958, liang1998decrement",
     RecordKind::decay,
     lacks_decay,
-    jacobsen_ayre};
+    call_of<jacobsen_ayre>};
 
 }  // namespace dualdamp::identify

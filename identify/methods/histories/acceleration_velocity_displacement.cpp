@@ -173,7 +173,7 @@ struct Regression {
 };
 
 Regression regress(const std::vector<NumberedHistory>& histories, std::size_t choice, const Columns& columns,
-                   const KnownConstants& constants, const MethodOptions& options) {
+                   const KnownConstants& constants, const RegressionOptions& options) {
   std::vector<Motion> motions;
   motions.reserve(histories.size());
   for (const NumberedHistory& item : histories) {
@@ -188,7 +188,7 @@ Regression regress(const std::vector<NumberedHistory>& histories, std::size_t ch
 
 /// The fits with all cut-offs, the first of which is the estimate, and whether they agree.
 void compare_cutoffs(const std::vector<NumberedHistory>& histories, const Regression& first, const Columns& columns,
-                     const KnownConstants& constants, const MethodOptions& options, Estimate& estimate,
+                     const KnownConstants& constants, const RegressionOptions& options, Estimate& estimate,
                      std::vector<std::string>& faults) {
   const std::vector<double> cutoffs = cutoffs_for(*histories.front().history, options);
   if (cutoffs.size() < 2) return;
@@ -216,7 +216,7 @@ void compare_cutoffs(const std::vector<NumberedHistory>& histories, const Regres
 }  // namespace
 
 Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants,
-                                            const MethodOptions& options) {
+                                            const RegressionOptions& options) {
   Estimate estimate;
   estimate.method = "acceleration_velocity_displacement";
   const std::vector<NumberedHistory> histories = usable_histories(record, options, estimate);

@@ -22,8 +22,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants,
-                                                          const MethodOptions& options);
+[[nodiscard]] Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants, const RegressionOptions& options = {});
 
 inline constexpr MethodEntry acceleration_velocity_displacement_method{
     "acceleration_velocity_displacement",
@@ -34,6 +33,6 @@ inline constexpr MethodEntry acceleration_velocity_displacement_method{
     "chen1996, janot2019",
     RecordKind::history,
     lacks_histories,
-    acceleration_velocity_displacement};
+    call_of<acceleration_velocity_displacement>};
 
 }  // namespace dualdamp::identify

@@ -129,7 +129,7 @@ struct Scales {
   double v0 = 0.0;      ///< m/s
 };
 
-Scales scales_of(const History& history, const MethodOptions& options) {
+Scales scales_of(const History& history, const KalmanOptions& options) {
   const auto [low, high] = std::ranges::minmax_element(history.x);
   Scales scales;
   scales.length = 0.5 * (*high - *low);
@@ -203,10 +203,10 @@ void judge(const Passage& passage, const std::optional<Passage>& wider, Estimate
 
 }  // namespace
 
-Estimate extended_kalman(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate extended_kalman(const Record& record, const KnownConstants& constants, const KalmanOptions& options) {
   Estimate estimate;
   estimate.method = "extended_kalman";
-  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const Scales scales = scales_of(*history, options);

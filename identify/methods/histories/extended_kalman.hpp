@@ -19,8 +19,25 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate extended_kalman(const Record& record, const KnownConstants& constants,
-                                       const MethodOptions& options);
+inline constexpr Option sign_width_option{
+    .name = "sign_width",
+    .kind = OptionKind::number,
+    .unit = "m/s",
+    .range = {.low = 0.0, .low_open = true},
+    .otherwise = "0.003 of the largest speed",
+    .meaning = "width of the smoothed sign of the velocity in extended_kalman"};
+
+struct KalmanOptions {
+  double sigma_x = 0.0;     ///< standard deviation of the noise of x [m]; 0: from the record
+  double sign_width = 0.0;  ///< width of the smoothed sign of the velocity [m/s]; 0: the method's own choice
+
+  static constexpr auto declared() {
+    return std::tuple{Use{&sigma_x_option, &KalmanOptions::sigma_x},
+                      Use{&sign_width_option, &KalmanOptions::sign_width}};
+  }
+};
+
+[[nodiscard]] Estimate extended_kalman(const Record& record, const KnownConstants& constants, const KalmanOptions& options = {});
 
 inline constexpr MethodEntry extended_kalman_method{
     "extended_kalman",
@@ -32,6 +49,6 @@ inline constexpr MethodEntry extended_kalman_method{
     "liang2004identifying, detchmendy1966",
     RecordKind::history,
     lacks_histories,
-    extended_kalman};
+    call_of<extended_kalman>};
 
 }  // namespace dualdamp::identify

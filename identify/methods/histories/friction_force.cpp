@@ -195,7 +195,7 @@ struct SlidingLine {
   Turns turns;
 };
 
-SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const MethodOptions& options) {
+SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const RegressionOptions& options) {
   const auto line_beyond = [&](double speed) {
     SlidingLine line{speed, rows_of(histories, speed), {}, {}};
     line.fit = fit_correlated(line.rows.columns, line.rows.target, line.rows.blocks);
@@ -229,7 +229,7 @@ Reading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {
 
 }  // namespace
 
-Estimate friction_force(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate friction_force(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
   Estimate estimate;
   estimate.method = "friction_force";
   const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);

@@ -19,8 +19,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate friction_force(const Record& record, const KnownConstants& constants,
-                                      const MethodOptions& options);
+[[nodiscard]] Estimate friction_force(const Record& record, const KnownConstants& constants, const RegressionOptions& options = {});
 
 inline constexpr MethodEntry friction_force_method{
     "friction_force",
@@ -32,6 +31,6 @@ inline constexpr MethodEntry friction_force_method{
     "liang2004identifying",
     RecordKind::history,
     lacks_histories,
-    friction_force};
+    call_of<friction_force>};
 
 }  // namespace dualdamp::identify

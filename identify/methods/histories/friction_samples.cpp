@@ -10,7 +10,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-Motion motion_for(const History& history, const MethodOptions& options) {
+Motion motion_for(const History& history, const RegressionOptions& options) {
   if (!history.v.empty() || history.a.empty() || !options.cutoffs.empty())
     return motion_of(history, cutoffs_for(history, options).front());
   History differentiated = history;
@@ -21,7 +21,7 @@ Motion motion_for(const History& history, const MethodOptions& options) {
 }  // namespace
 
 std::vector<FrictionSamples> friction_samples(const Record& record, const KnownConstants& constants,
-                                              const MethodOptions& options, Estimate& estimate) {
+                                              const RegressionOptions& options, Estimate& estimate) {
   std::vector<FrictionSamples> list;
   if (std::string lack = lacks_histories(record); !lack.empty()) {
     refuse(estimate, std::move(lack));
@@ -47,7 +47,7 @@ std::vector<FrictionSamples> friction_samples(const Record& record, const KnownC
   return list;
 }
 
-double least_speed_for(const std::vector<FrictionSamples>& histories, const MethodOptions& options) {
+double least_speed_for(const std::vector<FrictionSamples>& histories, const RegressionOptions& options) {
   if (options.least_speed > 0.0) return options.least_speed;
   double fastest = 0.0;
   for (const FrictionSamples& samples : histories)

@@ -20,9 +20,9 @@ struct FrictionSamples {
 /// in the paper; else `motion_of` with the first cut-off. Empty: the estimate has been refused, for mass and
 /// stiffness (0: none) must be known.
 [[nodiscard]] std::vector<FrictionSamples> friction_samples(const Record& record, const KnownConstants& constants,
-                                                            const MethodOptions& options, Estimate& estimate);
+                                                            const RegressionOptions& options, Estimate& estimate);
 
 /// Samples slower than this are left out [m/s]: the option, or a twentieth of the largest speed.
-[[nodiscard]] double least_speed_for(const std::vector<FrictionSamples>& histories, const MethodOptions& options);
+[[nodiscard]] double least_speed_for(const std::vector<FrictionSamples>& histories, const RegressionOptions& options);
 
 }  // namespace dualdamp::identify

@@ -196,7 +196,7 @@ class Residuals {
 /// Where to start: the regression of forces when it gives something, else a guess; `all`: what the fit may begin
 /// with.
 std::vector<ForceParameters> starts(const Record& record, const std::vector<Test>& tests,
-                                    const KnownConstants& constants, const MethodOptions& options) {
+                                    const KnownConstants& constants, const RegressionOptions& options) {
   Record used;
   for (const Test& test : tests) used.histories.push_back(*test.history);
   const Estimate regression = acceleration_velocity_displacement(
@@ -333,7 +333,7 @@ void report(const std::vector<Test>& tests, const Layout& layout, const Residual
 
 }  // namespace
 
-Estimate output_error(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate output_error(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
   Estimate estimate;
   estimate.method = "output_error";
   std::vector<Test> tests;

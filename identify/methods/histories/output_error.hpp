@@ -19,8 +19,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate output_error(const Record& record, const KnownConstants& constants,
-                                    const MethodOptions& options);
+[[nodiscard]] Estimate output_error(const Record& record, const KnownConstants& constants, const RegressionOptions& options = {});
 
 inline constexpr MethodEntry output_error_method{
     "output_error",
@@ -31,6 +30,6 @@ inline constexpr MethodEntry output_error_method{
     "ljung1999, leine2004",
     RecordKind::history,
     lacks_histories,
-    output_error};
+    call_of<output_error>};
 
 }  // namespace dualdamp::identify

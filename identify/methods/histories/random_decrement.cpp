@@ -93,10 +93,10 @@ ForceParameters line_through(const EstimateCurve& curve, const KnownConstants& c
 
 }  // namespace
 
-Estimate random_decrement(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate random_decrement(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
   estimate.method = "random_decrement";
-  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const double W = std::sqrt(constants.stiffness / constants.mass);

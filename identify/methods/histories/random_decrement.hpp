@@ -19,8 +19,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate random_decrement(const Record& record, const KnownConstants& constants,
-                                        const MethodOptions& options);
+[[nodiscard]] Estimate random_decrement(const Record& record, const KnownConstants& constants);
 
 inline constexpr MethodEntry random_decrement_method{
     "random_decrement",
@@ -31,6 +30,6 @@ inline constexpr MethodEntry random_decrement_method{
     "cole1973",
     RecordKind::history,
     lacks_histories,
-    random_decrement};
+    call_of<random_decrement>};
 
 }  // namespace dualdamp::identify

@@ -121,7 +121,7 @@ struct Passage {
 };
 
 Passage pass(const std::vector<FrictionSamples>& histories, const KnownConstants& constants,
-             const MethodOptions& options) {
+             const RecursiveOptions& options) {
   Passage passage;
   passage.rows = rows_of(histories, least_speed_for(histories, options));
   passage.fit = fit_correlated(passage.rows.columns, passage.rows.target, passage.rows.blocks);
@@ -137,7 +137,7 @@ Passage pass(const std::vector<FrictionSamples>& histories, const KnownConstants
 }  // namespace
 
 Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
-                                 const MethodOptions& options) {
+                                 const RecursiveOptions& options) {
   Estimate estimate;
   estimate.method = "recursive_least_squares";
   const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);

@@ -17,8 +17,24 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
-                                               const MethodOptions& options);
+inline constexpr Option forgetting_option{
+    .name = "forgetting",
+    .kind = OptionKind::number,
+    .unit = "1",
+    .range = {.low = 0.0, .high = 1.0, .low_open = true},
+    .otherwise = "1",
+    .meaning = "forgetting factor of recursive_least_squares; 1 forgets nothing"};
+
+struct RecursiveOptions : RegressionOptions {
+  double forgetting = 1.0;  ///< in (0, 1]; 1 forgets nothing
+
+  static constexpr auto declared() {
+    return std::tuple_cat(RegressionOptions::declared(),
+                          std::tuple{Use{&forgetting_option, &RecursiveOptions::forgetting}});
+  }
+};
+
+[[nodiscard]] Estimate recursive_least_squares(const Record& record, const KnownConstants& constants, const RecursiveOptions& options = {});
 
 inline constexpr MethodEntry recursive_least_squares_method{
     "recursive_least_squares",
@@ -29,6 +45,6 @@ inline constexpr MethodEntry recursive_least_squares_method{
     "liang2004identifying, ljung1999",
     RecordKind::history,
     lacks_histories,
-    recursive_least_squares};
+    call_of<recursive_least_squares>};
 
 }  // namespace dualdamp::identify

@@ -240,10 +240,10 @@ std::optional<ReplicaSpread> spread_of(const History& history, const Averages& a
 
 }  // namespace
 
-Estimate stochastic_averaging(const Record& record, const KnownConstants& constants, const MethodOptions& options) {
+Estimate stochastic_averaging(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
   estimate.method = "stochastic_averaging";
-  const std::optional<NumberedHistory> longest = longest_history(record, constants, options, estimate);
+  const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const double W = std::sqrt(constants.stiffness / constants.mass);

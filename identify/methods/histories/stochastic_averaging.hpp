@@ -21,8 +21,7 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate stochastic_averaging(const Record& record, const KnownConstants& constants,
-                                            const MethodOptions& options);
+[[nodiscard]] Estimate stochastic_averaging(const Record& record, const KnownConstants& constants);
 
 inline constexpr MethodEntry stochastic_averaging_method{
     "stochastic_averaging",
@@ -33,6 +32,6 @@ inline constexpr MethodEntry stochastic_averaging_method{
     "liang2004identifying, roberts1986",
     RecordKind::history,
     lacks_histories,
-    stochastic_averaging};
+    call_of<stochastic_averaging>};
 
 }  // namespace dualdamp::identify

@@ -39,7 +39,7 @@ const FurtherParameter& named(const Estimate& estimate, const std::string& name)
 TEST_CASE("The likelihood interval of zeta is Student's interval of the slope") {
   // With a and b free, Q - Q_min = (b - slope)^2 S_YY at the best intercept, so the interval is that of the slope,
   // taken to zeta = 1/(2 b) as it stands: for large scatter far from symmetric.
-  MethodOptions options;
+  LineOptions options;
   options.profile = true;
   for (const double sigma : {0.02e-3, 1.0e-3}) {
     CAPTURE(sigma);
@@ -61,7 +61,7 @@ TEST_CASE("The likelihood interval of zeta is Student's interval of the slope") 
 }
 
 TEST_CASE("At the ends of the likelihood interval of F0 the best fit is worse by t^2 s^2") {
-  MethodOptions options;
+  LineOptions options;
   options.profile = true;
   const auto list = noisy_line(0.2e-3);
   const Estimate e = resonance_least_squares(pairs(list), at_resonance, options);
@@ -97,7 +97,7 @@ TEST_CASE("At the ends of the likelihood interval of F0 the best fit is worse by
 
 TEST_CASE("Deming's profile follows its own weights") {
   // Small errors: the likelihood interval is the symmetric one.
-  MethodOptions options;
+  LineOptions options;
   options.profile = true;
   options.sigma_x = 2e-5;
   options.sigma_Y = 5e-6;

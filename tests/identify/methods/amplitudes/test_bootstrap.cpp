@@ -51,7 +51,7 @@ TEST_CASE("Residuals drawn from one sweep scatter the slope as the formula says"
     const double Y = 4.45e-3 + 0.046e-3 * i;
     list.emplace_back(Y, Y / (2.0 * zeta) - 0.013 + 0.05e-3 * normal());
   }
-  MethodOptions options;
+  LineOptions options;
   options.bootstrap = 4000;
   const Estimate e = resonance_least_squares(pairs(list), at_resonance, options);
   CHECK(*named(e, "bootstrap_zeta").std == Approx(e.std->zeta).epsilon(0.035));
@@ -75,7 +75,7 @@ TEST_CASE("Residuals of Deming's line are drawn along its errors") {
     const double Y = 4.45e-3 + 0.0058e-3 * i;
     list.emplace_back(Y + 0.1e-3 * normal(), Y / (2.0 * zeta) - 0.013 + 0.2e-3 * normal());
   }
-  MethodOptions options;
+  LineOptions options;
   options.bootstrap = 2000;
   const Estimate scale = resonance_deming(pairs(list), at_resonance, options);
   CHECK(*named(scale, "bootstrap_zeta").std == Approx(scale.std->zeta).epsilon(0.1));
@@ -86,7 +86,7 @@ TEST_CASE("Sweeps drawn whole show the drift between them") {
   // Without noise each sweep is a line of the same slope: a replicate's friction is the mean of ten drawn from the
   // ten, its standard deviation that of the population over sqrt(10), exactly, and zeta does not move.
   Normal none(1);
-  MethodOptions options;
+  LineOptions options;
   options.bootstrap = 4000;
   const Estimate e = resonance_least_squares(drifting(drift, 0.0, none), at_resonance, options);
   double mean = 0.0, square = 0.0;
@@ -99,7 +99,7 @@ TEST_CASE("Sweeps drawn whole show the drift between them") {
 
 TEST_CASE("Few sweeps are doubted") {
   Normal normal(2);
-  MethodOptions options;
+  LineOptions options;
   options.bootstrap = 50;
   const Estimate e =
       resonance_least_squares(drifting({2.4e-3, 2.5e-3, 2.6e-3}, 1e-5, normal), at_resonance, options);
@@ -111,7 +111,7 @@ TEST_CASE("A thousand replicates of fifty pairs, by sweeps and by residuals") {
   const Record swept = drifting(drift, 0.05e-3, normal);
   Record single = swept;
   for (Pair& pair : single.pairs->pairs) pair.sweep.clear();
-  MethodOptions options;
+  LineOptions options;
   options.bootstrap = 1000;
   for (const Record* record : std::initializer_list<const Record*>{&swept, &single}) {
     const Estimate e = resonance_least_squares(*record, at_resonance, options);

@@ -108,7 +108,7 @@ TEST_CASE("The natural frequency is fitted from three frequencies and refused fr
   CHECK(three_free[0] == Approx(0.0005).epsilon(0.2));
   CHECK(three_free[2] == Approx(0.001).epsilon(0.5));
 
-  MethodOptions options;
+  DenHartogOptions options;
   options.free_natural_frequency = true;
   options.sigma_x = sigma;
   for (const std::vector<double>& ratios : {std::vector{1.0}, std::vector{0.95, 1.05}}) {
@@ -162,7 +162,7 @@ TEST_CASE("Intervals of the exact law hold in a Monte Carlo experiment") {
 
 TEST_CASE("Profiles and bootstrap of the exact law agree with its standard errors where errors are small") {
   Normal normal(20);
-  MethodOptions options;
+  DenHartogOptions options;
   options.profile = true;
   options.bootstrap = 1000;
   Record record =

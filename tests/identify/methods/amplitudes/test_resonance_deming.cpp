@@ -39,7 +39,7 @@ TEST_CASE("Errors of the input bias the least-squares line and not Deming's") {
     double sigma_Y, zeta_bias, F0_bias, margin;
   };
   for (const Case& c : {Case{0.1e-3, 0.0151, -0.0114, 0.002}, Case{0.2e-3, 0.0605, -0.044, 0.005}}) {
-    MethodOptions options;
+    LineOptions options;
     options.sigma_x = 0.05e-3;
     options.sigma_Y = c.sigma_Y;
     Normal normal(3);
@@ -66,7 +66,7 @@ TEST_CASE("Errors of the input bias the least-squares line and not Deming's") {
 TEST_CASE("Standard errors and intervals of Deming's line hold in a Monte Carlo experiment") {
   // The covariance is that for large samples; its next term is of relative order 1/n = 4 %. 6000 samples know a
   // standard deviation to 0.9 %, a coverage of 95 % to 0.3 %.
-  MethodOptions options;
+  LineOptions options;
   options.sigma_x = 0.2e-3;
   options.sigma_Y = 0.1e-3;
   Normal normal(8);
@@ -120,13 +120,13 @@ TEST_CASE("Deming's line is the most likely one") {
 TEST_CASE("Known errors of one amplitude alone give the regression on the other") {
   Normal normal(6);
   const Record record = pairs(noisy_line(normal, 0.2e-3, 0.1e-3));
-  MethodOptions of_x;
+  LineOptions of_x;
   of_x.sigma_x = 0.1e-3;
   const Estimate line = resonance_least_squares(record, at_resonance, of_x);
   const Estimate same = resonance_deming(record, at_resonance, of_x);
   CHECK(same.value.zeta == line.value.zeta);
   CHECK(same.std->F0 == Approx(line.std->F0).epsilon(1e-14));
-  MethodOptions of_Y;
+  LineOptions of_Y;
   of_Y.sigma_Y = 0.1e-3;
   Moments moments;
   for (const Pair& pair : record.pairs->pairs) moments.add(pair.Y, pair.x);

@@ -165,7 +165,7 @@ TEST_CASE("Standard errors, correlation and intervals hold in a Monte Carlo expe
 }
 
 TEST_CASE("Known measurement deviations replace the scatter") {
-  MethodOptions options;
+  LineOptions options;
   options.sigma_x = 1e-4;
   options.sigma_Y = 2e-5;
   // Two pairs leave no freedom, and have standard errors all the same: those of the two-point method.

@@ -11,9 +11,8 @@ using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
 
 TEST_CASE("Table 2 of the paper") {
-  MethodOptions options;
-  options.first_pair = 1;
-  options.second_pair = 4;
+  TwoPointOptions options;
+  options.pairs = {1, 4};
   const Estimate e = resonance_two_point(pairs(table_1), table_1_constants, options);
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
@@ -35,7 +34,7 @@ TEST_CASE("Table 2 of the paper") {
 }
 
 TEST_CASE("Eq (15) costs 2.75 % of the friction force at zeta = 0.2, and the estimate says so") {
-  MethodOptions options;
+  TwoPointOptions options;
   options.approximate_G = true;
   const Estimate e = resonance_two_point(pairs(table_1), table_1_constants, options);
   CHECK(e.value.zeta == Approx(0.19998944).margin(5e-9));
@@ -67,7 +66,7 @@ TEST_CASE("Two pairs on a straight line return the line") {
 }
 
 TEST_CASE("Two-point standard errors follow Eqs (16) and (17)") {
-  MethodOptions options;
+  TwoPointOptions options;
   options.sigma_x = 2e-4;
   options.sigma_Y = 3e-4;
   const Estimate e = resonance_two_point(pairs(table_1), table_1_constants, options);
@@ -102,9 +101,8 @@ TEST_CASE("Two-point standard errors follow Eqs (16) and (17)") {
 
 TEST_CASE("Named pairs that cannot be used are refused with the reason") {
   const auto refused = [](const Record& record, int first, int second, const std::string& words) {
-    MethodOptions options;
-    options.first_pair = first;
-    options.second_pair = second;
+    TwoPointOptions options;
+    options.pairs = {first, second};
     const Estimate e = resonance_two_point(record, table_1_constants, options);
     CHECK_FALSE(e.outcome.ok());
     CHECK_FALSE(e.usable);

@@ -187,7 +187,7 @@ TEST_CASE("Pairs that stick are left out by the friction of their own sweep") {
 
 TEST_CASE("Sweeps drawn again give what the formula gives; records without sweeps are refused") {
   Normal normal(34);
-  MethodOptions options;
+  WithinSweepOptions options;
   options.bootstrap = 2000;
   const Estimate e = resonance_within_sweep(
       measure(levels_of(normal), drift_of(normal, 0.15e-3), 0.045e-3, 0.0, normal), at_resonance, options);

@@ -88,7 +88,7 @@ TEST_CASE("Five extremes hold the two classical estimates") {
 }
 
 TEST_CASE("A known zero offset makes do with three extremes") {
-  MethodOptions options;
+  FreeDecayOptions options;
   options.zero_offset = true;
   const auto e = free_decay_extremes(paper_zeta, paper_x_f, paper_X_0, 3);
   const Estimate three = free_decay(extremes(e), stiff_spring, options);
@@ -111,7 +111,7 @@ TEST_CASE("Standard errors hold in a Monte Carlo experiment, and five extremes b
   // samples know them to 0.5 %.
   const double sigma = 0.05e-3;
   const auto truth = free_decay_extremes(paper_zeta, paper_x_f, paper_X_0, 5);
-  MethodOptions known;
+  FreeDecayOptions known;
   known.sigma_x = sigma;
   double zeta_of_four = 0.0, x_f_of_four = 0.0;
   for (const std::size_t count : {4, 5}) {

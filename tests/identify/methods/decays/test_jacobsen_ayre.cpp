@@ -73,7 +73,7 @@ TEST_CASE("Where one friction rules its swings the rule may be used") {
 
 TEST_CASE("Known errors of the extremes reach the rule's numbers") {
   // First order in sigma/X = 1 %: 20000 samples know a standard deviation to 0.5 %.
-  MethodOptions options;
+  JacobsenAyreOptions options;
   options.sigma_x = 0.02;
   const std::vector<double> exact = decay(0.05, 0.1, 10.0, 5);
   Normal normal(6);

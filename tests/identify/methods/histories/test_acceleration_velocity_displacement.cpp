@@ -65,7 +65,7 @@ TEST_CASE("One level hardly tells mass from stiffness, and the noise of sensors 
     history.v = five_point_average(central_difference(history.x, history.sample_rate));
     return history;
   };
-  MethodOptions options;
+  RegressionOptions options;
   options.least_speed = 0.02;  // where the average bends the kink of the velocity
   const auto warned = [](const Estimate& e) {
     return std::ranges::any_of(
@@ -92,7 +92,7 @@ TEST_CASE("Standard errors cover the truth where the error is one of the force")
   // Noise of the force alone, filtered like everything else: 95 % intervals hold the truth in 19 of 20 cases.
   const sim::Model bearing = driven_bearing(11.0, 3.7, 4e-3);
   const History clean = sampled(bearing, 4.0, 500.0, 2.0);
-  MethodOptions options;
+  RegressionOptions options;
   options.cutoffs = {60.0};
   int covered = 0;
   const int cases = 200;
@@ -126,13 +126,13 @@ TEST_CASE("A record that cannot be used says why") {
   Normal normal(1);
   History history = displacement_only(sampled(driven_bearing(11.0, 3.7, 4e-3), 1.0, 500.0), 0.0, normal);
   history.force.clear();
-  const auto reason = [&](const KnownConstants& constants, const MethodOptions& options = {}) {
+  const auto reason = [&](const KnownConstants& constants, const RegressionOptions& options = {}) {
     return acceleration_velocity_displacement(record_of({history}), constants, options).reason;
   };
   CHECK(reason({unknown, unknown}) == "the method needs the mass, the stiffness or a record of the force");
   CHECK(reason({unknown, 0.0}) == "the method needs the mass, the stiffness or a record of the force");
   CHECK(reason({-1.0, 10.0}) == "the mass must be positive and finite");
-  MethodOptions options;
+  RegressionOptions options;
   options.cutoffs = {300.0};
   CHECK(reason(bearing_constants, options) ==
         "no history can be used: the cut-off frequency 300 Hz is above 0.45 of the sample rate");
@@ -174,7 +174,7 @@ TEST_CASE("A real machine on a rail gives the published parameters with three fi
     WARN("skipped: set DUALDAMP_EMPS to the benchmark's estimation.csv");
     return;
   }
-  MethodOptions options;
+  RegressionOptions options;
   options.cutoffs = {50.0, 30.0, 20.0};
   const Estimate e = acceleration_velocity_displacement(record, {unknown, 0.0}, options);
   REQUIRE(e.outcome.ok());

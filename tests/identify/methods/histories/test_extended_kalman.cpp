@@ -15,7 +15,7 @@ constexpr double c = 11.0;
 constexpr double F0 = 3.7;
 
 Estimate with_width(const Record& record, double width) {
-  MethodOptions options;
+  KalmanOptions options;
   options.sign_width = width;
   return extended_kalman(record, bearing_constants, options);
 }

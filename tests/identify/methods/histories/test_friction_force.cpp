@@ -21,7 +21,7 @@ constexpr double omega = 38.79;  // wn of the bearing
 /// Four seconds of the steady state.
 History steady(double rate = 2000.0, double Y = 4e-3) { return sampled(driven_bearing(c, F0, Y), 4.0, rate, 3.0); }
 
-Estimate estimate_of(const History& history, const MethodOptions& options = {}) {
+Estimate estimate_of(const History& history, const RegressionOptions& options = {}) {
   const Estimate e = friction_force(record_of({history}), bearing_constants, options);
   REQUIRE(e.outcome.ok());
   return e;
@@ -81,7 +81,7 @@ TEST_CASE("Delays bias c by -m w^2 t and +k t, and alike delays cancel at resona
   // First order in the delay t and for a harmonic motion: the jerk is -w^2 v beside parts that are odd about the
   // middle of a swing. At 10 mm of base motion that holds to some per cent; at 4 mm dry friction bends the swing,
   // and a late acceleration biases c nearly twice as much. Beyond the least speed no jump is met.
-  MethodOptions options;
+  RegressionOptions options;
   options.least_speed = 0.1;
   const std::size_t samples = 1;
   const double delay = static_cast<double>(samples) / 2000.0;
@@ -141,7 +141,7 @@ TEST_CASE("A friction force without mass, stiffness or speed is refused") {
   const Record record = record_of({steady()});
   CHECK(friction_force(record, {unknown, 1568.0}, {}).reason == "the method needs the mass");
   CHECK(friction_force(record, {1.042, unknown}, {}).reason == "the method needs the stiffness");
-  MethodOptions options;
+  RegressionOptions options;
   options.least_speed = 10.0;
   CHECK_FALSE(friction_force(record, bearing_constants, options).outcome.ok());
 }

@@ -22,7 +22,7 @@ double other(const Estimate& e, const std::string& name) {
 TEST_CASE("Without dry friction the mean of the stretches is a free decay") {
   const double c = 8.0;
   const double zeta = c / (2.0 * std::sqrt(1.042 * 1568.0));
-  const Estimate e = random_decrement(record_of({random_response(c, 0.0, 0.7, 600.0, 1)}), bearing_constants, {});
+  const Estimate e = random_decrement(record_of({random_response(c, 0.0, 0.7, 600.0, 1)}), bearing_constants);
   REQUIRE(e.outcome.ok());
   // Conditional mean of a Gaussian process. A hundred independent stretches a band leave 10 % of the amplitude.
   CHECK(other(e, "equivalent_damping_ratio") == Approx(zeta).epsilon(0.2));
@@ -33,7 +33,7 @@ TEST_CASE("With dry friction it reads an equivalent damping and does not separat
   const double c = 5.0;
   const double F0 = 2.0;
   const double zeta = c / (2.0 * std::sqrt(1.042 * 1568.0));
-  const Estimate e = random_decrement(record_of({random_response(c, F0, 0.7, 600.0, 2)}), bearing_constants, {});
+  const Estimate e = random_decrement(record_of({random_response(c, F0, 0.7, 600.0, 2)}), bearing_constants);
   REQUIRE(e.outcome.ok());
   CHECK_FALSE(e.usable);
   CHECK(e.reason.find("does not separate") != std::string::npos);
@@ -47,6 +47,6 @@ TEST_CASE("With dry friction it reads an equivalent damping and does not separat
 }
 
 TEST_CASE("A random decrement of few extremes is refused") {
-  const Estimate e = random_decrement(record_of({random_response(5.0, 1.0, 0.7, 5.0, 2)}), bearing_constants, {});
+  const Estimate e = random_decrement(record_of({random_response(5.0, 1.0, 0.7, 5.0, 2)}), bearing_constants);
   CHECK_FALSE(e.outcome.ok());
 }

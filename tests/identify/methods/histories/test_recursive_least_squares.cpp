@@ -44,7 +44,7 @@ TEST_CASE("Forgetting follows a drift with a lag of its memory") {
   Normal normal(2);
   const double rate = 0.05;  // of F0 a second: 40 % over the record
   const History history = drifting(rate, 0.1, normal);
-  MethodOptions options;
+  RecursiveOptions options;
   options.forgetting = 1.0 - 1.0 / 500.0;
   const Estimate following = recursive_least_squares(record_of({history}), bearing_constants, options);
   const Estimate mean = recursive_least_squares(record_of({history}), bearing_constants, {});
@@ -77,7 +77,7 @@ TEST_CASE("Intervals hold under noise of the force") {
 
 TEST_CASE("A forgetting factor out of its range is refused") {
   Normal normal(1);
-  MethodOptions options;
+  RecursiveOptions options;
   options.forgetting = 1.1;
   CHECK_FALSE(
       recursive_least_squares(record_of({drifting(0.0, 0.0, normal)}), bearing_constants, options).outcome.ok());

@@ -28,7 +28,7 @@ TEST_CASE("The distribution of the amplitude gives friction and damping within i
   // Bias of the averaging, up to 8 % of F0, and four standard errors.
   for (const auto& [c, F0] : {std::pair{2.0, 1.0}, std::pair{5.0, 2.0}}) {
     const Estimate e =
-        stochastic_averaging(record_of({random_response(c, F0, D, 800.0, 7)}), bearing_constants, {});
+        stochastic_averaging(record_of({random_response(c, F0, D, 800.0, 7)}), bearing_constants);
     REQUIRE(e.outcome.ok());
     CHECK(e.usable);
     CHECK(std::abs(e.value.F0 - F0) < 0.08 * F0 + 4.0 * e.std->F0);
@@ -42,9 +42,9 @@ TEST_CASE("The distribution of the amplitude gives friction and damping within i
 
 TEST_CASE("Without recorded velocity the intensity comes from second differences") {
   History history = random_response(5.0, 2.0, D, 400.0, 3);
-  const Estimate with = stochastic_averaging(record_of({history}), bearing_constants, {});
+  const Estimate with = stochastic_averaging(record_of({history}), bearing_constants);
   history.v.clear();
-  const Estimate without = stochastic_averaging(record_of({history}), bearing_constants, {});
+  const Estimate without = stochastic_averaging(record_of({history}), bearing_constants);
   REQUIRE(with.outcome.ok());
   REQUIRE(without.outcome.ok());
   // Means over a sample interval of 2 ms, W T = 0.08: some per cent.
@@ -53,11 +53,11 @@ TEST_CASE("Without recorded velocity the intensity comes from second differences
 
 TEST_CASE("Friction too small to be seen and short records are told") {
   const Estimate faint =
-      stochastic_averaging(record_of({random_response(5.0, 0.05, D, 400.0, 5)}), bearing_constants, {});
+      stochastic_averaging(record_of({random_response(5.0, 0.05, D, 400.0, 5)}), bearing_constants);
   REQUIRE(faint.outcome.ok());
   CHECK((!faint.usable || !faint.warnings.empty()));
   const Estimate brief =
-      stochastic_averaging(record_of({random_response(5.0, 1.0, D, 20.0, 5)}), bearing_constants, {});
+      stochastic_averaging(record_of({random_response(5.0, 1.0, D, 20.0, 5)}), bearing_constants);
   CHECK_FALSE(brief.outcome.ok());
   CHECK(brief.reason.find("400 natural periods") != std::string::npos);
 }
@@ -68,14 +68,14 @@ TEST_CASE("An excitation that is not white must be recorded") {
   model.excitation.type = sim::ExcitationType::force_noise;
   model.excitation.noise = {.intensity = 0.76, .bandwidth = 100.0 * std::numbers::pi, .seed = 1};
   History history = sampled(model, 400.0, 200.0);
-  const Estimate with = stochastic_averaging(record_of({history}), bearing_constants, {});
+  const Estimate with = stochastic_averaging(record_of({history}), bearing_constants);
   REQUIRE(with.outcome.ok());
   CHECK(with.usable);
   // Bias of the averaging, 3 % of F0 and a fifth of c, and four standard errors.
   CHECK(std::abs(with.value.F0 - 2.0) < 0.06 + 4.0 * with.std->F0);
   CHECK(std::abs(with.value.c - 5.0) < 1.0 + 4.0 * with.std->c);
   history.force.clear();
-  const Estimate without = stochastic_averaging(record_of({history}), bearing_constants, {});
+  const Estimate without = stochastic_averaging(record_of({history}), bearing_constants);
   REQUIRE(without.outcome.ok());
   CHECK_FALSE(without.usable);
   CHECK(without.reason.find("record it") != std::string::npos);

@@ -1,0 +1,67 @@
+#include "identify/options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr int digits = 15;
+
+bool is_list(OptionKind kind) { return kind == OptionKind::numbers || kind == OptionKind::counts; }
+
+/// The numbers of a value; a flag has none.
+std::vector<double> numbers_in(const OptionValue& value) {
+  if (const auto* count = std::get_if<int>(&value)) return {static_cast<double>(*count)};
+  if (const auto* number = std::get_if<double>(&value)) return {*number};
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return *numbers;
+  if (const auto* counts = std::get_if<std::vector<int>>(&value)) return {counts->begin(), counts->end()};
+  return {};
+}
+
+/// One complaint about a value of this option; the message is empty when there is none.
+core::Diagnostic complaint_about(const Option& option, const OptionValue& value) {
+  const std::string name = "option '" + std::string(option.name) + "' ";
+  if (value.index() != static_cast<std::size_t>(option.kind))
+    return {{}, name + "is of the wrong kind", option.describe(), {}, {}};
+  const std::vector<double> numbers = numbers_in(value);
+  if (is_list(option.kind) && (numbers.size() < option.least_items || numbers.size() > option.most_items))
+    return {{}, name + "has the wrong number of items", option.describe(), std::to_string(numbers.size()), {}};
+  const auto outside = std::ranges::find_if(
+      numbers, [&](double number) { return !std::isfinite(number) || !option.range.contains(number); });
+  if (outside == numbers.end()) return {};
+  return {{}, name + "is out of range", option.describe(), core::format_number(*outside, digits), {}};
+}
+
+}  // namespace
+
+std::string Option::describe() const {
+  if (kind == OptionKind::flag) return "true, false";
+  const std::string one = range.describe(kind == OptionKind::count || kind == OptionKind::counts ? "" : unit);
+  const std::string what = kind == OptionKind::count || kind == OptionKind::counts ? "whole number" : "number";
+  if (!is_list(kind)) return "a " + what + " " + one;
+  const std::string count = least_items == most_items
+                                ? std::to_string(most_items)
+                                : std::to_string(least_items) + " to " + std::to_string(most_items);
+  return count + " " + what + "s " + one;
+}
+
+std::vector<core::Diagnostic> faults_of(const OptionValues& values, std::span<const Option* const> options) {
+  std::vector<core::Diagnostic> faults;
+  for (const auto& [name, value] : values) {
+    const auto declared = std::ranges::find(options, name, &Option::name);
+    if (declared == options.end()) {
+      std::string names;
+      for (const Option* option : options) names += (names.empty() ? "" : ", ") + std::string(option->name);
+      faults.push_back({{}, "the method has no option '" + name + "'", names.empty() ? "no option" : names, {}, {}});
+    } else if (core::Diagnostic fault = complaint_about(**declared, value); !fault.message.empty()) {
+      faults.push_back(std::move(fault));
+    }
+  }
+  return faults;
+}
+
+}  // namespace dualdamp::identify

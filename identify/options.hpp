@@ -1,0 +1,190 @@
+#pragma once
+/// Options of the identification methods, each declared once. The declaration gives the key of a scenario, its
+/// check, its line in the schema and in the pages, and its row in `dualdamp methods NAME`.
+///
+/// A method names its options in a struct of their values, and receives that struct:
+///
+///     struct FreeDecayOptions {
+///       bool zero_offset = false;
+///       static constexpr auto declared() { return std::tuple{Use{&zero_offset_option, &FreeDecayOptions::zero_offset}}; }
+///     };
+///
+/// An option of several methods is one shared constant, below; an option of one method stands in its header. A method
+/// cannot read what it does not declare.
+
+#include <array>
+#include <map>
+#include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/diagnostics.hpp"
+#include "friction_models/parameters.hpp"
+
+namespace dualdamp::identify {
+
+enum class OptionKind {
+  flag,     ///< true or false; default false
+  count,    ///< a whole number
+  number,   ///< a number with a unit
+  numbers,  ///< a list of them
+  counts,   ///< a list of whole numbers
+};
+
+/// In the order of `OptionKind`.
+using OptionValue = std::variant<bool, int, double, std::vector<double>, std::vector<int>>;
+
+struct Option {
+  std::string_view name;  ///< key under `analysis`
+  OptionKind kind = OptionKind::flag;
+  std::string_view unit{};       ///< of a number: SI, in udunits2 spelling
+  friction::Range range{};       ///< of a number, or of each of a list
+  std::size_t least_items = 1;   ///< of a list
+  std::size_t most_items = 1;    ///< of a list
+  double per_unit = 1.0;         ///< methods take the number divided by this: Hz for rad/s
+  std::string_view otherwise{};  ///< what holds without it, in words
+  std::string_view meaning{};    ///< one line
+
+  /// For messages: "> 0 and <= 1", "1 to 16 numbers > 0 rad/s".
+  [[nodiscard]] std::string describe() const;
+};
+
+/// Values of options by name, in the units of their declarations.
+using OptionValues = std::map<std::string, OptionValue, std::less<>>;
+
+/// Ties an option to the member of a struct of values that holds it.
+template <class Value, class Owner>
+struct Use {
+  const Option* option;
+  Value Owner::*member;
+
+  void take(const OptionValues& values, Owner& options) const {
+    const auto found = values.find(option->name);
+    if (found == values.end()) return;
+    Value value = std::get<Value>(found->second);
+    if constexpr (std::is_same_v<Value, double>) value /= option->per_unit;
+    if constexpr (std::is_same_v<Value, std::vector<double>>)
+      for (double& item : value) item /= option->per_unit;
+    options.*member = std::move(value);
+  }
+};
+template <class Value, class Owner>
+Use(const Option*, Value Owner::*) -> Use<Value, Owner>;
+
+/// The options that a struct of values declares.
+template <class Options>
+inline constexpr auto declarations_of = std::apply(
+    [](const auto&... use) { return std::array<const Option*, sizeof...(use)>{use.option...}; }, Options::declared());
+
+/// The struct of values with what is given; the rest has its defaults. `values` must be without `faults_of`.
+template <class Options>
+[[nodiscard]] Options taken_from(const OptionValues& values) {
+  Options options;
+  std::apply([&](const auto&... use) { (use.take(values, options), ...); }, Options::declared());
+  return options;
+}
+
+/// What is wrong with these values for a method that declares `options`: an option that is not among them, a value
+/// of another kind, not finite, or out of range.
+[[nodiscard]] std::vector<core::Diagnostic> faults_of(const OptionValues& values,
+                                                      std::span<const Option* const> options);
+
+inline constexpr Option sigma_x_option{
+    .name = "sigma_x",
+    .kind = OptionKind::number,
+    .unit = "m",
+    .range = {.low = 0.0},
+    .otherwise = "from the data",
+    .meaning = "known standard deviation of a measured output amplitude or extreme"};
+inline constexpr Option sigma_Y_option{.name = "sigma_Y",
+                                       .kind = OptionKind::number,
+                                       .unit = "m",
+                                       .range = {.low = 0.0},
+                                       .otherwise = "from the data",
+                                       .meaning = "known standard deviation of a measured input amplitude"};
+inline constexpr Option bootstrap_option{.name = "bootstrap",
+                                         .kind = OptionKind::count,
+                                         .range = {.low = 0.0, .high = 1e6},
+                                         .otherwise = "0",
+                                         .meaning = "replicates of a bootstrap by sweeps"};
+inline constexpr Option profile_option{
+    .name = "profile", .meaning = "profiles of the likelihood of zeta and F0"};
+inline constexpr Option approximate_G_option{
+    .name = "approximate_G", .meaning = "G from the approximation Eq (15) instead of Eq (4)"};
+inline constexpr Option cutoffs_option{
+    .name = "cutoffs",
+    .kind = OptionKind::numbers,
+    .unit = "rad/s",
+    .range = {.low = 0.0, .low_open = true},
+    .most_items = 16,
+    .per_unit = 2.0 * std::numbers::pi,
+    .otherwise = "from the sample rate and the motion",
+    .meaning = "cut-off frequencies of the filter that histories are differentiated with; the first one counts, the "
+               "others show what the choice matters"};
+inline constexpr Option least_speed_option{
+    .name = "least_speed",
+    .kind = OptionKind::number,
+    .unit = "m/s",
+    .range = {.low = 0.0},
+    .otherwise = "a share of the largest speed",
+    .meaning = "slower samples are left out where friction is regressed on speed"};
+
+/// Known standard deviations of one measured output and input amplitude [m]. When either is positive they replace
+/// the scatter of the residuals, so that even two pairs have standard errors.
+struct KnownDeviations {
+  double sigma_x = 0.0;
+  double sigma_Y = 0.0;
+
+  static constexpr auto declared() {
+    return std::tuple{Use{&sigma_x_option, &KnownDeviations::sigma_x},
+                      Use{&sigma_Y_option, &KnownDeviations::sigma_Y}};
+  }
+};
+
+/// Of the resonance methods.
+struct ResonanceOptions : KnownDeviations {
+  bool approximate_G = false;  ///< from Eq (15) instead of the exact Eq (4) at w = wn
+
+  static constexpr auto declared() {
+    return std::tuple_cat(KnownDeviations::declared(),
+                          std::tuple{Use{&approximate_G_option, &ResonanceOptions::approximate_G}});
+  }
+};
+
+/// Of the resonance methods that draw one line.
+struct LineOptions : ResonanceOptions {
+  int bootstrap = 0;     ///< replicates, by sweeps (by residuals where there is one sweep); 0: none
+  bool profile = false;  ///< curves of the likelihood of zeta and F0, with the intervals that follow from them
+
+  static constexpr auto declared() {
+    return std::tuple_cat(ResonanceOptions::declared(), std::tuple{Use{&bootstrap_option, &LineOptions::bootstrap},
+                                                                   Use{&profile_option, &LineOptions::profile}});
+  }
+};
+
+/// Of the methods that filter histories.
+struct FilterOptions {
+  /// Hz. The estimate is made with the first, and made again with the others to show what the choice matters.
+  /// Empty: the method's own.
+  std::vector<double> cutoffs;
+
+  static constexpr auto declared() { return std::tuple{Use{&cutoffs_option, &FilterOptions::cutoffs}}; }
+};
+
+/// Of the methods that regress forces on speeds.
+struct RegressionOptions : FilterOptions {
+  double least_speed = 0.0;  ///< slower samples are left out [m/s]; 0: the method's own choice
+
+  static constexpr auto declared() {
+    return std::tuple_cat(FilterOptions::declared(),
+                          std::tuple{Use{&least_speed_option, &RegressionOptions::least_speed}});
+  }
+};
+
+}  // namespace dualdamp::identify
