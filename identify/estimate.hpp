@@ -1,5 +1,5 @@
 #pragma once
-/// Estimates: numbers, their uncertainty, and the method's own doubts.
+/// Estimates: numbers, their uncertainty, and the method's own diagnostics.
 ///
 /// Two questions are kept apart. `outcome`: is there a number at all? When it is not ok() `value` means nothing and
 /// the record did not allow an estimate. `usable`: does the method stand by its number? An estimate that is there

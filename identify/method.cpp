@@ -33,7 +33,9 @@ std::string_view describe(RecordKind kind) {
   return {};
 }
 
-bool MethodEntry::has(const Option& option) const { return std::ranges::find(options(), &option) != options().end(); }
+bool MethodEntry::has(const Option& option) const {
+  return std::ranges::find(options(), &option) != options().end();
+}
 
 OptionValues MethodEntry::own(const OptionValues& values) const {
   OptionValues result;
@@ -61,11 +63,10 @@ std::string lacks_pairs(const Record& record) {
 
 std::string lacks_resonance_pairs(const Record& record) {
   if (std::string lack = lacks_pairs(record); !lack.empty()) return lack;
-  constexpr double same = 1e-6;  // of a frequency: generators hold it to that
   const double first = record.pairs->pairs.front().omega;
   const auto differs = [first](const Pair& pair) {
     if (std::isnan(first) || std::isnan(pair.omega)) return std::isnan(first) != std::isnan(pair.omega);
-    return std::abs(pair.omega - first) > same * first;
+    return !is_same_frequency(pair.omega, first);
   };
   return std::ranges::any_of(record.pairs->pairs, differs) ? "the pairs were measured at several frequencies" : "";
 }

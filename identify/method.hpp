@@ -68,8 +68,8 @@ struct MethodEntry {
   /// Those of the values that are of the method's options.
   [[nodiscard]] OptionValues own(const OptionValues& values) const;
 
-  /// A record or constants that are not sound (validate.hpp), a record that lacks something or has not enough usable
-  /// data: `outcome` not ok() with the reason. Values that are not those of the method's options throw a
+  /// A record or constants that are not sound (validate.hpp), a record that lacks something or has not enough
+  /// usable data: `outcome` not ok() with the reason. Values that are not those of the method's options throw a
   /// `core::InputError`.
   [[nodiscard]] Estimate run(const Record& record, const KnownConstants& constants,
                              const OptionValues& values = {}) const;

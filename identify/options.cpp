@@ -56,7 +56,8 @@ std::vector<core::Diagnostic> faults_of(const OptionValues& values, std::span<co
     if (declared == options.end()) {
       std::string names;
       for (const Option* option : options) names += (names.empty() ? "" : ", ") + std::string(option->name);
-      faults.push_back({{}, "the method has no option '" + name + "'", names.empty() ? "no option" : names, {}, {}});
+      faults.push_back(
+          {{}, "the method has no option '" + name + "'", names.empty() ? "no option" : names, {}, {}});
     } else if (core::Diagnostic fault = complaint_about(**declared, value); !fault.message.empty()) {
       faults.push_back(std::move(fault));
     }

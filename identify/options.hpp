@@ -6,11 +6,12 @@
 ///
 ///     struct FreeDecayOptions {
 ///       bool zero_offset = false;
-///       static constexpr auto declared() { return std::tuple{Use{&zero_offset_option, &FreeDecayOptions::zero_offset}}; }
+///       static constexpr auto declared() { return std::tuple{Use{&zero_offset_option,
+///       &FreeDecayOptions::zero_offset}}; }
 ///     };
 ///
-/// An option of several methods is one shared constant, below; an option of one method stands in its header. A method
-/// cannot read what it does not declare.
+/// An option of several methods is one shared constant, below; an option of one method stands in its header. A
+/// method cannot read what it does not declare.
 
 #include <array>
 #include <map>
@@ -62,7 +63,7 @@ using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 template <class Value, class Owner>
 struct Use {
   const Option* option;
-  Value Owner::*member;
+  Value Owner::* member;
 
   void take(const OptionValues& values, Owner& options) const {
     const auto found = values.find(option->name);
@@ -79,8 +80,9 @@ Use(const Option*, Value Owner::*) -> Use<Value, Owner>;
 
 /// The options that a struct of values declares.
 template <class Options>
-inline constexpr auto declarations_of = std::apply(
-    [](const auto&... use) { return std::array<const Option*, sizeof...(use)>{use.option...}; }, Options::declared());
+inline constexpr auto declarations_of =
+    std::apply([](const auto&... use) { return std::array<const Option*, sizeof...(use)>{use.option...}; },
+               Options::declared());
 
 /// The struct of values with what is given; the rest has its defaults. `values` must be without `faults_of`.
 template <class Options>
@@ -113,10 +115,9 @@ inline constexpr Option bootstrap_option{.name = "bootstrap",
                                          .range = {.low = 0.0, .high = 1e6},
                                          .otherwise = "0",
                                          .meaning = "replicates of a bootstrap by sweeps"};
-inline constexpr Option profile_option{
-    .name = "profile", .meaning = "profiles of the likelihood of zeta and F0"};
-inline constexpr Option approximate_G_option{
-    .name = "approximate_G", .meaning = "G from the approximation Eq (15) instead of Eq (4)"};
+inline constexpr Option profile_option{.name = "profile", .meaning = "profiles of the likelihood of zeta and F0"};
+inline constexpr Option approximate_G_option{.name = "approximate_G",
+                                             .meaning = "G from the approximation Eq (15) instead of Eq (4)"};
 inline constexpr Option cutoffs_option{
     .name = "cutoffs",
     .kind = OptionKind::numbers,
@@ -125,8 +126,9 @@ inline constexpr Option cutoffs_option{
     .most_items = 16,
     .per_unit = 2.0 * std::numbers::pi,
     .otherwise = "from the sample rate and the motion",
-    .meaning = "cut-off frequencies of the filter that histories are differentiated with; the first one counts, the "
-               "others show what the choice matters"};
+    .meaning =
+        "cut-off frequencies of the filter that histories are differentiated with; the first one counts, the "
+        "others show what the choice matters"};
 inline constexpr Option least_speed_option{
     .name = "least_speed",
     .kind = OptionKind::number,

@@ -41,6 +41,13 @@ struct Pair {
   return std::isnan(pair.omega) ? constants.frequency : pair.omega;
 }
 
+/// Are two frequencies, or ratios of frequencies, one? Generators hold theirs to 1e-6, and one read off a record is
+/// no better than 1e-5.
+[[nodiscard]] inline bool is_same_frequency(double a, double b) {
+  constexpr double tolerance = 1e-4;
+  return std::abs(a - b) <= tolerance * b;
+}
+
 /// Steady states at one or more amplitudes and frequencies.
 struct PairRecord {
   std::vector<Pair> pairs;

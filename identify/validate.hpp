@@ -1,10 +1,11 @@
 #pragma once
-/// Are a record and the constants beside it sound? For callers who build them by hand: the readers of data files and
-/// scenarios give sound ones.
+/// Are a record and the constants beside it sound? For callers who build them by hand: the readers of data files
+/// and scenarios give sound ones.
 ///
-/// A fault is what no measurement can be: signals of one history with different lengths, a sample that is not finite,
-/// a frequency that is not positive, a mass that is not positive. A quantity that was not measured is `unknown` and
-/// no fault. Methods leave out pairs and histories that they cannot use and say so: that is no fault either.
+/// A fault is what no measurement can be: signals of one history with different lengths, a sample that is not
+/// finite, a frequency that is not positive, a mass that is not positive. A quantity that was not measured is
+/// `unknown` and no fault. Methods leave out pairs and histories that they cannot use and say so: that is no fault
+/// either.
 ///
 /// Errors: none thrown by `faults_of`; `require_sound` throws a `core::InputError` with all faults. Cost: linear.
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "identify/record.hpp"
+#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 
@@ -51,19 +52,11 @@ FurtherParameter further(std::string name, std::string unit, double value, doubl
 }
 
 void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults) {
-  const auto judge = [&](double value, double least, const std::array<double, 2>* interval,
-                         const std::string& name) {
-    if (interval == nullptr) {
-      if (value < -least) faults.push_back(name + " came out negative");
-    } else if (value < -least && (*interval)[1] < 0.0) {
-      faults.push_back(name + " came out negative by more than its uncertainty");
-    } else if ((*interval)[0] <= 0.0 && (*interval)[1] >= 0.0 && (*interval)[1] - (*interval)[0] > least) {
-      estimate.warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");
-    }
-  };
   const bool known = estimate.interval95.has_value();
-  judge(estimate.value.c, least_c, known ? &estimate.interval95->c : nullptr, "the viscous damping");
-  judge(estimate.value.F0, least_F0, known ? &estimate.interval95->F0 : nullptr, "the Coulomb friction");
+  judge_sign(estimate.value.c, least_c, known ? &estimate.interval95->c : nullptr, "the viscous damping", estimate,
+             faults);
+  judge_sign(estimate.value.F0, least_F0, known ? &estimate.interval95->F0 : nullptr, "the Coulomb friction",
+             estimate, faults);
 }
 
 }  // namespace dualdamp::identify

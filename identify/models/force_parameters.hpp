@@ -28,8 +28,8 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
 [[nodiscard]] FurtherParameter further(std::string name, std::string unit, double value, double variance,
                                        double half_width);
 
-/// Doubts about c and F0 by their signs, as `judge_signs` has them of zeta and x_f. `least`: shares of the forces'
-/// scale that rounding makes.
+/// Diagnostics of c and F0 by their signs, as `judge_signs` has them of zeta and x_f. `least`: shares of the
+/// forces' scale that rounding makes.
 void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults);
 
 }  // namespace dualdamp::identify

@@ -10,6 +10,7 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "identify/readers/record_reader.hpp"
+#include "identify/statistics/median.hpp"
 
 namespace dualdamp::identify {
 
@@ -296,9 +297,7 @@ class Assembly {
     const std::vector<double>& t = *values("t");
     std::vector<double> steps(rows.size() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = t[rows.first + i + 1] - t[rows.first + i];
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return upper_median(std::move(steps));
   }
 
   [[nodiscard]] Stretch longest_without_gap(Stretch rows, double step) const {

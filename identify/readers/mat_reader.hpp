@@ -12,20 +12,12 @@
 /// of another length than the others, or not finite.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "identify/readers/data_table.hpp"
 #include "identify/readers/record_reader.hpp"
 
 namespace dualdamp::identify {
-
-/// The first bytes are those of a MATLAB file.
-[[nodiscard]] bool is_mat(std::string_view bytes);
-
-/// Refuses a file that ends before its elements do: matio reads what is missing as zeros. `file` is its name in
-/// messages.
-void check_mat(std::string_view bytes, const std::string& file);
 
 [[nodiscard]] DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
                                  std::vector<std::string>& warnings);

@@ -12,6 +12,7 @@
 #include "identify/readers/csv_reader.hpp"
 #include "identify/readers/data_table.hpp"
 #include "identify/readers/mat_reader.hpp"
+#include "identify/readers/mat_structure.hpp"
 #include "identify/readers/text.hpp"
 #include "identify/readers/universal_file_reader.hpp"
 

@@ -4,8 +4,8 @@
 /// A steady state is read by sine fits (identify/records/sine_fit.hpp): Y and the phase from the fundamental of y,
 /// x as half of peak to trough of the fitted waveform of x with up to nine harmonics, the mean square speed from v
 /// where it was measured and else from that waveform. A transient at the beginning is found by fits to pieces of
-/// whole cycles and skipped; noise is taken for one in 2 of 10,000 histories at most. What nine harmonics leave out
-/// of a Coulomb response is 2e-3 of x at the limit of sticking and falls as 1/x^2.
+/// whole periods and skipped; noise is taken for one in 2 of 10,000 histories at most. What nine harmonics leave
+/// out of a Coulomb response is 2e-3 of x at the limit of sticking and falls as 1/x^2.
 ///
 /// An extreme of a free vibration is the value that a local fit takes where its slope is zero. The acceleration
 /// jumps there, by twice the friction over the mass, so that the fit has a polynomial of its own on each side.

@@ -25,20 +25,20 @@ class Reader {
     for (double& value : signal) value = (*this)(value);
   }
 
-  double amplitude(double value, int cycles) {
+  double amplitude(double value, int periods) {
     double sum = 0.0;
-    for (int i = 0; i < cycles; ++i) {
+    for (int i = 0; i < periods; ++i) {
       const double peak = (*this)(value);
       sum += 0.5 * (peak - (*this)(-value));
     }
-    return sum / cycles;
+    return sum / periods;
   }
 
   /// Error of a phase [rad] of a signal of this amplitude.
-  double phase_error(double amplitude, double omega, int cycles) {
+  double phase_error(double amplitude, double omega, int periods) {
     double sum = 0.0;
-    for (int i = 0; i < cycles; ++i) sum += noise();
-    return sensor_.lag(omega) * omega + (amplitude > 0.0 ? sum / (cycles * amplitude) : 0.0);
+    for (int i = 0; i < periods; ++i) sum += noise();
+    return sensor_.lag(omega) * omega + (amplitude > 0.0 ? sum / (periods * amplitude) : 0.0);
   }
 
  private:
@@ -72,17 +72,17 @@ double wrapped(double phase) {
 }
 
 /// What was not known before is not known after.
-Pair read_pair(const Pair& exact, Readers& readers, int cycles) {
+Pair read_pair(const Pair& exact, Readers& readers, int periods) {
   Pair pair = exact;
-  pair.Y = readers.y.amplitude(exact.Y, cycles);
-  pair.x = readers.x.amplitude(exact.x, cycles);
+  pair.Y = readers.y.amplitude(exact.Y, periods);
+  pair.x = readers.x.amplitude(exact.x, periods);
   if (!std::isnan(exact.phase)) {
-    const double late = readers.x.phase_error(exact.x, exact.omega, cycles);
-    pair.phase = wrapped(exact.phase + late - readers.y.phase_error(exact.Y, exact.omega, cycles));
+    const double late = readers.x.phase_error(exact.x, exact.omega, periods);
+    pair.phase = wrapped(exact.phase + late - readers.y.phase_error(exact.Y, exact.omega, periods));
   }
-  if (!std::isnan(exact.fundamental)) pair.fundamental = readers.x.amplitude(exact.fundamental, cycles);
+  if (!std::isnan(exact.fundamental)) pair.fundamental = readers.x.amplitude(exact.fundamental, periods);
   if (!std::isnan(exact.mean_square_speed)) {
-    const double speed = readers.v.amplitude(std::sqrt(exact.mean_square_speed), cycles);
+    const double speed = readers.v.amplitude(std::sqrt(exact.mean_square_speed), periods);
     pair.mean_square_speed = speed * speed;
   }
   return pair;

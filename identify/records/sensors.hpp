@@ -8,9 +8,10 @@
 /// rounded to multiples of `resolution`, cut off at +-`clipping`. A signal that lags is read `lag(w)` late; of
 /// histories the motion that is sampled must allow for that (`scenarios/measurements/measure.hpp`), of phases it is done here.
 ///
-/// An amplitude is half the difference of a peak and a trough, each read once a cycle, averaged over
-/// `average_cycles`: a standard deviation of noise/sqrt(2 cycles). A phase is read at zero crossings of x and y, so
-/// that the noise of a cycle is noise/amplitude. Extremes of a free vibration are read once, their times exactly.
+/// An amplitude is half the difference of a peak and a trough, each read once a period, averaged over
+/// `average_cycles`: a standard deviation of noise/sqrt(2 periods). A phase is read at zero crossings of x and y,
+/// so that the noise of a period is noise/amplitude. Extremes of a free vibration are read once, their times
+/// exactly.
 ///
 /// The draws of each signal are a stream of their own (core/random.hpp): a reading depends on the seed, the signal
 /// and its number in the record. Cost: about 40 ns a noisy reading. Errors: none.
@@ -37,7 +38,7 @@ struct Sensor {
 
 struct Sensors {
   double sample_rate = 0.0;  ///< Hz; 0: amplitudes are read, not histories
-  int average_cycles = 1;    ///< cycles that an amplitude is averaged over
+  int average_cycles = 1;    ///< periods that an amplitude is averaged over
   Sensor y, x, v, a, force;
 };
 

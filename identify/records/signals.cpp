@@ -70,16 +70,6 @@ double five_point_gain(double omega, double sample_rate) {
   return (1.0 + 2.0 * std::cos(angle) + 2.0 * std::cos(2.0 * angle)) / 5.0;
 }
 
-double noise_deviation(std::span<const double> x) {
-  double sum = 0.0;
-  for (std::size_t i = 2; i + 2 < x.size(); ++i) {
-    const double fourth = x[i - 2] - 4.0 * x[i - 1] + 6.0 * x[i] - 4.0 * x[i + 1] + x[i + 2];
-    sum += fourth * fourth;
-  }
-  constexpr double gain = 70.0;  // sum of the squared coefficients
-  return std::sqrt(sum / (gain * static_cast<double>(x.size() - 4)));
-}
-
 ZeroPhaseFilter::ZeroPhaseFilter(double cutoff, double sample_rate) {
   const double warped = std::tan(pi * cutoff / sample_rate);
   const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * warped + warped * warped);
@@ -225,7 +215,8 @@ std::vector<NumberedHistory> usable_histories(const Record& record, const Filter
   return usable;
 }
 
-std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants, Estimate& estimate) {
+std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
+                                               Estimate& estimate) {
   const std::vector<NumberedHistory> histories = usable_histories(record, {.cutoffs = {0.0}}, estimate);
   if (histories.empty()) return std::nullopt;
   if (std::string fault = fault_of(constants); !fault.empty()) {

@@ -29,10 +29,6 @@ namespace dualdamp::identify {
 /// What that makes of a sine at `omega` [rad/s]: (1 + 2 cos wT + 2 cos 2wT)/5.
 [[nodiscard]] double five_point_gain(double omega, double sample_rate);
 
-/// Standard deviation of a signal's noise, from fourth differences, which a smooth motion hardly has. At least five
-/// samples.
-[[nodiscard]] double noise_deviation(std::span<const double> x);
-
 /// Butterworth's low-pass filter of second order, run forwards and backwards: no lag and the gain
 /// 1/(1 + (tan(w T/2)/tan(wc T/2))^4), one half at the cut-off. The ends are continued by point reflection.
 class ZeroPhaseFilter {
@@ -91,7 +87,7 @@ struct NumberedHistory {
 /// The longest history that can be used as it is, for the methods that take one alone and need mass and stiffness;
 /// the others go to the exclusions. Nothing: the estimate has been refused.
 [[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
- Estimate& estimate);
+                                                             Estimate& estimate);
 
 /// Samples slower than this are left out of a regression on speed [m/s]: the option, or a hundredth of the largest
 /// speed, for the sign of a slower one is that of the noise.

@@ -111,33 +111,28 @@ std::string percent(double fraction) {
   return (fraction < 0.0 ? "" : "+") + core::format_number(100.0 * fraction, 3) + " %";
 }
 
-namespace {
-
-/// One parameter of `judge_signs`; `name` heads the sentences.
-void judge_sign(double value, double least, const std::optional<ParameterIntervals>& intervals,
-                std::array<double, 2> ParameterIntervals::* interval, const std::string& name,
-                std::vector<std::string>& faults, std::vector<std::string>& warnings) {
+void judge_sign(double value, double least, const std::array<double, 2>* interval, const std::string& name,
+                Estimate& estimate, std::vector<std::string>& faults) {
   const bool negative = value < -least;
-  if (!intervals) {
+  if (interval == nullptr) {
     if (negative) faults.push_back(name + " came out negative");
     return;
   }
-  const auto& [low, high] = (*intervals).*interval;
+  const auto& [low, high] = *interval;
   if (negative && high < 0.0) {
     faults.push_back(name + " came out negative by more than its uncertainty");
   } else if (low <= 0.0 && high >= 0.0 && high - low > least) {
-    warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");
+    estimate.warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");
   }
 }
 
-}  // namespace
-
 void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults) {
   constexpr double least_zeta = 1e-9;
-  judge_sign(estimate.value.zeta, least_zeta, estimate.interval95, &ParameterIntervals::zeta, "the damping ratio",
-             faults, estimate.warnings);
-  judge_sign(estimate.value.x_f, least_x_f, estimate.interval95, &ParameterIntervals::x_f, "the Coulomb friction",
-             faults, estimate.warnings);
+  const bool known = estimate.interval95.has_value();
+  judge_sign(estimate.value.zeta, least_zeta, known ? &estimate.interval95->zeta : nullptr, "the damping ratio",
+             estimate, faults);
+  judge_sign(estimate.value.x_f, least_x_f, known ? &estimate.interval95->x_f : nullptr, "the Coulomb friction",
+             estimate, faults);
 }
 
 void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis) {

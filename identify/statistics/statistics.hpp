@@ -2,9 +2,11 @@
 /// Small-sample statistics shared by the methods.
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
@@ -47,9 +49,13 @@ void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
 /// A signed percentage for messages: "+9.6 %".
 [[nodiscard]] std::string percent(double fraction);
 
-/// Doubts that follow from the numbers alone: a negative or an indistinguishable parameter. Reasons not to use the
-/// estimate are appended to `faults`, lesser doubts to the estimate's warnings. `least_x_f` [m]: what rounding
-/// alone makes of a friction that is not there.
+/// Diagnostic of one parameter that cannot be negative: it came out negative, or is not to be told from zero. A
+/// reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what
+/// rounding alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
+void judge_sign(double value, double least, const std::array<double, 2>* interval, const std::string& name,
+                Estimate& estimate, std::vector<std::string>& faults);
+
+/// That of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
 void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
 
 /// Sets `usable` and `reason`: usable when `faults` is empty, and then it rests on `basis`.

@@ -9,7 +9,8 @@
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/records/sensors.hpp"
 #include "identify/records/signals.hpp"
-#include "identify/uncertainty/starred_record.hpp"
+#include "identify/statistics/noise_level.hpp"
+#include "identify/uncertainty/synthetic_record.hpp"
 
 namespace dualdamp::identify {
 
@@ -30,11 +31,11 @@ std::size_t length_of(const RandomResponse& response) {
 }
 
 /// Stretches of the recorded drive under half-sine windows, two at a time, whose squares add up to one.
-void add_stretches(const RandomResponse& response, const core::RandomStream& random, History& replica) {
+void add_stretches(const RandomResponse& response, const core::RandomStream& random, History& drawn) {
   constexpr double periods = 0.5;
   const std::size_t available = response.measured.x.size();
   const std::size_t half = std::min(static_cast<std::size_t>(0.5 * samples_of(response, periods)), available / 4);
-  const std::size_t length = replica.x.size();
+  const std::size_t length = drawn.x.size();
   std::uint64_t draw = 0;
   for (std::size_t middle = 0; middle < length + half; middle += half) {
     const auto from = static_cast<std::size_t>(random.uniform(draw++) * static_cast<double>(available - 2 * half));
@@ -44,8 +45,8 @@ void add_stretches(const RandomResponse& response, const core::RandomStream& ran
       if (at < half || at - half >= length) continue;
       const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(2 * half);
       const double weight = sign * std::sin(std::numbers::pi * part);
-      if (!replica.y.empty()) replica.y[at - half] += weight * response.measured.y[from + i];
-      if (!replica.force.empty()) replica.force[at - half] += weight * response.measured.force[from + i];
+      if (!drawn.y.empty()) drawn.y[at - half] += weight * response.measured.y[from + i];
+      if (!drawn.force.empty()) drawn.force[at - half] += weight * response.measured.force[from + i];
     }
   }
 }
@@ -92,7 +93,7 @@ double RandomResponse::share() const {
   return static_cast<double>(length_of(*this)) / static_cast<double>(measured.x.size());
 }
 
-Record RandomResponse::replica(int number) const {
+Record RandomResponse::record(int number) const {
   const std::uint64_t seed = seed_of({{1, &measured}}) + static_cast<std::uint64_t>(number);
   const double v0 = measured.v.empty() ? 0.0 : measured.v.front();
   History history;
@@ -108,11 +109,11 @@ Record RandomResponse::replica(int number) const {
     respond(law, measured.x.front(), v0, history);
   }
   Sensors sensors;
-  sensors.x.noise = noise_deviation(measured.x);
+  sensors.x.noise = noise_level(measured.x);
   if (measured.v.empty())
     history.v.clear();
   else
-    sensors.v.noise = noise_deviation(measured.v);
+    sensors.v.noise = noise_level(measured.v);
   Record record;
   record.histories.push_back(std::move(history));
   return read(record, sensors, seed);

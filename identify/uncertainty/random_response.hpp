@@ -1,6 +1,6 @@
 #pragma once
 /// Records of a mass with known friction under a random drive like that of a measured record, for the intervals of
-/// methods that read a random response (replicas.hpp).
+/// methods that read a random response (parametric_bootstrap.hpp).
 ///
 ///   m x'' + c x' + F0 sgn x' + k (x - y) = f
 ///
@@ -24,9 +24,9 @@ struct RandomResponse {
   ForceParameters law;  ///< k > 0, c >= 0, F0 >= 0
   double intensity = 0.0;
 
-  /// Samples of a replica over those of the measured record.
+  /// Samples of a synthetic record over those of the measured record.
   [[nodiscard]] double share() const;
-  [[nodiscard]] Record replica(int number) const;
+  [[nodiscard]] Record record(int number) const;
 };
 
 }  // namespace dualdamp::identify

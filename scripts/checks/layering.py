@@ -46,7 +46,7 @@ ROOMS = {
         ".": ["methods"],  # the list of methods
         "statistics": ["."],
         "records": [".", "statistics"],
-        "readers": [".", "records"],
+        "readers": [".", "statistics", "records"],
         "models": [".", "statistics"],
         "uncertainty": [".", "statistics", "records", "models"],
         "methods": [".", "statistics", "records", "models", "uncertainty"],

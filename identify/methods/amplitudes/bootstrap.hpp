@@ -42,7 +42,7 @@ using Replicate = std::function<std::optional<Eigen::Vector2d>(Draws&)>;
 
 /// Makes the replicates and adds `bootstrap_zeta` and `bootstrap_F0` to the further parameters: mean, standard
 /// deviation and the interval between the 2.5 and 97.5 percentiles. `sweeps`: how many were drawn from, 1 for
-/// residuals; fewer than ten are doubted.
+/// residuals; fewer than ten give a warning.
 void add_bootstrap(Estimate& estimate, int replicates, std::size_t sweeps, const KnownConstants& constants,
                    const Replicate& replicate);
 

@@ -25,16 +25,12 @@ namespace {
 constexpr double greatest_zeta = 0.95;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Frequencies this close are one.
-constexpr double same_frequency = 1e-6;
-
 /// Parameters (zeta, x_f in the unit of the data, ln(wn/wn of the constants)); the last may be held at 0.
-class Model {
+class AmplitudeLaw {
  public:
-  Model(std::vector<Datum> pairs, bool free) : pairs_(std::move(pairs)), size_(free ? 3 : 2) {
+  AmplitudeLaw(std::vector<Datum> pairs, bool free) : pairs_(std::move(pairs)), size_(free ? 3 : 2) {
     for (const Datum& datum : pairs_) {
-      const auto found = std::ranges::find_if(
-          ratios_, [&](double r) { return std::abs(r - datum.r) <= same_frequency * datum.r; });
+      const auto found = std::ranges::find_if(ratios_, [&](double r) { return is_same_frequency(r, datum.r); });
       frequency_.push_back(static_cast<std::size_t>(found - ratios_.begin()));
       if (found == ratios_.end()) ratios_.push_back(datum.r);
     }
@@ -47,8 +43,8 @@ class Model {
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(pairs_.size()); }
   [[nodiscard]] Eigen::Index size() const { return size_; }
 
-  /// Model less measurement; derivatives in all three directions whether fitted or not. False outside of the law's
-  /// range.
+  /// AmplitudeLaw less measurement; derivatives in all three directions whether fitted or not. False outside of the
+  /// law's range.
   bool evaluate(const Eigen::Vector3d& p, Eigen::VectorXd& residual, Eigen::MatrixX3d* jacobian) const {
     if (!(p[0] > 0.0 && p[0] < greatest_zeta)) return false;
     const double scale = std::exp(-p[2]);
@@ -102,30 +98,30 @@ class Model {
   mutable std::vector<analytic::DenHartogSlopes> slopes_;
 };
 
-double sum_of_squares(const Model& model, const Eigen::Vector3d& p) {
+double sum_of_squares(const AmplitudeLaw& law, const Eigen::Vector3d& p) {
   Eigen::VectorXd residual;
-  return model.evaluate(p, residual, nullptr) ? residual.squaredNorm() : infinity;
+  return law.evaluate(p, residual, nullptr) ? residual.squaredNorm() : infinity;
 }
 
 /// The best of a grid in zeta (and wn), the friction by linear least squares with H neglected.
-std::optional<Eigen::Vector3d> starting_point(const Model& model) {
+std::optional<Eigen::Vector3d> starting_point(const AmplitudeLaw& law) {
   std::optional<Eigen::Vector3d> best;
   double least = infinity;
   std::vector<analytic::DenHartog> functions;
-  const double reach = model.size() == 3 ? 0.15 : 0.0;
+  const double reach = law.size() == 3 ? 0.15 : 0.0;
   for (double u = -reach; u <= reach; u += 0.03) {
     for (double zeta = 0.003; zeta < greatest_zeta; zeta *= 1.35) {
       functions.clear();
-      for (const double r : model.ratios()) functions.push_back(analytic::den_hartog(zeta, r * std::exp(-u)));
+      for (const double r : law.ratios()) functions.push_back(analytic::den_hartog(zeta, r * std::exp(-u)));
       double S_GG = 0.0;
       double S_Gx = 0.0;
-      for (std::size_t i = 0; i < model.pairs().size(); ++i) {
-        const analytic::DenHartog& d = functions[model.frequency(i)];
+      for (std::size_t i = 0; i < law.pairs().size(); ++i) {
+        const analytic::DenHartog& d = functions[law.frequency(i)];
         S_GG += d.G * d.G;
-        S_Gx += d.G * (model.pairs()[i].Y / d.q - model.pairs()[i].x);
+        S_Gx += d.G * (law.pairs()[i].Y / d.q - law.pairs()[i].x);
       }
       const Eigen::Vector3d p(zeta, std::max(S_Gx / S_GG, 0.0), u);
-      const double squares = sum_of_squares(model, p);
+      const double squares = sum_of_squares(law, p);
       if (squares >= least) continue;
       least = squares;
       best = p;
@@ -140,37 +136,37 @@ struct Fit {
   Eigen::MatrixX3d jacobian;  ///< in all three directions
 };
 
-std::optional<Fit> fit_model(const Model& model) {
-  const std::optional<Eigen::Vector3d> start = starting_point(model);
+std::optional<Fit> fit_model(const AmplitudeLaw& law) {
+  const std::optional<Eigen::Vector3d> start = starting_point(law);
   if (!start) return std::nullopt;
   Fit result;
-  const auto full = [&model](const Eigen::VectorXd& p) {
-    return Eigen::Vector3d(p[0], p[1], model.size() == 3 ? p[2] : 0.0);
+  const auto full = [&law](const Eigen::VectorXd& p) {
+    return Eigen::Vector3d(p[0], p[1], law.size() == 3 ? p[2] : 0.0);
   };
   LeastSquaresProblem problem;
-  problem.residuals = model.rows();
-  problem.start = start->head(model.size());
+  problem.residuals = law.rows();
+  problem.start = start->head(law.size());
   problem.evaluate = [&](const Eigen::VectorXd& p, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
-    if (!model.evaluate(full(p), residual, jacobian == nullptr ? nullptr : &result.jacobian)) return false;
-    if (jacobian != nullptr) *jacobian = result.jacobian.leftCols(model.size());
+    if (!law.evaluate(full(p), residual, jacobian == nullptr ? nullptr : &result.jacobian)) return false;
+    if (jacobian != nullptr) *jacobian = result.jacobian.leftCols(law.size());
     return true;
   };
   const LeastSquaresFit found = fit(problem);
   if (!found.outcome.ok()) return std::nullopt;
   result.p = full(found.parameters);
-  if (!model.evaluate(result.p, result.residual, &result.jacobian)) return std::nullopt;
+  if (!law.evaluate(result.p, result.residual, &result.jacobian)) return std::nullopt;
   return result;
 }
 
 /// A few Gauss-Newton steps from a point that is near: what replicates of a bootstrap need.
-std::optional<Eigen::Vector3d> refine(const Model& model, Eigen::Vector3d p) {
+std::optional<Eigen::Vector3d> refine(const AmplitudeLaw& law, Eigen::Vector3d p) {
   Eigen::VectorXd residual;
   Eigen::MatrixX3d jacobian;
   constexpr int steps = 6;
   for (int i = 0; i < steps; ++i) {
-    if (!model.evaluate(p, residual, &jacobian)) return std::nullopt;
+    if (!law.evaluate(p, residual, &jacobian)) return std::nullopt;
     Eigen::Vector3d step = Eigen::Vector3d::Zero();
-    if (model.size() == 3) {
+    if (law.size() == 3) {
       step = (jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose() * residual);
     } else {
       const auto columns = jacobian.leftCols<2>();
@@ -183,31 +179,32 @@ std::optional<Eigen::Vector3d> refine(const Model& model, Eigen::Vector3d p) {
 }
 
 /// Fits, leaves out the pairs that stick at the estimate, and fits again until none does.
-std::optional<Fit> fit_sliding(Model& model, double unit, Estimate& estimate) {
-  while (model.rows() >= model.size()) {
-    std::optional<Fit> fit = fit_model(model);
+std::optional<Fit> fit_sliding(AmplitudeLaw& law, double unit, Estimate& estimate) {
+  while (law.rows() >= law.size()) {
+    std::optional<Fit> fit = fit_model(law);
     if (!fit) return std::nullopt;
     const double x_f = fit->p[1];
     std::vector<Datum> left;
     double r = 0.0;
-    double limit = 0.0;
-    for (const Datum& datum : model.pairs()) {
+    double least_ratio = 0.0;
+    for (const Datum& datum : law.pairs()) {
       if (datum.r != r) {
         r = datum.r;
-        limit = analytic::non_sticking_limit(analytic::den_hartog(fit->p[0], r * std::exp(-fit->p[2])));
+        least_ratio = analytic::non_sticking_limit(analytic::den_hartog(fit->p[0], r * std::exp(-fit->p[2])));
       }
-      if (x_f <= 0.0 || datum.x > limit * x_f) {
+      if (x_f <= 0.0 || datum.x > least_ratio * x_f) {
         left.push_back(datum);
         continue;
       }
       estimate.excluded.push_back(
           {datum.number, "the mass sticks: x/x_f = " + core::format_number(datum.x / x_f, 4) + " is not above " +
-                             core::format_number(limit, 4) + " (at zeta = " + core::format_number(fit->p[0], 4) +
+                             core::format_number(least_ratio, 4) +
+                             " (at zeta = " + core::format_number(fit->p[0], 4) +
                              ", x_f = " + core::format_number(x_f * unit, 4) + " m)"});
     }
     std::ranges::sort(estimate.excluded, {}, &Exclusion::number);
-    if (left.size() == model.pairs().size()) return fit;
-    model = Model(std::move(left), model.size() == 3);
+    if (left.size() == law.pairs().size()) return fit;
+    law = AmplitudeLaw(std::move(left), law.size() == 3);
   }
   return std::nullopt;
 }
@@ -219,16 +216,16 @@ KnownConstants fitted_constants(const KnownConstants& constants, const Fit& fit)
   return result;
 }
 
-void add_uncertainty(const Model& model, const Fit& fit, double unit, const KnownConstants& constants,
+void add_uncertainty(const AmplitudeLaw& law, const Fit& fit, double unit, const KnownConstants& constants,
                      const std::optional<Scatter>& scatter, Estimate& estimate) {
-  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(fit.jacobian.leftCols(model.size()));
+  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(fit.jacobian.leftCols(law.size()));
   if (scatter && covariance) {
     const Eigen::DiagonalMatrix<double, 2> to_metres(1.0, unit);
     const Eigen::Matrix2d friction = covariance->topLeftCorner<2, 2>();
     set_uncertainty(estimate, scatter->variance * (to_metres * friction * to_metres), scatter->half_width,
                     constants);
   }
-  if (model.size() < 3) return;
+  if (law.size() < 3) return;
   const double omega_n = std::sqrt(constants.stiffness / constants.mass);
   FurtherParameter parameter{"natural_frequency", "rad/s", omega_n, std::nullopt, std::nullopt};
   if (scatter && covariance) {
@@ -240,19 +237,19 @@ void add_uncertainty(const Model& model, const Fit& fit, double unit, const Know
 }
 
 /// Is the friction another one at larger amplitudes, and is the natural frequency another one?
-void test_fit(const Model& model, const Fit& fit, Estimate& estimate, std::vector<std::string>& faults) {
-  const Eigen::MatrixXd columns = fit.jacobian.leftCols(model.size());
-  const Eigen::VectorXd residual = -fit.residual;  // measurement less model
-  Eigen::VectorXd square(model.rows());
-  for (Eigen::Index i = 0; i < model.rows(); ++i) {
-    const double fitted = model.pairs()[static_cast<std::size_t>(i)].x + fit.residual[i];
+void test_fit(const AmplitudeLaw& law, const Fit& fit, Estimate& estimate, std::vector<std::string>& faults) {
+  const Eigen::MatrixXd columns = fit.jacobian.leftCols(law.size());
+  const Eigen::VectorXd residual = -fit.residual;  // measurement less law
+  Eigen::VectorXd square(law.rows());
+  for (Eigen::Index i = 0; i < law.rows(); ++i) {
+    const double fitted = law.pairs()[static_cast<std::size_t>(i)].x + fit.residual[i];
     square[i] = fitted * fitted;
   }
-  const double range = output_range(model.pairs());
+  const double range = output_range(law.pairs());
   estimate.lack_of_fit = added_term_test(columns, residual, square, range, "quadratic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
     faults.emplace_back("the pairs do not follow the amplitude law, so no single zeta and F0 describes them");
-  if (model.size() == 3 || model.frequencies() < 2) return;
+  if (law.size() == 3 || law.frequencies() < 2) return;
   const auto detuned = added_term_test(columns, residual, fit.jacobian.col(2), range, "natural frequency F-test");
   if (detuned && detuned->fired)
     faults.push_back(
@@ -261,10 +258,10 @@ void test_fit(const Model& model, const Fit& fit, Estimate& estimate, std::vecto
 }
 
 /// Phases are not fitted; they speak of the instruments and of wn.
-void judge_phases(const Record& record, const Model& model, const Fit& fit, Estimate& estimate) {
+void judge_phases(const Record& record, const AmplitudeLaw& law, const Fit& fit, Estimate& estimate) {
   double sum = 0.0;
   int count = 0;
-  for (const Datum& datum : model.pairs()) {
+  for (const Datum& datum : law.pairs()) {
     const auto pair = std::ranges::find(record.pairs->pairs, datum.number, &Pair::number);
     if (pair == record.pairs->pairs.end() || std::isnan(pair->phase)) continue;
     const auto state = analytic::non_sticking_state(analytic::den_hartog(fit.p[0], datum.r * std::exp(-fit.p[2])),
@@ -280,28 +277,27 @@ void judge_phases(const Record& record, const Model& model, const Fit& fit, Esti
                                 " degrees in the mean: a lag of the instruments, or another natural frequency");
 }
 
-Deviance deviance_of(const Model& model, const Fit& fit, double unit, double variance) {
-  return [&model, &fit, unit, variance, least = fit.residual.squaredNorm()](double zeta, double x_f) {
-    const auto deviance = [&](double u) {
-      return (sum_of_squares(model, {zeta, x_f / unit, u}) - least) / variance;
-    };
-    if (model.size() == 2) return deviance(0.0);
+Deviance deviance_of(const AmplitudeLaw& law, const Fit& fit, double unit, double variance) {
+  return [&law, &fit, unit, variance, least = fit.residual.squaredNorm()](double zeta, double x_f) {
+    const auto deviance = [&](double u) { return (sum_of_squares(law, {zeta, x_f / unit, u}) - least) / variance; };
+    if (law.size() == 2) return deviance(0.0);
     constexpr int digits = 20;
     constexpr double reach = 0.05;
     return boost::math::tools::brent_find_minima(deviance, fit.p[2] - reach, fit.p[2] + reach, digits).second;
   };
 }
 
-void bootstrap(const Model& model, const Fit& fit, const ResonanceData& data, int replicates, Estimate& estimate) {
-  const std::vector<std::vector<std::size_t>> blocks = sweep_blocks(model.pairs());
-  const double widen = std::sqrt(static_cast<double>(model.rows()) /
-                                 static_cast<double>(std::max<Eigen::Index>(model.rows() - model.size(), 1)));
+void bootstrap(const AmplitudeLaw& law, const Fit& fit, const ResonanceData& data, int replicates,
+               Estimate& estimate) {
+  const std::vector<std::vector<std::size_t>> blocks = sweep_blocks(law.pairs());
+  const double widen = std::sqrt(static_cast<double>(law.rows()) /
+                                 static_cast<double>(std::max<Eigen::Index>(law.rows() - law.size(), 1)));
   const auto drawn = [&](Draws& draws) {
     std::vector<Datum> pairs;
     for (std::size_t j = 0; j < blocks.size() && blocks.size() > 1; ++j)
-      for (const std::size_t i : blocks[draws.below(blocks.size())]) pairs.push_back(model.pairs()[i]);
+      for (const std::size_t i : blocks[draws.below(blocks.size())]) pairs.push_back(law.pairs()[i]);
     if (blocks.size() > 1) return pairs;
-    pairs = model.pairs();
+    pairs = law.pairs();
     for (std::size_t i = 0; i < pairs.size(); ++i)
       pairs[i].x += fit.residual[static_cast<Eigen::Index>(i)] -
                     widen * fit.residual[static_cast<Eigen::Index>(draws.below(pairs.size()))];
@@ -309,28 +305,28 @@ void bootstrap(const Model& model, const Fit& fit, const ResonanceData& data, in
   };
   add_bootstrap(estimate, replicates, blocks.size(), data.constants,
                 [&](Draws& draws) -> std::optional<Eigen::Vector2d> {
-                  const auto p = refine(Model(drawn(draws), model.size() == 3), fit.p);
+                  const auto p = refine(AmplitudeLaw(drawn(draws), law.size() == 3), fit.p);
                   if (!p || !p->allFinite()) return std::nullopt;
                   return Eigen::Vector2d((*p)[0], (*p)[1] * data.unit);
                 });
 }
 
 /// Why there is no fit; empty when there may be one.
-std::string fault_of(const Model& model, const std::vector<Exclusion>& excluded) {
-  if (model.size() == 3 && model.frequencies() < 3)
+std::string fault_of(const AmplitudeLaw& law, const std::vector<Exclusion>& excluded) {
+  if (law.size() == 3 && law.frequencies() < 3)
     return "the natural frequency cannot be told from fewer than three frequencies, and the record has " +
-           std::to_string(model.frequencies()) + ": zeta would be known tens of times worse";
-  if (model.rows() < model.size()) {
-    std::string fault = std::to_string(model.size()) + " pairs are needed, and " + std::to_string(model.rows()) +
-                        (model.rows() == 1 ? " is" : " are") + " left";
+           std::to_string(law.frequencies()) + ": zeta would be known tens of times worse";
+  if (law.rows() < law.size()) {
+    std::string fault = std::to_string(law.size()) + " pairs are needed, and " + std::to_string(law.rows()) +
+                        (law.rows() == 1 ? " is" : " are") + " left";
     if (!excluded.empty())
       fault += "; pair " + std::to_string(excluded.front().number) + ": " + excluded.front().reason;
     return fault;
   }
   const auto same = [&](const Datum& datum) {
-    return datum.Y == model.pairs().front().Y && datum.r == model.pairs().front().r;
+    return datum.Y == law.pairs().front().Y && datum.r == law.pairs().front().r;
   };
-  return std::ranges::all_of(model.pairs(), same) ? "the pairs are all of one input and one frequency" : "";
+  return std::ranges::all_of(law.pairs(), same) ? "the pairs are all of one input and one frequency" : "";
 }
 
 }  // namespace
@@ -341,37 +337,37 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
   std::optional<ResonanceData> data = take_pairs(record, constants, estimate);
   if (!data) return estimate;
   std::ranges::sort(data->pairs, {}, &Datum::number);
-  Model model(data->pairs, options.free_natural_frequency);
-  if (std::string fault = fault_of(model, estimate.excluded); !fault.empty()) {
+  AmplitudeLaw law(data->pairs, options.free_natural_frequency);
+  if (std::string fault = fault_of(law, estimate.excluded); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }
-  const std::optional<Fit> fit = fit_sliding(model, data->unit, estimate);
+  const std::optional<Fit> fit = fit_sliding(law, data->unit, estimate);
   if (!fit) {
-    std::string fault = fault_of(model, estimate.excluded);
+    std::string fault = fault_of(law, estimate.excluded);
     refuse(estimate, fault.empty() ? "no zeta below 0.95 fits the pairs" : std::move(fault));
     return estimate;
   }
   const KnownConstants used_constants = fitted_constants(constants, *fit);
   estimate.value = parameters(fit->p[0], fit->p[1] * data->unit, used_constants);
-  estimate.used = numbers_of(model.pairs());
-  const auto freedom = static_cast<double>(model.rows() - model.size());
-  const auto scatter = scatter_of(fit->residual.squaredNorm(), freedom, std::sqrt(model.mean_square_gain(fit->p)),
+  estimate.used = numbers_of(law.pairs());
+  const auto freedom = static_cast<double>(law.rows() - law.size());
+  const auto scatter = scatter_of(fit->residual.squaredNorm(), freedom, std::sqrt(law.mean_square_gain(fit->p)),
                                   options, data->unit);
-  add_uncertainty(model, *fit, data->unit, used_constants, scatter, estimate);
+  add_uncertainty(law, *fit, data->unit, used_constants, scatter, estimate);
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * model.pairs().front().Y * data->unit, faults);
-  test_fit(model, *fit, estimate, faults);
-  judge_phases(record, model, *fit, estimate);
+  judge_signs(estimate, 1e-9 * law.pairs().front().Y * data->unit, faults);
+  test_fit(law, *fit, estimate, faults);
+  judge_phases(record, law, *fit, estimate);
   if (options.profile && scatter)
-    add_profiles(estimate, deviance_of(model, *fit, data->unit, scatter->variance), scatter->half_width,
+    add_profiles(estimate, deviance_of(law, *fit, data->unit, scatter->variance), scatter->half_width,
                  used_constants);
-  if (options.bootstrap > 0) bootstrap(model, *fit, *data, options.bootstrap, estimate);
+  if (options.bootstrap > 0) bootstrap(law, *fit, *data, options.bootstrap, estimate);
   conclude(estimate, faults,
-           "rests on " + std::to_string(model.rows()) + " of " + std::to_string(record.pairs->pairs.size()) +
-               " pairs at " + std::to_string(model.frequencies()) +
-               (model.frequencies() == 1 ? " frequency" : " frequencies"));
+           "rests on " + std::to_string(law.rows()) + " of " + std::to_string(record.pairs->pairs.size()) +
+               " pairs at " + std::to_string(law.frequencies()) +
+               (law.frequencies() == 1 ? " frequency" : " frequencies"));
   return estimate;
 }
 

@@ -10,17 +10,18 @@
 ///
 /// Holds for Coulomb and viscous friction, zeta < 0.95, without sticking, errors of x independent and alike. Phases
 /// are not fitted; where the record has them they are compared with those of the fitted motion. Uncertainty:
-/// covariance of least squares, n - 2 (n - 3) degrees of freedom, or from `sigma_x` and `sigma_Y`. Doubts: pairs
-/// that stick are left out by the exact test; an F test of a term quadratic in the output; with several frequencies
-/// and a known wn, an F test of another wn. Source: denhartog1931, hundal1979, liang2004identifying. Errors:
-/// `outcome`. Cost: some twenty evaluations, each 0.3 us a frequency and 20 ns a pair, and the solver's own 0.2 ms.
+/// covariance of least squares, n - 2 (n - 3) degrees of freedom, or from `sigma_x` and `sigma_Y`. Diagnostics:
+/// pairs that stick are left out by the exact test; an F test of a term quadratic in the output; with several
+/// frequencies and a known wn, an F test of another wn. Source: denhartog1931, hundal1979, liang2004identifying.
+/// Errors: `outcome`. Cost: some twenty evaluations, each 0.3 us a frequency and 20 ns a pair, and the solver's own
+/// 0.2 ms.
 
 #include "identify/method.hpp"
 
 namespace dualdamp::identify {
 
-inline constexpr Option free_natural_frequency_option{
-    .name = "free_natural_frequency", .meaning = "den_hartog_fit fits the natural frequency too"};
+inline constexpr Option free_natural_frequency_option{.name = "free_natural_frequency",
+                                                      .meaning = "den_hartog_fit fits the natural frequency too"};
 
 struct DenHartogOptions : KnownDeviations {
   bool free_natural_frequency = false;
@@ -28,15 +29,15 @@ struct DenHartogOptions : KnownDeviations {
   bool profile = false;  ///< curves of the likelihood of zeta and F0
 
   static constexpr auto declared() {
-    return std::tuple_cat(
-        KnownDeviations::declared(),
-        std::tuple{Use{&free_natural_frequency_option, &DenHartogOptions::free_natural_frequency},
-                   Use{&bootstrap_option, &DenHartogOptions::bootstrap},
-                   Use{&profile_option, &DenHartogOptions::profile}});
+    return std::tuple_cat(KnownDeviations::declared(),
+                          std::tuple{Use{&free_natural_frequency_option, &DenHartogOptions::free_natural_frequency},
+                                     Use{&bootstrap_option, &DenHartogOptions::bootstrap},
+                                     Use{&profile_option, &DenHartogOptions::profile}});
   }
 };
 
-[[nodiscard]] Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, const DenHartogOptions& options = {});
+[[nodiscard]] Estimate den_hartog_fit(const Record& record, const KnownConstants& constants,
+                                      const DenHartogOptions& options = {});
 
 inline constexpr MethodEntry den_hartog_fit_method{
     "den_hartog_fit",

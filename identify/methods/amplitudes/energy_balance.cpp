@@ -8,6 +8,7 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/history_energy.hpp"
 #include "identify/records/signals.hpp"
+#include "identify/statistics/noise_level.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -77,9 +78,9 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
 
 namespace {
 
-/// Cycles that x would make in all its samples, turning as often as between its first and last turn. Only what
-/// turns back by more than `band` is one.
-int cycles_of(const std::vector<double>& x, double band) {
+/// Periods that x would make in all its samples, reversing as often as between its first and last reversal. Only
+/// what turns back by more than `band` is one.
+int periods_of(const std::vector<double>& x, double band) {
   std::vector<std::size_t> turns;
   double sense = 0.0;
   std::size_t furthest = 0;
@@ -93,21 +94,21 @@ int cycles_of(const std::vector<double>& x, double band) {
     }
   }
   if (turns.size() < 2) return 1;
-  const double half_cycle =
+  const double half_period =
       static_cast<double>(turns.back() - turns.front()) / static_cast<double>(turns.size() - 1);
-  return std::max(static_cast<int>(static_cast<double>(x.size()) / (2.0 * half_cycle)), 1);
+  return std::max(static_cast<int>(static_cast<double>(x.size()) / (2.0 * half_period)), 1);
 }
 
-/// Histories in windows of about a cycle each, filtered with the first cut-off. Where the mass rests all that moves
-/// is noise, whose way is no motion: such windows are left out.
+/// Histories in windows of about a period each, filtered with the first cut-off. Windows in
+/// which the mass sticks hold noise alone, and are left out.
 std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
                                                const FilterOptions& options, Estimate& estimate) {
   std::vector<EnergyTerms> accounts;
   for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
     const Motion motion = motion_of(*item.history, cutoffs_for(*item.history, options).front());
     constexpr double widest_noise = 10.0;  // standard deviations; of a million Gaussian ones it is 9.8
-    const double band = widest_noise * noise_deviation(item.history->x);
-    for (const WindowEnergy& window : energy_of(motion, constants, cycles_of(motion.x, band)))
+    const double band = widest_noise * noise_level(item.history->x);
+    for (const WindowEnergy& window : energy_of(motion, constants, periods_of(motion.x, band)))
       if (window.path > 0.0 && window.range > band)
         accounts.push_back({.work = window.input - window.stored,
                             .path = window.path,
@@ -129,7 +130,7 @@ Estimate of_histories(const Record& record, const KnownConstants& constants, con
   const auto repeated = std::ranges::unique(estimate.used);
   estimate.used.erase(repeated.begin(), repeated.end());
   conclude(estimate, faults,
-           "rests on " + std::to_string(accounts.size()) + " cycles of " + std::to_string(estimate.used.size()) +
+           "rests on " + std::to_string(accounts.size()) + " periods of " + std::to_string(estimate.used.size()) +
                (estimate.used.size() == 1 ? " history" : " histories"));
   return estimate;
 }
@@ -173,7 +174,7 @@ std::string lacks_energy(const Record& record) {
   return record.histories.empty() || lacks_phases(record).empty() ? lacks_phases(record) : "";
 }
 
-/// States, being averaged over many cycles, come before histories.
+/// States, being averaged over many periods, come before histories.
 Estimate energy_balance(const Record& record, const KnownConstants& constants, const FilterOptions& options) {
   Estimate estimate;
   estimate.method = energy_balance_method.name;

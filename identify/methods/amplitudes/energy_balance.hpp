@@ -9,15 +9,15 @@
 /// not linear do not matter. Each state is divided by its path, which leaves a straight line of force over speed,
 /// fitted by least squares over levels and frequencies.
 ///
-/// Histories of y and x are read where the record has no two states with phases: each cycle is an account, with the
-/// work less the change of the stored energy, which needs the mass and allows any motion and any drive.
+/// Histories of y and x are read where the record has no two states with phases: each period is an account, with
+/// the work less the change of the stored energy, which needs the mass and allows any motion and any drive.
 ///
 /// Where the mean square speed of a state was not measured that of the fundamental is taken, w^2 X_1^2/2, and where
 /// X_1 was not, x. That biases c and F0 by one to two percent in opposite directions; by how much, the method tells
 /// by reading exact states at its own estimate. A phase error e changes the work by cot(phi) e: nothing at
-/// resonance. Uncertainty: from the scatter about the line with n - 2 degrees of freedom. Doubts: an F test of a
-/// quadratic term of the speed. Source: tomlinson1979, liang2006balancing. Errors: `outcome`. Cost: about 5 us for
-/// 50 states.
+/// resonance. Uncertainty: from the scatter about the line with n - 2 degrees of freedom. Diagnostics: an F test of
+/// a quadratic term of the speed. Source: tomlinson1979, liang2006balancing. Errors: `outcome`. Cost: about 5 us
+/// for 50 states.
 
 #include <functional>
 #include <vector>
@@ -46,7 +46,8 @@ using OwnAccounts = std::function<std::vector<EnergyTerms>(const ParameterSet&)>
 bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& constants, Estimate& estimate,
              std::vector<std::string>& faults, const OwnAccounts& own = {});
 
-[[nodiscard]] Estimate energy_balance(const Record& record, const KnownConstants& constants, const FilterOptions& options = {});
+[[nodiscard]] Estimate energy_balance(const Record& record, const KnownConstants& constants,
+                                      const FilterOptions& options = {});
 
 /// Two pairs with phases, or histories, are asked for.
 [[nodiscard]] std::string lacks_energy(const Record& record);

@@ -1,6 +1,5 @@
 #include "identify/methods/amplitudes/law_selection.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"
 #include "identify/methods/amplitudes/fundamental_laws.hpp"
+#include "identify/methods/amplitudes/law_fit.hpp"
 #include "identify/methods/amplitudes/resonance_line.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -28,18 +28,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Differences of x below this fraction of its range are of no weight.
 constexpr double least_effect = 5e-4;
 
-/// One pair with forces over k Y_max, lengths over x_max, speeds over V_max.
-struct Point {
-  double Y = 0.0;
-  double x = 0.0;        ///< relieved of what harmonic balance leaves of the exact law
-  double elastic = 0.0;  ///< (k - m w^2) x_max/(k Y_max)
-  double speed = 0.0;    ///< w x_max/V_max
-};
-
 /// The pairs and their scales.
 struct Test {
   std::vector<Datum> pairs;
-  std::vector<Point> points;
+  std::vector<LawPoint> points;
   double force = 0.0;   ///< k Y_max [N]
   double length = 0.0;  ///< x_max [m]
   double speed = 0.0;   ///< V_max [m/s]
@@ -47,162 +39,16 @@ struct Test {
   bool one_frequency = true;
 };
 
-double sum_of_terms(const FundamentalLaw& law, const Eigen::VectorXd& p, const FundamentalLaw::Terms& terms) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < law.coefficients.size(); ++j) sum += p[static_cast<Eigen::Index>(j)] * terms[j];
-  return sum;
-}
-
-double shape_of(const FundamentalLaw& law, const Eigen::VectorXd& p) {
-  return law.shape ? p[static_cast<Eigen::Index>(law.coefficients.size())] : 0.0;
-}
-
-/// The output that a law gives, and what it took to find it.
-struct Output {
-  double X = 0.0;
-  double across = 0.0;  ///< Phi
-  double slope = 0.0;   ///< of half of the square of the balance
-  FundamentalLaw::Fundamentals fundamentals;
-};
-
-/// By Newton's method from the measured output; nothing where the law has none.
-std::optional<Output> output(const FundamentalLaw& law, const Eigen::VectorXd& p, const Point& point) {
-  const double shape = shape_of(law, p);
-  Output found{.X = point.x};
-  constexpr int most_steps = 40;
-  for (int i = 0; i < most_steps; ++i) {
-    found.fundamentals = law.fundamentals(point.speed * found.X, found.X, shape);
-    const double along = point.elastic * found.X;
-    found.across = sum_of_terms(law, p, found.fundamentals.value);
-    found.slope = point.elastic * along + found.across * sum_of_terms(law, p, found.fundamentals.slope) / found.X;
-    if (!(found.slope > 0.0)) return std::nullopt;
-    const double step = 0.5 * (along * along + found.across * found.across - point.Y * point.Y) / found.slope;
-    found.X = std::max(found.X - step, 0.2 * found.X);
-    if (std::abs(step) < 1e-8 * found.X) return found;  // and the error after it is of its square
-  }
-  return std::nullopt;
-}
-
-/// Residuals in x and their derivatives, from the implicit equation.
-bool evaluate(const FundamentalLaw& law, const std::vector<Point>& points, const Eigen::VectorXd& p,
-              Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
-  residual.resize(static_cast<Eigen::Index>(points.size()));
-  const auto size = static_cast<Eigen::Index>(law.coefficients.size());
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    const Point& point = points[static_cast<std::size_t>(i)];
-    const std::optional<Output> found = output(law, p, point);
-    if (!found) return false;
-    residual[i] = found->X - point.x;
-    if (jacobian == nullptr) continue;
-    const double weight = -found->across / found->slope;
-    for (Eigen::Index j = 0; j < size; ++j)
-      (*jacobian)(i, j) = weight * found->fundamentals.value[static_cast<std::size_t>(j)];
-    if (law.shape) (*jacobian)(i, size) = weight * sum_of_terms(law, p, found->fundamentals.by_shape);
-  }
-  return true;
-}
-
-/// Linear least squares in the force for each of a grid of shapes, weighted as errors of x are by a straight law.
-Eigen::VectorXd starting_point(const FundamentalLaw& law, const std::vector<Point>& points) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  const auto size = static_cast<Eigen::Index>(law.coefficients.size());
-  Eigen::VectorXd best = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(law.parameters()));
-  double least = infinity;
-  constexpr int grid = 24;
-  for (int g = 0; g < (law.shape ? grid : 1); ++g) {
-    const double shape =
-        law.shape ? law.shape->low * std::pow(law.shape->high / law.shape->low, (g + 0.5) / grid) : 0.0;
-    Eigen::MatrixXd columns(count, size);
-    Eigen::VectorXd values(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Point& point = points[static_cast<std::size_t>(i)];
-      const double along = point.elastic * point.x;
-      const double across = std::sqrt(std::max((point.Y - along) * (point.Y + along), 0.0));
-      const double weight = across / (point.elastic * point.elastic * point.x + across);
-      const FundamentalLaw::Terms terms = law.fundamentals(point.speed * point.x, point.x, shape).value;
-      for (Eigen::Index j = 0; j < size; ++j) columns(i, j) = weight * terms[static_cast<std::size_t>(j)];
-      values[i] = weight * across;
-    }
-    Eigen::VectorXd coefficients = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).solve(values);
-    for (Eigen::Index j = 0; j < size; ++j)
-      if (!law.coefficients[static_cast<std::size_t>(j)].signed_value)
-        coefficients[j] = std::max(coefficients[j], 1e-3);
-    const double squares = (values - columns * coefficients).squaredNorm();
-    if (!(squares < least)) continue;
-    least = squares;
-    best.head(size) = coefficients;
-    if (law.shape) best[size] = shape;
-  }
-  return best;
-}
-
-struct Fit {
-  const FundamentalLaw* law = nullptr;
-  Eigen::VectorXd p;
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;
-
-  [[nodiscard]] double squares() const { return residuals.squaredNorm(); }
-  [[nodiscard]] double freedom() const { return static_cast<double>(residuals.size() - p.size()); }
-};
-
-/// A speed of a shape is fitted by its inverse, in which the law is nearly linear: the data of Coulomb and viscous
-/// friction lead the speed itself to infinity, in a hundred steps. Its own inverse.
-void invert_shape(const FundamentalLaw& law, Eigen::VectorXd& p) {
-  if (law.shape && law.shape->is_speed) p[p.size() - 1] = 1.0 / p[p.size() - 1];
-}
-
-std::optional<Fit> fit_law(const FundamentalLaw& law, const std::vector<Point>& points) {
-  const auto size = static_cast<Eigen::Index>(law.parameters());
-  constexpr double unbounded = 1e6;
-  LeastSquaresProblem problem;
-  problem.residuals = static_cast<Eigen::Index>(points.size());
-  problem.start = starting_point(law, points);
-  problem.low = Eigen::VectorXd::Zero(size);
-  problem.high = Eigen::VectorXd::Constant(size, unbounded);
-  for (std::size_t j = 0; j < law.coefficients.size(); ++j)
-    if (law.coefficients[j].signed_value) problem.low[static_cast<Eigen::Index>(j)] = -unbounded;
-  if (law.shape) {
-    const bool inverse = law.shape->is_speed;
-    problem.low[size - 1] = inverse ? 1.0 / law.shape->high : law.shape->low;
-    problem.high[size - 1] = inverse ? 1.0 / law.shape->low : law.shape->high;
-  }
-  problem.tolerance = 1e-6;  // far below what tells laws apart
-  problem.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
-    Eigen::VectorXd p = q;
-    invert_shape(law, p);
-    if (!evaluate(law, points, p, residual, jacobian)) return false;
-    if (jacobian != nullptr && law.shape && law.shape->is_speed)
-      jacobian->col(size - 1) *= -p[size - 1] * p[size - 1];
-    return true;
-  };
-  // A term of negative sign may leave no motion at all: begin nearer to none of it.
-  Eigen::VectorXd residual;
-  constexpr int halvings = 6;
-  for (int i = 0; i < halvings && !evaluate(law, points, problem.start, residual, nullptr); ++i)
-    for (std::size_t j = 0; j < law.coefficients.size(); ++j)
-      if (law.coefficients[j].signed_value) problem.start[static_cast<Eigen::Index>(j)] *= 0.5;
-  invert_shape(law, problem.start);
-  LeastSquaresFit found = fit(problem);
-  if (!found.outcome.ok()) return std::nullopt;
-  Fit result{&law, std::move(found.parameters), std::move(found.residuals), std::move(found.jacobian)};
-  invert_shape(law, result.p);
-  if (law.shape && law.shape->is_speed) result.jacobian.col(size - 1) /= -result.p[size - 1] * result.p[size - 1];
-  return result;
-}
-
 /// Levels of input, those within 3 % of the range being one, at each frequency.
 std::size_t levels_of(const std::vector<Datum>& pairs) {
   std::vector<Datum> sorted = pairs;
   std::ranges::sort(sorted, {}, [](const Datum& datum) { return std::pair(datum.r, datum.Y); });
   const auto [least, greatest] = std::ranges::minmax_element(pairs, {}, &Datum::Y);
   const double reach = 0.03 * (greatest->Y - least->Y);
-  constexpr double same_frequency = 1e-4;
   std::size_t count = 0;
   const Datum* first = nullptr;
   for (const Datum& datum : sorted) {
-    const bool same =
-        first != nullptr && datum.r - first->r <= same_frequency * datum.r && datum.Y - first->Y <= reach;
+    const bool same = first != nullptr && is_same_frequency(first->r, datum.r) && datum.Y - first->Y <= reach;
     if (same) continue;
     first = &datum;
     ++count;
@@ -250,18 +96,17 @@ std::optional<Test> make_test(const ResonanceData& data, const std::vector<int>&
     least = std::min(least, datum.x * data.unit);
     frequencies.insert(datum.r);
   }
-  constexpr double same_frequency = 1e-4;
-  test.one_frequency = *frequencies.rbegin() - *frequencies.begin() <= same_frequency * *frequencies.begin();
+  test.one_frequency = is_same_frequency(*frequencies.rbegin(), *frequencies.begin());
   test.range = (test.length - least) / test.length;
   const FundamentalLaw& plain = fundamental_laws().front();
   const Eigen::VectorXd p = Eigen::Vector2d(value.F0 / test.force, value.c * test.speed / test.force).cwiseMax(0.0);
   for (const Datum& datum : test.pairs) {
-    Point point{constants.stiffness * datum.Y * data.unit / test.force, datum.x * data.unit / test.length,
-                constants.stiffness * (1.0 - datum.r) * (1.0 + datum.r) * test.length / test.force,
-                omega_n * datum.r * test.length / test.speed};
+    LawPoint point{constants.stiffness * datum.Y * data.unit / test.force, datum.x * data.unit / test.length,
+                   constants.stiffness * (1.0 - datum.r) * (1.0 + datum.r) * test.length / test.force,
+                   omega_n * datum.r * test.length / test.speed};
     const auto exact = analytic::amplitude(analytic::den_hartog(value.zeta, datum.r), datum.Y * data.unit,
                                            std::max(value.x_f, 0.0));
-    const std::optional<Output> balanced = output(plain, p, point);
+    const std::optional<LawOutput> balanced = output_of(plain, p, point);
     if (!exact || !balanced) return std::nullopt;
     point.x += balanced->X - *exact / test.length;
     test.points.push_back(point);
@@ -269,7 +114,7 @@ std::optional<Test> make_test(const ResonanceData& data, const std::vector<int>&
   return test;
 }
 
-LawCandidate candidate_of(const Fit& fit, const Test& test, double count) {
+LawCandidate candidate_of(const LawFit& fit, const Test& test, double count) {
   const FundamentalLaw& law = *fit.law;
   LawCandidate candidate;
   candidate.law = law.name;
@@ -327,10 +172,10 @@ bool rank(std::vector<LawCandidate>& candidates) {
 
 /// F test of the best law with one parameter more against Coulomb and viscous friction, its p value times the
 /// number of such laws that are not the same curve.
-std::optional<LackOfFit> widening_test(const std::vector<Fit>& fits, const Test& test) {
-  const Fit* best = nullptr;
+std::optional<LackOfFit> widening_test(const std::vector<LawFit>& fits, const Test& test) {
+  const LawFit* best = nullptr;
   double compared = 0.0;
-  for (const Fit& fit : fits) {
+  for (const LawFit& fit : fits) {
     if (!fit.law->one_more) continue;
     if (!(test.one_frequency && fit.law->alias_at_one_frequency)) compared += 1.0;
     if (best == nullptr || fit.squares() < best->squares()) best = &fit;
@@ -353,18 +198,18 @@ std::optional<LackOfFit> widening_test(const std::vector<Fit>& fits, const Test&
 }
 
 /// Coulomb and viscous friction and the best law of velocity.
-void add_curve(const std::vector<Fit>& fits, const std::vector<LawCandidate>& candidates, const Test& test,
+void add_curve(const std::vector<LawFit>& fits, const std::vector<LawCandidate>& candidates, const Test& test,
                Estimate& estimate) {
-  std::vector<const Fit*> drawn = {&fits.front()};
+  std::vector<const LawFit*> drawn = {&fits.front()};
   for (const LawCandidate& candidate : candidates) {
-    const auto fit = std::ranges::find(fits, candidate.law, [](const Fit& f) { return f.law->name; });
+    const auto fit = std::ranges::find(fits, candidate.law, [](const LawFit& f) { return f.law->name; });
     if (fit->law->forces == nullptr) continue;
     if (&*fit != drawn.front()) drawn.push_back(&*fit);
     break;
   }
   constexpr int points = 50;
   EstimateCurve curve{"friction_velocity", {{"v", "m/s", {}}}};
-  for (const Fit* fit : drawn) curve.columns.push_back({"F_" + std::string(fit->law->name), "N", {}});
+  for (const LawFit* fit : drawn) curve.columns.push_back({"F_" + std::string(fit->law->name), "N", {}});
   for (int i = 1; i <= points; ++i) {
     const double v = static_cast<double>(i) / points;
     curve.columns[0].values.push_back(v * test.speed);
@@ -400,13 +245,13 @@ void judge(const Test& test, Estimate& estimate, std::vector<std::string>& fault
 }
 
 /// The laws that these pairs can support.
-std::vector<Fit> fit_laws(const Test& test, std::size_t levels, Estimate& estimate) {
-  std::vector<Fit> fits;
+std::vector<LawFit> fit_laws(const Test& test, std::size_t levels, Estimate& estimate) {
+  std::vector<LawFit> fits;
   for (const FundamentalLaw& law : fundamental_laws()) {
     if (law.parameters() + 2 > levels && !fits.empty()) continue;
     // Not to be told from a smaller c, whatever the data.
     if (test.one_frequency && law.name == "position_linear") continue;
-    std::optional<Fit> fit = fit_law(law, test.points);
+    std::optional<LawFit> fit = fit_law(law, test.points);
     if (fit)
       fits.push_back(std::move(*fit));
     else
@@ -433,13 +278,13 @@ Estimate law_selection(const Record& record, const KnownConstants& constants, co
   const std::optional<Test> test = data ? make_test(*data, estimate.used, estimate.value) : std::nullopt;
   const std::size_t levels = test ? levels_of(test->pairs) : 0;
   if (levels < least_levels) return few(levels);
-  const std::vector<Fit> fits = fit_laws(*test, levels, estimate);
+  const std::vector<LawFit> fits = fit_laws(*test, levels, estimate);
   if (fits.empty()) {
     refuse(estimate, "Coulomb + viscous friction could not be fitted");
     return estimate;
   }
   const double count = effective_count(test->pairs, fits.front().residuals);
-  for (const Fit& fit : fits) estimate.candidates.push_back(candidate_of(fit, *test, count));
+  for (const LawFit& fit : fits) estimate.candidates.push_back(candidate_of(fit, *test, count));
   const bool by_AICc = rank(estimate.candidates);
   estimate.lack_of_fit = widening_test(fits, *test);
   add_curve(fits, estimate.candidates, *test, estimate);

@@ -13,8 +13,8 @@
 /// estimate, their uncertainty and the pairs left out are those of den_hartog_fit. A law may have at most two
 /// parameters less than there are levels. Ranking: by AICc, or by BIC where the pairs are too few for the AICc of
 /// one law; with N for independent pairs, less where the residuals of a sweep go together (block-effective N).
-/// Residuals below 5e-4 of the range of x count as that. Doubt: an F test of the best law with one more parameter,
-/// its p value times the number of those.
+/// Residuals below 5e-4 of the range of x count as that. Diagnostic: an F test of the best law with one more
+/// parameter, its p value times the number of those.
 ///
 /// The curve of amplitudes at one frequency does not tell laws of velocity, position and amplitude apart; the
 /// warning says so whenever another law wins. Source: burnham2002; schwarz1978; the aliasing: docs/theory.md,
@@ -24,7 +24,8 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate law_selection(const Record& record, const KnownConstants& constants, const KnownDeviations& options = {});
+[[nodiscard]] Estimate law_selection(const Record& record, const KnownConstants& constants,
+                                     const KnownDeviations& options = {});
 
 inline constexpr MethodEntry law_selection_method{
     "law_selection",

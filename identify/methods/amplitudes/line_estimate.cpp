@@ -63,8 +63,8 @@ double slope_variance(const Moments& m, const Line& line, double lambda, double 
   return scatter / S * (1.0 + (m.count - 1.0) * scatter * lambda / (width * width * S));
 }
 
-std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope, const KnownDeviations& options,
-                                  double unit) {
+std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope,
+                                  const KnownDeviations& options, double unit) {
   const double sigma_x = std::max(options.sigma_x, 0.0) / unit;
   const double sigma_Y = std::max(options.sigma_Y, 0.0) / unit;
   if (sigma_x > 0.0 || sigma_Y > 0.0) {

@@ -80,7 +80,7 @@ struct LineRule {
   std::function<double(const Moments&)> lambda;
 };
 
-/// Prepares the record, leaves out what sticks, draws the line, and reports and doubts it.
+/// Prepares the record, leaves out what sticks, draws the line, reports it, and tests it.
 [[nodiscard]] Estimate estimate_by_line(const LineRule& rule, const Record& record, const KnownConstants& constants,
                                         const LineOptions& options);
 

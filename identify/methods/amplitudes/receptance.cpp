@@ -18,8 +18,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double same_frequency = 1e-4;
-
 double fundamental(const Pair& pair) { return std::isnan(pair.fundamental) ? pair.x : pair.fundamental; }
 
 /// k Y/X, N/m.
@@ -212,7 +210,7 @@ void test_amplitude(const std::vector<Pair>& states, const KnownConstants& const
 bool enough(const std::vector<Pair>& states, Estimate& estimate) {
   std::vector<double> frequencies;
   for (const Pair& state : states)
-    if (std::ranges::none_of(frequencies, [&](double w) { return std::abs(w - state.omega) < same_frequency * w; }))
+    if (std::ranges::none_of(frequencies, [&](double w) { return is_same_frequency(state.omega, w); }))
       frequencies.push_back(state.omega);
   if (frequencies.size() >= 3) return true;
   std::string reason = "phases at three frequencies are needed, and " + std::to_string(frequencies.size()) +

@@ -12,8 +12,8 @@
 /// biases c and F0 by one or two percent; the method tells by reading exact states at its own estimate. Errors:
 /// independent errors of x, as long along x as across it (those of the phase are errors of x over X), alike at all
 /// frequencies; they make errors of the imaginary part that are not alike, which the covariance of the unweighted
-/// fit allows for, n - 2 degrees of freedom. Doubts: pairs that stick are left out (when the mass is known); an F
-/// test, weighted, of a term that grows with X; with one input amplitude the fit of the limacon, |X/(k Y)| =
+/// fit allows for, n - 2 degrees of freedom. Diagnostics: pairs that stick are left out (when the mass is known);
+/// an F test, weighted, of a term that grows with X; with one input amplitude the fit of the limacon, |X/(k Y)| =
 /// (1/h)(sin phi - 4 F0/(pi k Y)), h = c wn, listed as a subset: it takes hysteretic damping, and a warning tells
 /// when it disagrees. Source: tomlinson1980. Errors: `outcome`. Cost: about 10 us for 50 states.
 

@@ -11,14 +11,15 @@
 ///
 /// Holds for small zeta near w = wn, without sticking, with independent errors of constant size. Uncertainty:
 /// covariance of Deming's line for large samples with n - 2 degrees of freedom (or from the given deviations),
-/// taken to (zeta, F0). Doubts: those of resonance_least_squares. Source: deming1943, fuller1987,
+/// taken to (zeta, F0). Diagnostics: those of resonance_least_squares. Source: deming1943, fuller1987,
 /// liang2004identifying. Errors: `outcome`. Cost: n log n.
 
 #include "identify/method.hpp"
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate resonance_deming(const Record& record, const KnownConstants& constants, const LineOptions& options = {});
+[[nodiscard]] Estimate resonance_deming(const Record& record, const KnownConstants& constants,
+                                        const LineOptions& options = {});
 
 inline constexpr MethodEntry resonance_deming_method{
     "resonance_deming",

@@ -11,14 +11,15 @@
 /// Uncertainty: covariance of (a, b) from the scatter about the line with n - 2 degrees of freedom (or from
 /// `sigma_x` and `sigma_Y`, when given), taken to (zeta, F0) by the derivatives of the formulas; intervals by
 /// Student's t. For small zeta  std(zeta) = 2 zeta^2 s/sqrt(S_YY)  and  std(F0) = (pi/4)(k s/b) sqrt(1/n + (mean Y
-/// + a/b)^2/S_YY). Doubts: pairs that stick are left out (and named); an F test of a friction quadratic in x; fits
-/// of the lower 4/5, 3/5, 2/5. Source: liang2004identifying. Errors: `outcome`. Cost: n log n.
+/// + a/b)^2/S_YY). Diagnostics: pairs that stick are left out (and named); an F test of a friction quadratic in x;
+/// fits of the lower 4/5, 3/5, 2/5. Source: liang2004identifying. Errors: `outcome`. Cost: n log n.
 
 #include "identify/method.hpp"
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate resonance_least_squares(const Record& record, const KnownConstants& constants, const LineOptions& options = {});
+[[nodiscard]] Estimate resonance_least_squares(const Record& record, const KnownConstants& constants,
+                                               const LineOptions& options = {});
 
 inline constexpr MethodEntry resonance_least_squares_method{
     "resonance_least_squares",

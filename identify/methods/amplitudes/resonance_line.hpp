@@ -1,6 +1,6 @@
 #pragma once
 /// What the resonance methods share: pairs, the line through them, the friction behind the line, the gate that
-/// keeps sticking pairs out, and the doubts.
+/// keeps sticking pairs out, and the diagnostics.
 ///
 ///   x = a + b Y,   zeta = 1/(2 b),   x_f = -a/G(zeta)                                 Eqs (9)-(15)
 ///

@@ -129,7 +129,8 @@ void add_uncertainty(const ResonanceData& data, const TwoPointSensitivity& s, co
 
 }  // namespace
 
-Estimate resonance_two_point(const Record& record, const KnownConstants& constants, const TwoPointOptions& options) {
+Estimate resonance_two_point(const Record& record, const KnownConstants& constants,
+                             const TwoPointOptions& options) {
   Estimate estimate;
   estimate.method = "resonance_two_point";
   const std::optional<ResonanceData> data = prepare(record, constants, options, estimate);

@@ -32,7 +32,8 @@ struct TwoPointOptions : ResonanceOptions {
   }
 };
 
-[[nodiscard]] Estimate resonance_two_point(const Record& record, const KnownConstants& constants, const TwoPointOptions& options = {});
+[[nodiscard]] Estimate resonance_two_point(const Record& record, const KnownConstants& constants,
+                                           const TwoPointOptions& options = {});
 
 inline constexpr MethodEntry resonance_two_point_method{
     "resonance_two_point",

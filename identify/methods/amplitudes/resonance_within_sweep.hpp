@@ -12,8 +12,8 @@
 /// within a sweep; at least two sweeps of two pairs. Uncertainty: b from the scatter about the parallel lines, N -
 /// J
 /// - 1 degrees of freedom for N pairs in J sweeps (or from `sigma_x`, `sigma_Y`); the mean friction from the
-/// scatter of the sweeps, J - 1 degrees of freedom, and from b, the two combined after welch1947. Doubts: pairs
-/// that stick are left out, an F test of a friction quadratic in x, an F test of separate slopes. Source:
+/// scatter of the sweeps, J - 1 degrees of freedom, and from b, the two combined after welch1947. Diagnostics:
+/// pairs that stick are left out, an F test of a friction quadratic in x, an F test of separate slopes. Source:
 /// liang2004identifying (the drift, section 4); the fit is the analysis of covariance, draper1998. Errors:
 /// `outcome`. Cost: n log n.
 
@@ -30,7 +30,8 @@ struct WithinSweepOptions : ResonanceOptions {
   }
 };
 
-[[nodiscard]] Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants, const WithinSweepOptions& options = {});
+[[nodiscard]] Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants,
+                                              const WithinSweepOptions& options = {});
 
 /// Two sweeps with two pairs each are asked for.
 [[nodiscard]] std::string lacks_sweeps(const Record& record);

@@ -250,8 +250,8 @@ void list_windows(const Extremes& extremes, const KnownConstants& constants, Est
   }
 }
 
-void add_uncertainty(const DecayModel& model, const Solution& solution, const FreeDecayOptions& options, double unit,
-                     const KnownConstants& constants, Estimate& estimate) {
+void add_uncertainty(const DecayModel& model, const Solution& solution, const FreeDecayOptions& options,
+                     double unit, const KnownConstants& constants, Estimate& estimate) {
   const auto freedom = static_cast<double>(estimate.used.size()) - (options.zero_offset ? 3.0 : 4.0);
   const bool known = options.sigma_x > 0.0;
   if (!known && freedom < 1.0) return;

@@ -33,7 +33,8 @@ struct FreeDecayOptions {
   }
 };
 
-[[nodiscard]] Estimate free_decay(const Record& record, const KnownConstants& constants, const FreeDecayOptions& options = {});
+[[nodiscard]] Estimate free_decay(const Record& record, const KnownConstants& constants,
+                                  const FreeDecayOptions& options = {});
 
 inline constexpr MethodEntry free_decay_method{
     "free_decay",

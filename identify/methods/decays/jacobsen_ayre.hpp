@@ -24,7 +24,8 @@ struct JacobsenAyreOptions {
   static constexpr auto declared() { return std::tuple{Use{&sigma_x_option, &JacobsenAyreOptions::sigma_x}}; }
 };
 
-[[nodiscard]] Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, const JacobsenAyreOptions& options = {});
+[[nodiscard]] Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants,
+                                     const JacobsenAyreOptions& options = {});
 
 inline constexpr MethodEntry jacobsen_ayre_method{
     "jacobsen_ayre",

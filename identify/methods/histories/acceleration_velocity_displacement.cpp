@@ -9,7 +9,7 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/statistics.hpp"
-#include "identify/uncertainty/replicas.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 
 namespace dualdamp::identify {
 
@@ -108,7 +108,7 @@ Reading reading_of(const CorrelatedFit& fit, const Columns& columns, const Known
 }
 
 std::vector<FurtherParameter> further_parameters(const Reading& reading, const Columns& columns,
-                                                 const std::optional<ReplicaSpread>& spread) {
+                                                 const std::optional<BootstrapSpread>& spread) {
   std::vector<FurtherParameter> list;
   const auto add = [&](const char* name, const char* unit, Eigen::Index place) {
     list.push_back(further(name, unit, reading.parameters[place], spread, place));
@@ -135,8 +135,8 @@ EstimateCurve friction_curve(const Rows& rows, const CorrelatedFit& fit, const C
 /// Columns that nearly depend on each other make the fit trust the small difference between them, which is where
 /// the errors of a sensor go.
 void judge_condition(const CorrelatedFit& fit, Estimate& estimate) {
-  constexpr double doubtful = 20.0;
-  if (fit.condition < doubtful || fit.deviation == 0.0) return;
+  constexpr double nearly_dependent = 20.0;
+  if (fit.condition < nearly_dependent || fit.deviation == 0.0) return;
   estimate.warnings.push_back("the columns nearly depend on each other (condition number " +
                               core::format_number(fit.condition, 2) +
                               "): give the mass, or measure at two levels or frequencies");
@@ -242,12 +242,13 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   if (!(force.m > 0.0)) faults.emplace_back("the mass came out negative");
   if (force.k < 0.0) faults.emplace_back("the stiffness came out negative");
   const Reading own = reading_of(fit, columns, constants);
-  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
     Estimate ignored;
-    const Regression other = regress(usable_histories(replica, options, ignored), 0, columns, constants, options);
+    const Regression other = regress(usable_histories(drawn, options, ignored), 0, columns, constants, options);
     return other.fit ? std::optional(reading_of(*other.fit, columns, constants)) : std::nullopt;
   };
-  const std::optional<ReplicaSpread> spread = replica_spread(histories, own, own.parameters[offset_place], again);
+  const std::optional<BootstrapSpread> spread =
+      parametric_bootstrap(histories, own, own.parameters[offset_place], again);
   set_estimate(estimate, force, spread);
   estimate.others = further_parameters(own, columns, spread);
   for (const NumberedHistory& item : histories) estimate.used.push_back(item.number);

@@ -13,16 +13,18 @@
 /// first cut-off, the others show among `subsets` what the choice matters. With exact x, v, a: exact.
 ///
 /// Checked: columns that nearly depend on each other (a = -w^2 x at one level and frequency); a term v|v|; how far
-/// the cut-offs agree. Uncertainty: from replicas of the record (`identify/uncertainty/replicas.hpp`), for errors
-/// in a, v and x bias the fit; residuals that are alike from sample to sample beyond them widen it. Source: after
-/// chen1996, janot2019. Errors: `outcome`. Cost: some 100 operations a sample.
+/// the cut-offs agree. Uncertainty: from the parametric bootstrap
+/// (`identify/uncertainty/parametric_bootstrap.hpp`), for errors in a, v and x bias the fit; residuals that are
+/// alike from sample to sample beyond them widen it. Source: after chen1996, janot2019. Errors: `outcome`. Cost:
+/// some 100 operations a sample.
 
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants, const RegressionOptions& options = {});
+[[nodiscard]] Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants,
+                                                          const RegressionOptions& options = {});
 
 inline constexpr MethodEntry acceleration_velocity_displacement_method{
     "acceleration_velocity_displacement",

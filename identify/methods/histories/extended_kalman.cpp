@@ -8,8 +8,9 @@
 
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/statistics/noise_level.hpp"
 #include "identify/statistics/statistics.hpp"
-#include "identify/uncertainty/replicas.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 
 namespace dualdamp::identify {
 
@@ -76,8 +77,8 @@ Belief predict(Belief belief, double from, double to, double interval, const Set
   return belief;
 }
 
-/// What one passage over the record leaves.
-struct Passage {
+/// What the filter leaves after all samples of a record.
+struct FilterRun {
   Belief end;
   double surprise = 0.0;  ///< mean square of the innovations over what P expects, in the second half
   double miss = 0.0;      ///< rms innovation there [m]
@@ -85,7 +86,7 @@ struct Passage {
   EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
 };
 
-Passage pass(const History& history, const Belief& start, const Setting& setting) {
+FilterRun run_filter(const History& history, const Belief& start, const Setting& setting) {
   const std::size_t n = history.x.size();
   const auto drive = [&](std::size_t i) {
     return (history.y.empty() ? 0.0 : setting.stiffness * history.y[i]) +
@@ -93,10 +94,10 @@ Passage pass(const History& history, const Belief& start, const Setting& setting
   };
   constexpr std::size_t most_points = 2000;
   const std::size_t every = std::max<std::size_t>(1, n / most_points);
-  Passage passage;
+  FilterRun run;
   Belief belief = start;
   double count = 0.0;
-  for (std::size_t i = 1; i < n && passage.finite; ++i) {
+  for (std::size_t i = 1; i < n && run.finite; ++i) {
     belief = predict(belief, drive(i - 1), drive(i), 1.0 / history.sample_rate, setting);
     const double variance = belief.P(0, 0) + setting.noise * setting.noise;
     const double innovation = history.x[i] - belief.state[0];
@@ -104,21 +105,21 @@ Passage pass(const History& history, const Belief& start, const Setting& setting
     belief.state += gain * innovation;
     belief.P -= (gain * belief.P.row(0)).eval();
     belief.P = (0.5 * (belief.P + belief.P.transpose())).eval();
-    passage.finite = belief.state.allFinite() && belief.P.allFinite() && variance > 0.0;
+    run.finite = belief.state.allFinite() && belief.P.allFinite() && variance > 0.0;
     if (2 * i > n) {
-      passage.surprise += innovation * innovation / variance;
-      passage.miss += innovation * innovation;
+      run.surprise += innovation * innovation / variance;
+      run.miss += innovation * innovation;
       count += 1.0;
     }
     if (i % every != 0) continue;
-    passage.curve.columns[0].values.push_back(history.start + static_cast<double>(i) / history.sample_rate);
-    passage.curve.columns[1].values.push_back(belief.state[3]);
-    passage.curve.columns[2].values.push_back(belief.state[2]);
+    run.curve.columns[0].values.push_back(history.start + static_cast<double>(i) / history.sample_rate);
+    run.curve.columns[1].values.push_back(belief.state[3]);
+    run.curve.columns[2].values.push_back(belief.state[2]);
   }
-  passage.surprise /= std::max(1.0, count);
-  passage.miss = std::sqrt(passage.miss / std::max(1.0, count));
-  passage.end = belief;
-  return passage;
+  run.surprise /= std::max(1.0, count);
+  run.miss = std::sqrt(run.miss / std::max(1.0, count));
+  run.end = belief;
+  return run;
 }
 
 /// Scales of the motion, from which the filter starts knowing next to nothing.
@@ -139,8 +140,7 @@ Scales scales_of(const History& history, const KalmanOptions& options) {
   scales.v0 = v[2];
   // The smoothed sign is a worse model than good samples deserve: a filter that trusts them more diverges.
   constexpr double least = 1e-3;
-  scales.noise =
-      std::max(options.sigma_x > 0.0 ? options.sigma_x : noise_deviation(history.x), least * scales.length);
+  scales.noise = std::max(options.sigma_x > 0.0 ? options.sigma_x : noise_level(history.x), least * scales.length);
   return scales;
 }
 
@@ -168,27 +168,27 @@ Belief ignorance(const History& history, const Scales& scales, const KnownConsta
   return belief;
 }
 
-std::string fault_of_passage(const Passage& passage, const Scales& scales) {
-  if (!passage.finite) return "the filter diverged: give a smaller width of the sign of the velocity";
+std::string fault_of_run(const FilterRun& run, const Scales& scales) {
+  if (!run.finite) return "the filter diverged: give a smaller width of the sign of the velocity";
   constexpr double lost = 0.1;  // of the motion
-  if (passage.miss > lost * scales.length) return "the filter diverged: it does not follow the motion any more";
+  if (run.miss > lost * scales.length) return "the filter diverged: it does not follow the motion any more";
   return {};
 }
 
 /// (m, c, k, F0), mass and stiffness being constants; errors by what the innovations are beside what P expects.
-Reading reading_of(const Passage& passage, const KnownConstants& constants) {
-  const Eigen::Vector4d& end = passage.end.state;
-  const auto error = [&](Eigen::Index i) { return std::sqrt(passage.surprise * passage.end.P(i, i)); };
+Reading reading_of(const FilterRun& run, const KnownConstants& constants) {
+  const Eigen::Vector4d& end = run.end.state;
+  const auto error = [&](Eigen::Index i) { return std::sqrt(run.surprise * run.end.P(i, i)); };
   return {Eigen::Vector4d(constants.mass, end[3], constants.stiffness, end[2]),
           Eigen::Vector4d(0.0, error(3), 0.0, error(2))};
 }
 
-void judge(const Passage& passage, const std::optional<Passage>& wider, Estimate& estimate,
+void judge(const FilterRun& run, const std::optional<FilterRun>& wider, Estimate& estimate,
            std::vector<std::string>& faults) {
   constexpr double surprising = 2.0;
-  if (passage.surprise > surprising)
+  if (run.surprise > surprising)
     estimate.warnings.push_back("the filter misses the motion by " +
-                                core::format_number(std::sqrt(passage.surprise), 2) +
+                                core::format_number(std::sqrt(run.surprise), 2) +
                                 " times what it expects: the law, a constant or the noise is wrong");
   const double F0 = estimate.value.F0;
   const double c = estimate.value.c;
@@ -219,27 +219,28 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
   };
   const double width = width_for(scales);
   const auto with_width = [&](double w) {
-    return pass(*history, ignorance(*history, scales, constants), setting_for(scales, w, *history, constants));
+    return run_filter(*history, ignorance(*history, scales, constants),
+                      setting_for(scales, w, *history, constants));
   };
-  Passage passage = with_width(width);
-  if (std::string fault = fault_of_passage(passage, scales); !fault.empty()) {
+  FilterRun run = with_width(width);
+  if (std::string fault = fault_of_run(run, scales); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }
-  const auto again = [&](const Record& replica) -> std::optional<Reading> {
-    const History& noisy = replica.histories.front();
+  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+    const History& noisy = drawn.histories.front();
     const Scales its = scales_of(noisy, options);
-    const Passage other =
-        pass(noisy, ignorance(noisy, its, constants), setting_for(its, width_for(its), noisy, constants));
-    return fault_of_passage(other, its).empty() ? std::optional(reading_of(other, constants)) : std::nullopt;
+    const FilterRun other =
+        run_filter(noisy, ignorance(noisy, its, constants), setting_for(its, width_for(its), noisy, constants));
+    return fault_of_run(other, its).empty() ? std::optional(reading_of(other, constants)) : std::nullopt;
   };
-  const Eigen::Vector4d& end = passage.end.state;
+  const Eigen::Vector4d& end = run.end.state;
   set_estimate(estimate, {constants.mass, end[3], constants.stiffness, end[2]},
-               replica_spread({{number, history}}, reading_of(passage, constants), 0.0, again));
+               parametric_bootstrap({{number, history}}, reading_of(run, constants), 0.0, again));
   estimate.used = {number};
-  estimate.curves.push_back(std::move(passage.curve));
-  std::optional<Passage> wider = with_width(2.0 * width);
-  if (!fault_of_passage(*wider, scales).empty()) wider.reset();
+  estimate.curves.push_back(std::move(run.curve));
+  std::optional<FilterRun> wider = with_width(2.0 * width);
+  if (!fault_of_run(*wider, scales).empty()) wider.reset();
   if (wider)
     estimate.subsets.push_back(
         {"sign width " + core::format_number(2.0 * width, 3) + " m/s",
@@ -248,7 +249,7 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
          {}});
   std::vector<std::string> faults;
   judge_force_signs(estimate, 0.0, 0.0, faults);
-  judge(passage, wider, estimate, faults);
+  judge(run, wider, estimate, faults);
   conclude(estimate, faults,
            "the state after " + std::to_string(history->x.size()) +
                " samples, sign of the velocity smoothed over " + core::format_number(width, 3) + " m/s");

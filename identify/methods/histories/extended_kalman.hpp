@@ -6,8 +6,8 @@
 ///
 /// The sign of the velocity must be smooth for A to exist: its width e (`sign_width`, default 0.003 of the
 /// largest speed) biases the estimate, and too wide a one makes the filter diverge. P knows nothing of that:
-/// intervals come from replicas of the record (`identify/uncertainty/replicas.hpp`). Checked: the estimate with
-/// twice the width
+/// intervals come from the parametric bootstrap (`identify/uncertainty/parametric_bootstrap.hpp`). Checked: the
+/// estimate with twice the width
 /// (`subsets`); the innovations against what P expects; divergence is refused. s: noise of x, from `sigma_x` or the
 /// record itself.
 ///
@@ -37,7 +37,8 @@ struct KalmanOptions {
   }
 };
 
-[[nodiscard]] Estimate extended_kalman(const Record& record, const KnownConstants& constants, const KalmanOptions& options = {});
+[[nodiscard]] Estimate extended_kalman(const Record& record, const KnownConstants& constants,
+                                       const KalmanOptions& options = {});
 
 inline constexpr MethodEntry extended_kalman_method{
     "extended_kalman",

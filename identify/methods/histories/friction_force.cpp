@@ -11,7 +11,7 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/statistics.hpp"
-#include "identify/uncertainty/replicas.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 
 namespace dualdamp::identify {
 
@@ -63,36 +63,36 @@ void add_curves(const std::vector<FrictionSamples>& histories, double c, Estimat
   estimate.curves = {std::move(over_velocity), std::move(over_displacement)};
 }
 
-/// Sums over the turns of the motion.
-struct Turns {
+/// Sums over the swings of the motion.
+struct Swings {
   double S_xx = 0.0, S_xF = 0.0, S_FF = 0.0;  ///< of force over displacement after a reversal
   double samples = 0.0;                       ///< that went into them, beyond two unknowns a turn
-  double resolved = 0.0;                      ///< turns with three samples or more
+  double resolved = 0.0;                      ///< swings with three samples or more
   double speed = 0.0;                         ///< sum of transition speeds
   double transitions = 0.0;
   double swing = 0.0;  ///< sum of |x| from turn to turn
   double time = 0.0;   ///< from turn to turn
   double work = 0.0;   ///< of the friction force
-  double swings = 0.0;
+  double count = 0.0;
 
   [[nodiscard]] bool contact_shows() const {
-    return swings >= 2.0 && resolved >= 0.5 * swings && S_xF > 0.0 && samples > 0.0;
+    return count >= 2.0 && resolved >= 0.5 * count && S_xF > 0.0 && samples > 0.0;
   }
   /// Transition velocity [m/s]; 0 where the contact does not show.
   [[nodiscard]] double mean_speed() const {
-    return contact_shows() && transitions >= 0.5 * swings ? speed / transitions : 0.0;
+    return contact_shows() && transitions >= 0.5 * count ? speed / transitions : 0.0;
   }
 };
 
 /// The dry part has turned by 2 F0: what a contact of stiffness K does on 2 F0/K of displacement.
-void follow_turn(const FrictionSamples& samples, const std::vector<double>& dry, std::size_t turn, std::size_t next,
-                 double F0, Turns& turns) {
+void add_reversal(const FrictionSamples& samples, const std::vector<double>& dry, std::size_t reversal,
+                  std::size_t next, double F0, Swings& swings) {
   constexpr double straight = 0.8;   // of the turn, beyond which the contact begins to slip
   constexpr double complete = 0.98;  // the level of sliding is known no better
   const std::vector<double>& x = samples.motion.x;
   double n = 0.0, mean_x = 0.0, mean_F = 0.0, S_xx = 0.0, S_xF = 0.0, S_FF = 0.0;
-  std::size_t i = turn;
-  for (; i < next && std::abs(dry[i] - dry[turn]) < straight * 2.0 * F0; ++i) {
+  std::size_t i = reversal;
+  for (; i < next && std::abs(dry[i] - dry[reversal]) < straight * 2.0 * F0; ++i) {
     n += 1.0;
     const double dx = x[i] - mean_x;
     const double dF = dry[i] - mean_F;
@@ -103,24 +103,24 @@ void follow_turn(const FrictionSamples& samples, const std::vector<double>& dry,
     S_FF += dF * (dry[i] - mean_F);
   }
   if (n >= 3.0) {
-    turns.S_xx += S_xx;
-    turns.S_xF += S_xF;
-    turns.S_FF += S_FF;
-    turns.samples += n - 2.0;
-    turns.resolved += 1.0;
+    swings.S_xx += S_xx;
+    swings.S_xF += S_xF;
+    swings.S_FF += S_FF;
+    swings.samples += n - 2.0;
+    swings.resolved += 1.0;
   }
-  while (i < next && std::abs(dry[i] - dry[turn]) < complete * 2.0 * F0) ++i;
-  if (i >= next || i == turn) return;
-  const double before = std::abs(dry[i - 1] - dry[turn]) / (2.0 * F0);
-  const double after = std::abs(dry[i] - dry[turn]) / (2.0 * F0);
+  while (i < next && std::abs(dry[i] - dry[reversal]) < complete * 2.0 * F0) ++i;
+  if (i >= next || i == reversal) return;
+  const double before = std::abs(dry[i - 1] - dry[reversal]) / (2.0 * F0);
+  const double after = std::abs(dry[i] - dry[reversal]) / (2.0 * F0);
   const double share = std::clamp((complete - before) / (after - before), 0.0, 1.0);
   const std::vector<double>& v = samples.motion.v;
   // v^2 grows in proportion to the displacement from the turn.
-  turns.speed += std::abs(v[i - 1] + share * (v[i] - v[i - 1])) / std::sqrt(complete);
-  turns.transitions += 1.0;
+  swings.speed += std::abs(v[i - 1] + share * (v[i] - v[i - 1])) / std::sqrt(complete);
+  swings.transitions += 1.0;
 }
 
-void follow(const FrictionSamples& samples, double c, double offset, double F0, Turns& turns) {
+void add_swings(const FrictionSamples& samples, double c, double offset, double F0, Swings& swings) {
   const std::vector<double>& v = samples.motion.v;
   std::vector<double> dry(samples.force.size());
   for (std::size_t i = 0; i < dry.size(); ++i) dry[i] = samples.force[i] - c * v[i] - offset;
@@ -133,40 +133,40 @@ void follow(const FrictionSamples& samples, double c, double offset, double F0, 
     sign = here;
   }
   for (std::size_t r = 0; r + 1 < at.size(); ++r) {
-    follow_turn(samples, dry, at[r], at[r + 1], F0, turns);
+    add_reversal(samples, dry, at[r], at[r + 1], F0, swings);
     const std::vector<double>& x = samples.motion.x;
-    turns.swing += std::abs(x[at[r + 1]] - x[at[r]]);
-    turns.time += static_cast<double>(at[r + 1] - at[r]) / samples.motion.sample_rate;
+    swings.swing += std::abs(x[at[r + 1]] - x[at[r]]);
+    swings.time += static_cast<double>(at[r + 1] - at[r]) / samples.motion.sample_rate;
     for (std::size_t i = at[r]; i < at[r + 1]; ++i)
-      turns.work += 0.5 * (samples.force[i] + samples.force[i + 1]) * (x[i + 1] - x[i]);
-    turns.swings += 1.0;
+      swings.work += 0.5 * (samples.force[i] + samples.force[i + 1]) * (x[i + 1] - x[i]);
+    swings.count += 1.0;
   }
 }
 
-Turns turns_of(const std::vector<FrictionSamples>& histories, const CorrelatedFit& fit) {
-  Turns turns;
+Swings swings_of(const std::vector<FrictionSamples>& histories, const CorrelatedFit& fit) {
+  Swings swings;
   for (const FrictionSamples& samples : histories)
-    follow(samples, fit.coefficients[0], fit.coefficients[2], fit.coefficients[1], turns);
-  return turns;
+    add_swings(samples, fit.coefficients[0], fit.coefficients[2], fit.coefficients[1], swings);
+  return swings;
 }
 
 /// Contact stiffness, transition velocity and the loop's area, as far as the sample rate shows them.
-void report_contact(const Turns& turns, double F0, Estimate& estimate) {
-  if (turns.swings < 2.0 || !(F0 > 0.0)) return;
-  estimate.others.push_back({"loop_area", "J", 2.0 * turns.work / turns.swings, std::nullopt, std::nullopt});
-  if (!turns.contact_shows()) {
+void report_contact(const Swings& swings, double F0, Estimate& estimate) {
+  if (swings.count < 2.0 || !(F0 > 0.0)) return;
+  estimate.others.push_back({"loop_area", "J", 2.0 * swings.work / swings.count, std::nullopt, std::nullopt});
+  if (!swings.contact_shows()) {
     estimate.warnings.emplace_back(
-        "the force turns within two samples: the contact is stiffer than this sample rate shows");
+        "the force swings within two samples: the contact is stiffer than this sample rate shows");
     return;
   }
-  const double slope = turns.S_xF / turns.S_xx;
-  const double left = std::max(0.0, turns.S_FF - slope * turns.S_xF);
+  const double slope = swings.S_xF / swings.S_xx;
+  const double left = std::max(0.0, swings.S_FF - slope * swings.S_xF);
   estimate.others.push_back(
-      further("contact_stiffness", "N/m", slope, left / turns.samples / turns.S_xx, quantile95(turns.samples)));
-  const double speed = turns.mean_speed();
+      further("contact_stiffness", "N/m", slope, left / swings.samples / swings.S_xx, quantile95(swings.samples)));
+  const double speed = swings.mean_speed();
   if (!(speed > 0.0)) return;
-  const double X = 0.5 * turns.swing / turns.swings;
-  const double omega = std::numbers::pi * turns.swings / turns.time;
+  const double X = 0.5 * swings.swing / swings.count;
+  const double omega = std::numbers::pi * swings.count / swings.time;
   estimate.others.push_back({"transition_velocity", "m/s", speed, std::nullopt, std::nullopt});
   const double inner = X * X - speed * speed / (omega * omega);
   if (inner > 0.0)
@@ -192,21 +192,21 @@ struct SlidingLine {
   double least_speed = 0.0;
   Rows rows;
   std::optional<CorrelatedFit> fit;
-  Turns turns;
+  Swings swings;
 };
 
 SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const RegressionOptions& options) {
   const auto line_beyond = [&](double speed) {
     SlidingLine line{speed, rows_of(histories, speed), {}, {}};
     line.fit = fit_correlated(line.rows.columns, line.rows.target, line.rows.blocks);
-    if (line.fit) line.turns = turns_of(histories, *line.fit);
+    if (line.fit) line.swings = swings_of(histories, *line.fit);
     return line;
   };
   SlidingLine line = line_beyond(least_speed_for(histories, options));
   // A compliant contact slides only beyond its transition velocity: what is slower is none of the line's.
   constexpr double beyond = 1.2;
   for (int pass = 0; pass < 3 && line.fit && options.least_speed == 0.0; ++pass) {
-    const double transition = beyond * line.turns.mean_speed();
+    const double transition = beyond * line.swings.mean_speed();
     if (!(transition > line.least_speed)) break;
     SlidingLine faster = line_beyond(transition);
     if (!faster.fit) break;
@@ -241,19 +241,19 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
     return estimate;
   }
   const Reading own = reading_of(*line.fit, constants);
-  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
     Estimate ignored;
-    const SlidingLine other = sliding_line(friction_samples(replica, constants, options, ignored), options);
+    const SlidingLine other = sliding_line(friction_samples(drawn, constants, options, ignored), options);
     return other.fit ? std::optional(reading_of(*other.fit, constants)) : std::nullopt;
   };
   Estimate ignored;
-  const std::optional<ReplicaSpread> spread =
-      replica_spread(usable_histories(record, options, ignored), own, own.parameters[offset_place], again);
+  const std::optional<BootstrapSpread> spread =
+      parametric_bootstrap(usable_histories(record, options, ignored), own, own.parameters[offset_place], again);
   const ForceParameters force{constants.mass, own.parameters[1], constants.stiffness, own.parameters[3]};
   set_estimate(estimate, force, spread);
   estimate.others.push_back(further("offset", "N", own.parameters[offset_place], spread, offset_place));
   for (const FrictionSamples& samples : histories) estimate.used.push_back(samples.number);
-  report_contact(line.turns, force.F0, estimate);
+  report_contact(line.swings, force.F0, estimate);
   add_curves(histories, force.c, estimate);
 
   std::vector<std::string> faults;

@@ -11,15 +11,17 @@
 ///
 /// Biases, first order, at resonance: a delay t of a adds -m w^2 t to c, of x +k t; a gain error e of a (or of k
 /// or m) leaves c and F0 and opens a loop of 2 e k X at v = 0 that looks like a compliant contact. Checked: such a
-/// loop, by a term in x. Uncertainty: from replicas of the record (`identify/uncertainty/replicas.hpp`). Source:
-/// liang2004identifying. Errors: `outcome`. Cost: some 100 operations a sample.
+/// loop, by a term in x. Uncertainty: from the parametric bootstrap
+/// (`identify/uncertainty/parametric_bootstrap.hpp`). Source: liang2004identifying. Errors: `outcome`. Cost: some
+/// 100 operations a sample.
 
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate friction_force(const Record& record, const KnownConstants& constants, const RegressionOptions& options = {});
+[[nodiscard]] Estimate friction_force(const Record& record, const KnownConstants& constants,
+                                      const RegressionOptions& options = {});
 
 inline constexpr MethodEntry friction_force_method{
     "friction_force",

@@ -23,6 +23,7 @@ struct FrictionSamples {
                                                             const RegressionOptions& options, Estimate& estimate);
 
 /// Samples slower than this are left out [m/s]: the option, or a twentieth of the largest speed.
-[[nodiscard]] double least_speed_for(const std::vector<FrictionSamples>& histories, const RegressionOptions& options);
+[[nodiscard]] double least_speed_for(const std::vector<FrictionSamples>& histories,
+                                     const RegressionOptions& options);
 
 }  // namespace dualdamp::identify

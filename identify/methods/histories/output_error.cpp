@@ -11,10 +11,12 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/statistics/correlated_regression.hpp"
+#include "identify/statistics/lasting_part.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/noise_level.hpp"
 #include "identify/statistics/statistics.hpp"
-#include "identify/uncertainty/replicas.hpp"
-#include "identify/uncertainty/starred_record.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
+#include "identify/uncertainty/synthetic_record.hpp"
 
 namespace dualdamp::identify {
 
@@ -41,7 +43,7 @@ struct Test {
     const std::vector<double> begin(history->x.begin(), history->x.begin() + samples);
     x0 = begin[0];
     // Noise moves the extremes of eight samples three deviations apart, hardly ever six.
-    starts_at_rest = range_of(begin) <= 6.0 * noise_deviation(begin) + 1e-12 * range_of(history->x);
+    starts_at_rest = range_of(begin) <= 6.0 * noise_level(begin) + 1e-12 * range_of(history->x);
     if (!history->v.empty())
       v0 = history->v[0];
     else if (!starts_at_rest)
@@ -235,25 +237,14 @@ Eigen::VectorXd best_start(const std::vector<ForceParameters>& list, const std::
   return best;
 }
 
-/// The part of the residuals that lasts from one sample to the next, as a deviation in units of the motion.
-struct LastingPart {
-  double deviation = 0.0;
-  double correlation = 0.0;
-};
-
-LastingPart lasting_part(const Eigen::VectorXd& r) {
-  const Eigen::Index n = r.size();
-  const double neighbours = r.head(n - 1).dot(r.tail(n - 1)) / static_cast<double>(n - 1);
-  const double variance = r.squaredNorm() / static_cast<double>(n);
-  return {std::sqrt(std::max(0.0, neighbours)), variance > 0.0 ? neighbours / variance : 0.0};
-}
-
 void judge_residuals(const Eigen::VectorXd& residuals, std::vector<std::string>& faults) {
-  const LastingPart lasting = lasting_part(residuals);
+  LastingPart lasting;
+  lasting.add({residuals.data(), static_cast<std::size_t>(residuals.size())});
+  const double deviation = std::sqrt(std::max(0.0, lasting.mean_product()));
   const double chance = 3.0 / std::sqrt(static_cast<double>(residuals.size()));
   constexpr double of_weight = 1e-3;
-  if (lasting.correlation < chance || lasting.deviation < of_weight) return;
-  faults.push_back("what the fit leaves is not noise alone: " + percent(lasting.deviation).substr(1) +
+  if (lasting.correlation() < chance || deviation < of_weight) return;
+  faults.push_back("what the fit leaves is not noise alone: " + percent(deviation).substr(1) +
                    " of the amplitude lasts from sample to sample, so the law, a constant or the drive is wrong");
 }
 
@@ -280,18 +271,18 @@ std::optional<Reading> reading_of(const Layout& layout, const LeastSquaresFit& f
                  force_covariance(layout, step->covariance).diagonal().cwiseSqrt()};
 }
 
-std::optional<ReplicaSpread> spread_of(const std::vector<Test>& tests, const Layout& layout,
-                                       const Residuals& residuals, const LeastSquaresFit& found,
-                                       const Reading& own) {
+std::optional<BootstrapSpread> spread_of(const std::vector<Test>& tests, const Layout& layout,
+                                         const Residuals& residuals, const LeastSquaresFit& found,
+                                         const Reading& own) {
   std::vector<NumberedHistory> histories;
   for (const Test& test : tests) histories.push_back({test.number, test.history});
   ForceParameters truth = layout.force(found.parameters);
-  const std::optional<StarredRecord> starred = starred_record(histories, truth, 0.0);
-  if (!starred) return std::nullopt;
-  const auto read = [&](const Record& replica) -> std::optional<Reading> {
+  const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, truth, 0.0);
+  if (!synthetic) return std::nullopt;
+  const auto read = [&](const Record& drawn) -> std::optional<Reading> {
     Eigen::VectorXd misses(residuals.count());
     for (std::size_t t = 0; t < tests.size(); ++t) {
-      const History& history = replica.histories[t];
+      const History& history = drawn.histories[t];
       Eigen::VectorXd x;
       if (!SampledOscillator(history).run(layout.parameters(found.parameters, t, tests[t]), {}, x, nullptr))
         return std::nullopt;
@@ -300,9 +291,9 @@ std::optional<ReplicaSpread> spread_of(const std::vector<Test>& tests, const Lay
     }
     return reading_of(layout, found, misses, residuals.blocks());
   };
-  return spread_over_replicas(
+  return bootstrap_spread(
       own, Eigen::Vector4d(truth.m, truth.c, truth.k, truth.F0),
-      [&](int number) { return starred->replica(number); }, read);
+      [&](int number) { return synthetic->record(number); }, read);
 }
 
 void report(const std::vector<Test>& tests, const Layout& layout, const Residuals& residuals,
@@ -314,7 +305,7 @@ void report(const std::vector<Test>& tests, const Layout& layout, const Residual
     faults.emplace_back("the motion does not tell the parameters apart");
     return;
   }
-  const std::optional<ReplicaSpread> spread = spread_of(tests, layout, residuals, found, *own);
+  const std::optional<BootstrapSpread> spread = spread_of(tests, layout, residuals, found, *own);
   set_estimate(estimate, force, spread);
   for (const Layout::Entry& entry : layout.shared()) {
     if (entry.by == By::mass) estimate.others.push_back(further("mass", "kg", force.m, spread, 0));
@@ -331,6 +322,21 @@ void report(const std::vector<Test>& tests, const Layout& layout, const Residual
     faults.emplace_back("friction over speed is not a straight line");
 }
 
+/// Why there is nothing to fit; empty when there is.
+std::string fault_of_tests(const std::vector<Test>& tests, const KnownConstants& constants) {
+  constexpr std::size_t most_samples = 300'000;  // each step of the fit goes through all of them
+  std::size_t samples = 0;
+  for (const Test& test : tests) samples += test.history->x.size();
+  if (samples > most_samples)
+    return "the method takes at most " + std::to_string(most_samples) + " samples, and the record has " +
+           std::to_string(samples) + ": give it a part, or every n-th sample";
+  if (tests.empty()) return "the mass moves in no history";
+  const auto is_usable = [](double value) { return std::isnan(value) || (value > 0.0 && std::isfinite(value)); };
+  if (!is_usable(constants.stiffness)) return "the method needs a spring: without one the position drifts";
+  if (!is_usable(constants.mass)) return "the mass must be positive and finite";
+  return {};
+}
+
 }  // namespace
 
 Estimate output_error(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
@@ -344,22 +350,8 @@ Estimate output_error(const Record& record, const KnownConstants& constants, con
       estimate.excluded.push_back({item.number, "the mass does not move"});
   }
   if (!estimate.outcome.ok()) return estimate;
-  // Each step of the fit walks through all samples.
-  constexpr std::size_t most_samples = 300'000;
-  std::size_t samples = 0;
-  for (const Test& test : tests) samples += test.history->x.size();
-  if (samples > most_samples) {
-    refuse(estimate, "the method takes at most " + std::to_string(most_samples) + " samples, and the record has " +
-                         std::to_string(samples) + ": give it a part, or every n-th sample");
-    return estimate;
-  }
-  const bool sprung =
-      std::isnan(constants.stiffness) || (constants.stiffness > 0.0 && std::isfinite(constants.stiffness));
-  const bool has_mass = std::isnan(constants.mass) || (constants.mass > 0.0 && std::isfinite(constants.mass));
-  if (tests.empty() || !sprung || !has_mass) {
-    refuse(estimate, tests.empty() ? "the mass moves in no history"
-                     : !sprung     ? "the method needs a spring: without one the position drifts"
-                                   : "the mass must be positive and finite");
+  if (std::string fault = fault_of_tests(tests, constants); !fault.empty()) {
+    refuse(estimate, std::move(fault));
     return estimate;
   }
   const std::vector<ForceParameters> list = starts(record, tests, constants, options);

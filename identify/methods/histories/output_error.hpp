@@ -9,17 +9,19 @@
 /// states.
 ///
 /// Checked: a term v|v|; residuals that are alike from sample to sample, which noise is not: the law, the constants
-/// or the drive are wrong then. Uncertainty: from replicas of the record (`identify/uncertainty/replicas.hpp`),
-/// each by one step of Gauss and Newton; such residuals widen it. Holds for a linear spring and one level of
-/// friction, static and kinetic. On exact data exact to some 1e-11, where y changes little within a sample
-/// interval. Source: ljung1999, leine2004. Errors: `outcome`. Cost: 70 simulations; 0.3 s for 10,000 samples.
+/// or the drive are wrong then. Uncertainty: from the parametric bootstrap
+/// (`identify/uncertainty/parametric_bootstrap.hpp`), each by one step of Gauss and Newton; such residuals widen
+/// it. Holds for a linear spring and one level of friction, static and kinetic. On exact data exact to some 1e-11,
+/// where y changes little within a sample interval. Source: ljung1999, leine2004. Errors: `outcome`. Cost: 70
+/// simulations; 0.3 s for 10,000 samples.
 
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 
-[[nodiscard]] Estimate output_error(const Record& record, const KnownConstants& constants, const RegressionOptions& options = {});
+[[nodiscard]] Estimate output_error(const Record& record, const KnownConstants& constants,
+                                    const RegressionOptions& options = {});
 
 inline constexpr MethodEntry output_error_method{
     "output_error",

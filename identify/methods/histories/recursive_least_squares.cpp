@@ -10,7 +10,7 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/statistics.hpp"
-#include "identify/uncertainty/replicas.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 
 namespace dualdamp::identify {
 
@@ -75,7 +75,7 @@ Rows rows_of(const std::vector<FrictionSamples>& histories, double least_speed) 
   return rows;
 }
 
-Recursion follow(const Rows& rows, double forgetting, double speed, EstimateCurve& curve) {
+Recursion recursion_over(const Rows& rows, double forgetting, double speed, EstimateCurve& curve) {
   constexpr Eigen::Index most_points = 2000;
   const Eigen::Index every = std::max<Eigen::Index>(1, rows.target.size() / most_points);
   Recursion recursion(forgetting, speed);
@@ -112,26 +112,26 @@ void compare_halves(const Rows& rows, Estimate& estimate) {
       " from the first half of the record to the second: a forgetting factor below 1 follows it");
 }
 
-/// One passage over a record.
-struct Passage {
+/// What the recursion makes of a record.
+struct RecursiveFit {
   Rows rows;
   std::optional<CorrelatedFit> fit;
   Reading reading;  ///< (m, c, k, F0), mass and stiffness being constants
   EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
 };
 
-Passage pass(const std::vector<FrictionSamples>& histories, const KnownConstants& constants,
-             const RecursiveOptions& options) {
-  Passage passage;
-  passage.rows = rows_of(histories, least_speed_for(histories, options));
-  passage.fit = fit_correlated(passage.rows.columns, passage.rows.target, passage.rows.blocks);
-  if (!passage.fit) return passage;
-  const double fastest = passage.rows.columns.col(0).cwiseAbs().maxCoeff();
-  const Recursion recursion = follow(passage.rows, options.forgetting, fastest, passage.curve);
-  const Eigen::Matrix2d covariance = covariance_of(*passage.fit, options.forgetting);
-  passage.reading.parameters = Eigen::Vector4d(constants.mass, recursion.c(), constants.stiffness, recursion.F0());
-  passage.reading.errors = Eigen::Vector4d(0.0, std::sqrt(covariance(0, 0)), 0.0, std::sqrt(covariance(1, 1)));
-  return passage;
+RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, const KnownConstants& constants,
+                             const RecursiveOptions& options) {
+  RecursiveFit result;
+  result.rows = rows_of(histories, least_speed_for(histories, options));
+  result.fit = fit_correlated(result.rows.columns, result.rows.target, result.rows.blocks);
+  if (!result.fit) return result;
+  const double fastest = result.rows.columns.col(0).cwiseAbs().maxCoeff();
+  const Recursion recursion = recursion_over(result.rows, options.forgetting, fastest, result.curve);
+  const Eigen::Matrix2d covariance = covariance_of(*result.fit, options.forgetting);
+  result.reading.parameters = Eigen::Vector4d(constants.mass, recursion.c(), constants.stiffness, recursion.F0());
+  result.reading.errors = Eigen::Vector4d(0.0, std::sqrt(covariance(0, 0)), 0.0, std::sqrt(covariance(1, 1)));
+  return result;
 }
 
 }  // namespace
@@ -146,32 +146,32 @@ Estimate recursive_least_squares(const Record& record, const KnownConstants& con
     refuse(estimate, "the forgetting factor must be above 0 and at most 1");
     return estimate;
   }
-  Passage passage = pass(histories, constants, options);
-  if (!passage.fit) {
+  RecursiveFit result = fit_recursively(histories, constants, options);
+  if (!result.fit) {
     refuse(estimate,
            "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
            "one speed only");
     return estimate;
   }
-  const auto again = [&](const Record& replica) -> std::optional<Reading> {
+  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
     Estimate ignored;
-    Passage other = pass(friction_samples(replica, constants, options, ignored), constants, options);
+    RecursiveFit other = fit_recursively(friction_samples(drawn, constants, options, ignored), constants, options);
     return other.fit ? std::optional(std::move(other.reading)) : std::nullopt;
   };
   Estimate ignored;
-  const Eigen::VectorXd& p = passage.reading.parameters;
+  const Eigen::VectorXd& p = result.reading.parameters;
   const ForceParameters force{p[0], p[1], p[2], p[3]};
   set_estimate(estimate, force,
-               replica_spread(usable_histories(record, options, ignored), passage.reading, 0.0, again));
-  estimate.curves.push_back(std::move(passage.curve));
+               parametric_bootstrap(usable_histories(record, options, ignored), result.reading, 0.0, again));
+  estimate.curves.push_back(std::move(result.curve));
   for (const FrictionSamples& samples : histories) estimate.used.push_back(samples.number);
 
   std::vector<std::string> faults;
-  const double fastest = passage.rows.columns.col(0).cwiseAbs().maxCoeff();
+  const double fastest = result.rows.columns.col(0).cwiseAbs().maxCoeff();
   const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
   judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
-  if (options.forgetting == 1.0) compare_halves(passage.rows, estimate);
-  conclude(estimate, faults, "the state after " + std::to_string(passage.rows.target.size()) + " samples");
+  if (options.forgetting == 1.0) compare_halves(result.rows, estimate);
+  conclude(estimate, faults, "the state after " + std::to_string(result.rows.target.size()) + " samples");
   return estimate;
 }
 

@@ -9,8 +9,9 @@
 /// the error of the output, is that of `output_error`.
 ///
 /// Curve: friction_over_time. Checked: with l = 1, whether both halves of the record agree. Uncertainty: from
-/// replicas of the record (`identify/uncertainty/replicas.hpp`). Source: after yao (liang2004identifying, reference
-/// 13; the text was not at hand), ljung1999. Errors: `outcome`. Cost: 30 operations a sample.
+/// the parametric bootstrap (`identify/uncertainty/parametric_bootstrap.hpp`). Source: after yao
+/// (liang2004identifying, reference 13; the text was not at hand), ljung1999. Errors: `outcome`. Cost: 30
+/// operations a sample.
 
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"
@@ -34,7 +35,8 @@ struct RecursiveOptions : RegressionOptions {
   }
 };
 
-[[nodiscard]] Estimate recursive_least_squares(const Record& record, const KnownConstants& constants, const RecursiveOptions& options = {});
+[[nodiscard]] Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
+                                               const RecursiveOptions& options = {});
 
 inline constexpr MethodEntry recursive_least_squares_method{
     "recursive_least_squares",

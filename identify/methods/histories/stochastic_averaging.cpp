@@ -12,8 +12,8 @@
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/statistics.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 #include "identify/uncertainty/random_response.hpp"
-#include "identify/uncertainty/replicas.hpp"
 
 namespace dualdamp::identify {
 
@@ -223,17 +223,17 @@ Averages averages_of(const History& history, const KnownConstants& constants) {
 }
 
 /// From other random responses of a mass with the estimated friction.
-std::optional<ReplicaSpread> spread_of(const History& history, const Averages& averages,
-                                       const KnownConstants& constants) {
+std::optional<BootstrapSpread> spread_of(const History& history, const Averages& averages,
+                                         const KnownConstants& constants) {
   Eigen::VectorXd truth = averages.reading.parameters.cwiseMax(0.0);
   const RandomResponse response{history, {truth[0], truth[1], truth[2], truth[3]}, averages.D};
-  const auto again = [&](const Record& replica) -> std::optional<Reading> {
-    const Averages other = averages_of(replica.histories.front(), constants);
+  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+    const Averages other = averages_of(drawn.histories.front(), constants);
     return other.fault.empty() ? std::optional(other.reading) : std::nullopt;
   };
-  constexpr int replicas = 20;  // each is long
-  std::optional<ReplicaSpread> spread = spread_over_replicas(
-      averages.reading, truth, [&](int number) { return response.replica(number); }, again, replicas);
+  constexpr int records = 20;  // each is long
+  std::optional<BootstrapSpread> spread = bootstrap_spread(
+      averages.reading, truth, [&](int number) { return response.record(number); }, again, records);
   if (spread) spread->covariance *= response.share();
   return spread;
 }

@@ -6,10 +6,10 @@
 
 #include "core/numbers.hpp"
 #include "friction_models/laws/coulomb.hpp"
-#include "tests/identify/histories.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
+#include "tests/identify/histories.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 
 using namespace dualdamp;
@@ -102,7 +102,7 @@ TEST_CASE("A driven history gives the pair of Den Hartog's closed form") {
   }
   // The transient of about 1/(zeta wn) = 0.2 s is left out, and said so.
   CHECK(derived.warnings.size() == 6);
-  CHECK(derived.warnings[0].find("cycles are left out") != std::string::npos);
+  CHECK(derived.warnings[0].find("periods are left out") != std::string::npos);
 
   const DerivedPairs told = pairs_of({histories[2]}, natural);
   CHECK(told.record.pairs.at(0).x == Approx(derived.record.pairs[2].x).epsilon(1e-8));
@@ -151,7 +151,7 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
   const double c = 2.0 * zeta * std::sqrt(mass * stiffness);
   const auto left_out = [](const History& history) {
     for (const std::string& warning : pairs_of({history}, natural).warnings)
-      if (warning.find("cycles are left out") != std::string::npos) return true;
+      if (warning.find("periods are left out") != std::string::npos) return true;
     return false;
   };
   for (const double duration : {0.8, 2.0}) {
@@ -165,7 +165,7 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
     model.initial = {0.0, 0.0};
     const History from_rest = testing::sampled(model, duration, 500.0, 0.0);
     for (const double sigma : {3e-6, 30e-6, 100e-6}) {
-      // Of five cycles those of a start are half: no steady state then, and no pair.
+      // Of five periods those of a start are half: no steady state then, and no pair.
       const History noisy = testing::displacement_only(from_rest, sigma, normal);
       CHECK((left_out(noisy) || pairs_of({noisy}, natural).record.pairs.empty()));
       if (duration > 1.0) CHECK(left_out(noisy));
@@ -173,9 +173,9 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
   }
 }
 
-TEST_CASE("A history of any length from one cycle on gives a pair") {
-  // 16.2 samples a cycle, so that cycles end between samples in every way, 12.0003 cycles among them; then 20 and
-  // 40 samples to the cycle but for rounding.
+TEST_CASE("A history of any length from one period on gives a pair") {
+  // 16.2 samples a period, so that periods end between samples in every way, 12.0003 periods among them; then 20
+  // and 40 samples to the period but for rounding.
   for (const double rate : {100.0, natural / (2.0 * M_PI) * 20.0, natural / (2.0 * M_PI) * 40.0}) {
     const double period = 2.0 * M_PI / natural * rate;
     for (auto size = static_cast<std::size_t>(std::ceil(period * (1.0 - 1e-12))); size < 40 * 17; ++size) {
@@ -195,7 +195,7 @@ TEST_CASE("A history of any length from one cycle on gives a pair") {
   }
 }
 
-TEST_CASE("What makes a pair doubtful is said, what is no steady state gives none") {
+TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gives none") {
   History history = driven(3.0 * x_f, natural);
   const auto warnings = [](const History& h, double frequency = unknown) {
     std::string text;

@@ -79,17 +79,17 @@ TEST_CASE("perfect sensors read what is there") {
   CHECK(record.decay->extremes == exact.decay->extremes);
 }
 
-TEST_CASE("averaging over cycles takes noise off an amplitude by the root of twice their number") {
-  for (const int cycles : {1, 12}) {
-    Sensors sensors{.average_cycles = cycles};
+TEST_CASE("averaging over periods takes noise off an amplitude by the root of twice their number") {
+  for (const int periods : {1, 12}) {
+    Sensors sensors{.average_cycles = periods};
     sensors.x.noise = 1e-4;
-    const double expected = 1e-4 / std::sqrt(2.0 * cycles);
+    const double expected = 1e-4 / std::sqrt(2.0 * periods);
     const Moments x = over_seeds(sensors, &Pair::x);
     CHECK(std::abs(x.mean - 8e-3) < 4.0 * expected / std::sqrt(seeds));
     CHECK(x.deviation == Approx(expected).epsilon(0.05));
     // A zero crossing of x is late by noise / (w x), an angle of noise / x.
     const Moments phase = over_seeds(sensors, &Pair::phase);
-    CHECK(phase.deviation == Approx(1e-4 / 8e-3 / std::sqrt(cycles)).epsilon(0.05));
+    CHECK(phase.deviation == Approx(1e-4 / 8e-3 / std::sqrt(periods)).epsilon(0.05));
     CHECK(over_seeds(sensors, &Pair::Y).deviation < 1e-12 * 5e-3);
   }
 }
@@ -112,7 +112,7 @@ TEST_CASE("resolution, gain and clipping act on a reading") {
 }
 
 TEST_CASE("a fine enough step between readings is a noise of step/sqrt(12)") {
-  // Averaged over 12 cycles whose noise of half a step spreads the readings over the steps.
+  // Averaged over 12 periods whose noise of half a step spreads the readings over the steps.
   Sensors sensors{.average_cycles = 12};
   sensors.x.resolution = 1e-4;
   sensors.x.noise = 5e-5;

@@ -56,7 +56,7 @@ TEST_CASE("The F test needs freedom and a term of its own") {
   const Eigen::VectorXd other = Eigen::Vector4d(0.0, 1.0, 2.0, 4.0);
   CHECK(added_term_test(columns, residual, other, 1.0, "test").has_value());
   CHECK_FALSE(added_term_test(columns.topRows(3), residual.head(3), other.head(3), 1.0, "test").has_value());
-  // Significant beyond doubt and of no weight: 1e-6 of the range.
+  // Significant and of no weight: 1e-6 of the range.
   const Eigen::VectorXd tiny =
       1e-6 * (other - columns * (columns.transpose() * columns).inverse() * (columns.transpose() * other));
   const auto test = added_term_test(columns, tiny, other, 1.0, "test");

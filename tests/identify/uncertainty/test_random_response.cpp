@@ -22,27 +22,27 @@ double mean_square(const std::vector<double>& signal) {
 
 }  // namespace
 
-TEST_CASE("Replicas under white acceleration lose m D/2 to friction and are no longer than they need be") {
+TEST_CASE("Synthetic records under white acceleration lose m D/2 to friction and are no longer than they need be") {
   const History measured = random_response(law.c, law.F0, D, 400.0, 1);
   const RandomResponse response{measured, law, D};
   // 2,000 periods of 6.17 Hz are 324 s.
   CHECK(response.share() == Approx(324.0 / 400.0).epsilon(0.01));
   double power = 0.0;
-  constexpr int replicas = 4;
-  for (int b = 0; b < replicas; ++b) {
-    const Record record = response.replica(b);
+  constexpr int records = 4;
+  for (int b = 0; b < count; ++b) {
+    const Record record = response.record(b);
     REQUIRE(record.histories.size() == 1);
     const History& history = record.histories.front();
     CHECK(history.force.empty());
     for (const double v : history.v)
-      power += (law.c * v * v + law.F0 * std::abs(v)) / static_cast<double>(history.v.size()) / replicas;
+      power += (law.c * v * v + law.F0 * std::abs(v)) / static_cast<double>(history.v.size()) / records;
   }
   // Ito's formula for the energy; mean squares over 1,300 s have a deviation of sqrt(2/(zeta W T)), 4 %, and half
   // of it is in the power.
   CHECK(power == Approx(0.5 * law.m * D).epsilon(0.08));
 }
 
-TEST_CASE("Replicas of a recorded drive have its power, and move by their own") {
+TEST_CASE("Synthetic records under a recorded drive have its power, and move by their own") {
   sim::Model model = driven_bearing(law.c, law.F0, 0.0);
   model.excitation = {};
   model.excitation.type = sim::ExcitationType::force_noise;
@@ -51,11 +51,11 @@ TEST_CASE("Replicas of a recorded drive have its power, and move by their own") 
   measured.v.clear();
   const RandomResponse response{measured, law, 2.0};
   CHECK(response.share() == 1.0);
-  const History first = response.replica(0).histories.front();
-  const History second = response.replica(1).histories.front();
+  const History first = response.record(0).histories.front();
+  const History second = response.record(1).histories.front();
   CHECK(first.v.empty());
   CHECK(first.force != second.force);
-  CHECK(first.x == response.replica(0).histories.front().x);
+  CHECK(first.x == response.record(0).histories.front().x);
   // 12,000 independent nodes: 1.3 %; twice that for the stretches, which repeat some of them.
   CHECK(mean_square(first.force) == Approx(mean_square(measured.force)).epsilon(0.08));
   // 100 s are 60 correlation times of the amplitude: 20 %, of both.

@@ -97,7 +97,7 @@ TEST_CASE("Sweeps drawn whole show the drift between them") {
   for (const std::string& warning : e.warnings) CHECK(warning.find("bootstrap") == std::string::npos);
 }
 
-TEST_CASE("Few sweeps are doubted") {
+TEST_CASE("Few sweeps give a warning") {
   Normal normal(2);
   LineOptions options;
   options.bootstrap = 50;

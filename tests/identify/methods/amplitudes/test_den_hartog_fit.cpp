@@ -176,7 +176,7 @@ TEST_CASE("Profiles and bootstrap of the exact law agree with its standard error
   CHECK(*e.others[3].std == Approx(e.std->F0).epsilon(0.07));
 }
 
-TEST_CASE("The exact law leaves out what sticks and doubts what it cannot fit") {
+TEST_CASE("The exact law leaves out what sticks and tells what it cannot fit") {
   const Estimate bent = den_hartog_fit(pairs(subset_trend), soft_spring, {});
   REQUIRE(bent.outcome.ok());
   CHECK_FALSE(bent.usable);

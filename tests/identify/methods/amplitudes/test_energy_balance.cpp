@@ -196,7 +196,7 @@ TEST_CASE("Histories of any motion give the energy balance") {
   CHECK(e.value.c == Approx(c).epsilon(1e-3));
   CHECK(e.value.F0 == Approx(F0).epsilon(1e-3));
   CHECK(e.used == std::vector<int>{1, 2});
-  CHECK(mentions(e.reason, "cycles of 2 histories"));
+  CHECK(mentions(e.reason, "periods of 2 histories"));
   // x alone, differentiated and filtered, with noise of 1 um: that of rounding to the 3 um of the paper's sensors.
   Normal normal(91);
   std::vector<History> noisy;
@@ -230,7 +230,7 @@ TEST_CASE("Noise on a mass that has come to rest is no motion") {
   }
   // A test at the level 0.05 fires more than 8 times in 50 with probability 2e-4.
   CHECK(fired <= 8);
-  // Within the cycles that move noise lengthens the way, which lowers F0 by 1.5 % and raises zeta by 0.5 %.
+  // Within the periods that move noise lengthens the way, which lowers F0 by 1.5 % and raises zeta by 0.5 %.
   CHECK(zeta == Approx(0.05).epsilon(0.01));
   CHECK(force == Approx(1.0).epsilon(0.03));
 }

@@ -151,7 +151,7 @@ TEST_CASE("Without known errors input and output are treated alike") {
         Approx(0.5 / slope).epsilon(1e-12));
 }
 
-TEST_CASE("Pairs on a straight line return the line, the reconstructed pairs are doubted") {
+TEST_CASE("Pairs on a straight line return the line, the reconstructed pairs are not usable") {
   Normal none(1);
   const Estimate e = resonance_deming(pairs(noisy_line(none, 0.0, 0.0)), at_resonance, {});
   REQUIRE(e.outcome.ok());

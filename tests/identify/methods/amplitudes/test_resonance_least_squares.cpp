@@ -236,8 +236,8 @@ TEST_CASE("The gate ends, and leaves no sticking pair, whatever the record") {
 }
 
 TEST_CASE("Detuning is told, in size and sign") {
-  // Exact pairs at w = r wn, zeta = 0.12, read by the method. The doubt is computed at the estimate, the truth is
-  // at the true parameters: they agree to the square of the error.
+  // Exact pairs at w = r wn, zeta = 0.12, read by the method. The diagnostic is computed at the estimate, the truth
+  // is at the true parameters: they agree to the square of the error.
   const double zeta = 0.12, x_f = 2.36e-3;
   const std::vector<double> levels = {4.45e-3, 5.03e-3, 5.6e-3, 6.18e-3, 6.75e-3};
   struct Case {
@@ -313,7 +313,7 @@ TEST_CASE("Data left out for their own sake are named") {
   CHECK(e.used == std::vector<int>{1, 2, 3, 4});
 }
 
-TEST_CASE("A friction force that came out negative is not to be used, one of no size is doubted") {
+TEST_CASE("A friction force that came out negative is not usable, one of no size gets a warning") {
   const Estimate negative =
       resonance_least_squares(pairs({{0.1, 0.35}, {0.2, 0.6}, {0.3, 0.85001}}), constants_at(1.0), {});
   REQUIRE(negative.outcome.ok());

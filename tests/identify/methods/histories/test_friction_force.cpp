@@ -57,15 +57,15 @@ TEST_CASE("Exact signals give the friction to rounding, and the curves") {
   }
 }
 
-TEST_CASE("Work of the friction in a cycle is 4 F0 x + c int v^2 dt") {
+TEST_CASE("Work of the friction in a period is 4 F0 x + c int v^2 dt") {
   const History history = steady();
   const Estimate e = estimate_of(history);
   double square = 0.0;
   for (const double v : history.v) square += v * v / static_cast<double>(history.v.size());
   const auto [low, high] = std::minmax_element(history.x.begin(), history.x.end());
-  const double cycle = 2.0 * std::numbers::pi / omega;
-  // Sums of samples that do not end with the cycle: a part in a hundred of a cycle in 25.
-  CHECK(other(e, "loop_area") == Approx(2.0 * F0 * (*high - *low) + c * square * cycle).epsilon(5e-3));
+  const double period = 2.0 * std::numbers::pi / omega;
+  // Sums of samples that do not end with the period: a part in a hundred of a period in 25.
+  CHECK(other(e, "loop_area") == Approx(2.0 * F0 * (*high - *low) + c * square * period).epsilon(5e-3));
 }
 
 TEST_CASE("The paper's velocity biases c by some tenths of a per cent") {
@@ -108,7 +108,7 @@ TEST_CASE("A gain error of the acceleration leaves c and F0 and opens a false lo
   History history = steady();
   for (double& a : history.a) a *= 1.0 + error;
   const Estimate e = estimate_of(history);
-  // In phase with x, so orthogonal to v and sgn v over whole cycles.
+  // In phase with x, so orthogonal to v and sgn v over whole periods.
   CHECK(e.value.c == Approx(c).epsilon(2e-3));
   CHECK(e.value.F0 == Approx(F0).epsilon(2e-3));
   CHECK_FALSE(e.usable);

@@ -27,8 +27,7 @@ TEST_CASE("The mean power of friction is m D/2") {
 TEST_CASE("The distribution of the amplitude gives friction and damping within its bias") {
   // Bias of the averaging, up to 8 % of F0, and four standard errors.
   for (const auto& [c, F0] : {std::pair{2.0, 1.0}, std::pair{5.0, 2.0}}) {
-    const Estimate e =
-        stochastic_averaging(record_of({random_response(c, F0, D, 800.0, 7)}), bearing_constants);
+    const Estimate e = stochastic_averaging(record_of({random_response(c, F0, D, 800.0, 7)}), bearing_constants);
     REQUIRE(e.outcome.ok());
     CHECK(e.usable);
     CHECK(std::abs(e.value.F0 - F0) < 0.08 * F0 + 4.0 * e.std->F0);

@@ -1,16 +1,16 @@
-#include "identify/uncertainty/replicas.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 
 #include <cmath>
 #include <utility>
 
 #include "identify/statistics/statistics.hpp"
-#include "identify/uncertainty/starred_record.hpp"
+#include "identify/uncertainty/synthetic_record.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
 
-/// Standard errors that the replicas show, and by how much the record's own are beyond chance.
+/// Standard errors that the synthetic records show, and by how much the record's own are beyond chance.
 class Errors {
  public:
   explicit Errors(Eigen::Index size) : squares_(Eigen::VectorXd::Zero(size)), largest_(squares_) {}
@@ -35,17 +35,17 @@ class Errors {
 
 }  // namespace
 
-std::optional<ReplicaSpread> spread_over_replicas(const Reading& own, const Eigen::VectorXd& truth,
-                                                  const std::function<Record(int)>& replica,
-                                                  const std::function<std::optional<Reading>(const Record&)>& read,
-                                                  int replicas) {
+std::optional<BootstrapSpread> bootstrap_spread(const Reading& own, const Eigen::VectorXd& truth,
+                                                const std::function<Record(int)>& draw,
+                                                const std::function<std::optional<Reading>(const Record&)>& read,
+                                                int records) {
   const Eigen::Index size = truth.size();
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(size);
   Errors errors(size);
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size);
   int count = 0;
-  for (int b = 0; b < replicas; ++b) {
-    const std::optional<Reading> reading = read(replica(b));
+  for (int b = 0; b < records; ++b) {
+    const std::optional<Reading> reading = read(draw(b));
     if (!reading) continue;
     ++count;
     const Eigen::VectorXd beside = reading->parameters - mean;
@@ -53,30 +53,30 @@ std::optional<ReplicaSpread> spread_over_replicas(const Reading& own, const Eige
     squares += beside * (reading->parameters - mean).transpose();
     errors.add(reading->errors);
   }
-  if (10 * count < 9 * replicas) return std::nullopt;
+  if (10 * count < 9 * records) return std::nullopt;
   const Eigen::VectorXd ratio = errors.widening(own.errors);
-  ReplicaSpread spread;
+  BootstrapSpread spread;
   spread.bias = mean - truth;
   spread.covariance = ratio.asDiagonal() * (squares / (count - 1)) * ratio.asDiagonal();
-  // Where the record is not like the replicas its bias need not be theirs.
+  // Where the record is not like the synthetic records its bias need not be theirs.
   if (ratio.maxCoeff() > 1.0) spread.covariance += spread.bias * spread.bias.transpose();
   spread.half_width = quantile95(count - 1) * std::sqrt(1.0 + 1.0 / count);
   return spread;
 }
 
-std::optional<ReplicaSpread> replica_spread(const std::vector<NumberedHistory>& histories, const Reading& own,
-                                            double offset,
-                                            const std::function<std::optional<Reading>(const Record&)>& read) {
+std::optional<BootstrapSpread> parametric_bootstrap(
+    const std::vector<NumberedHistory>& histories, const Reading& own, double offset,
+    const std::function<std::optional<Reading>(const Record&)>& read) {
   const Eigen::VectorXd& p = own.parameters;
   ForceParameters law{p[0], p[1], p[2], p[3]};
-  const std::optional<StarredRecord> starred = starred_record(histories, law, offset);
-  if (!starred) return std::nullopt;
+  const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, law, offset);
+  if (!synthetic) return std::nullopt;
   Eigen::VectorXd truth = p;
   truth.head<4>() << law.m, law.c, law.k, law.F0;
-  return spread_over_replicas(own, truth, [&](int number) { return starred->replica(number); }, read);
+  return bootstrap_spread(own, truth, [&](int number) { return synthetic->record(number); }, read);
 }
 
-void set_estimate(Estimate& estimate, const ForceParameters& force, const std::optional<ReplicaSpread>& spread) {
+void set_estimate(Estimate& estimate, const ForceParameters& force, const std::optional<BootstrapSpread>& spread) {
   if (!spread) {
     estimate.value = parameters(force);
     estimate.warnings.emplace_back(
@@ -108,7 +108,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const std::o
 }
 
 FurtherParameter further(std::string name, std::string unit, double value,
-                         const std::optional<ReplicaSpread>& spread, Eigen::Index index) {
+                         const std::optional<BootstrapSpread>& spread, Eigen::Index index) {
   if (!spread) return {std::move(name), std::move(unit), value, std::nullopt, std::nullopt};
   FurtherParameter parameter =
       further(std::move(name), std::move(unit), value, spread->covariance(index, index), spread->half_width);

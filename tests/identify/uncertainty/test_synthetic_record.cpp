@@ -1,4 +1,5 @@
-#include "identify/uncertainty/starred_record.hpp"
+#include "identify/statistics/noise_level.hpp"
+#include "identify/uncertainty/synthetic_record.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -44,42 +45,42 @@ History bearing(double noise, std::uint64_t seed = 3) {
   return history;
 }
 
-StarredRecord star_of(const History& history, ForceParameters truth, double offset = 0.0) {
-  const std::optional<StarredRecord> starred = starred_record({{1, &history}}, truth, offset);
-  REQUIRE(starred);
-  return *starred;
+SyntheticRecords synthetic_of(const History& history, ForceParameters truth, double offset = 0.0) {
+  const std::optional<SyntheticRecords> synthetic = synthetic_records({{1, &history}}, truth, offset);
+  REQUIRE(synthetic);
+  return *synthetic;
 }
 
 }  // namespace
 
-TEST_CASE("A starred record obeys the law and lies within the noise of the measured one") {
+TEST_CASE("A synthetic record obeys the law and lies within the noise of the measured one") {
   const double noise = 5e-5;
   const History measured = bearing(noise);
-  const StarredRecord starred = star_of(measured, law);
-  const History& exact = starred.exact.histories.front();
+  const SyntheticRecords synthetic = synthetic_of(measured, law);
+  const History& exact = synthetic.exact.histories.front();
   CHECK(imbalance(exact, law, 0.0) < 1e-11);  // rounding of forces of 10 N
   // 1,500 samples leave the deviation of their noise with 2 %; that of y moves the mass by less.
   CHECK(root_mean_square(measured.x, exact.x) == Approx(noise).epsilon(0.1));
   CHECK(exact.y == measured.y);
 }
 
-TEST_CASE("The noise of each signal is read beside the starred motion, jumps of the acceleration or not") {
+TEST_CASE("The noise of each signal is read beside the synthetic motion, jumps of the acceleration or not") {
   const double noise = 5e-5;
-  const StarredRecord starred = star_of(bearing(noise), law);
+  const SyntheticRecords synthetic = synthetic_of(bearing(noise), law);
   // Fourth differences of 1,500 samples: 3 %; three of these.
-  CHECK(starred.sensors.x.noise == Approx(noise).epsilon(0.1));
-  CHECK(starred.sensors.v.noise == Approx(40.0 * noise).epsilon(0.1));
-  CHECK(starred.sensors.a.noise == Approx(1500.0 * noise).epsilon(0.1));
-  CHECK(starred.sensors.y.noise == Approx(0.1 * noise).epsilon(0.1));
-  const History replica = starred.replica(0).histories.front();
-  CHECK(root_mean_square(replica.x, starred.exact.histories.front().x) == Approx(noise).epsilon(0.1));
-  CHECK(replica.x == starred.replica(0).histories.front().x);
-  CHECK(replica.x != starred.replica(1).histories.front().x);
-  // Signals that were not measured are in no replica.
+  CHECK(synthetic.sensors.x.noise == Approx(noise).epsilon(0.1));
+  CHECK(synthetic.sensors.v.noise == Approx(40.0 * noise).epsilon(0.1));
+  CHECK(synthetic.sensors.a.noise == Approx(1500.0 * noise).epsilon(0.1));
+  CHECK(synthetic.sensors.y.noise == Approx(0.1 * noise).epsilon(0.1));
+  const History drawn = synthetic.record(0).histories.front();
+  CHECK(root_mean_square(drawn.x, synthetic.exact.histories.front().x) == Approx(noise).epsilon(0.1));
+  CHECK(drawn.x == synthetic.record(0).histories.front().x);
+  CHECK(drawn.x != synthetic.record(1).histories.front().x);
+  // Signals that were not measured are in no synthetic record.
   History bare = bearing(noise);
   bare.v.clear();
   bare.a.clear();
-  const History as_bare = star_of(bare, law).replica(0).histories.front();
+  const History as_bare = synthetic_of(bare, law).record(0).histories.front();
   CHECK(as_bare.v.empty());
   CHECK(as_bare.a.empty());
 }
@@ -94,10 +95,10 @@ TEST_CASE("A drive that is rough is not taken for a noisy one") {
   history.v.clear();
   history.a.clear();
   // What is left is the kinks of the drive, which the polynomials between its samples miss.
-  CHECK(star_of(history, law).sensors.force.noise < 0.3 * noise_deviation(history.force));
+  CHECK(synthetic_of(history, law).sensors.force.noise < 0.3 * noise_level(history.force));
 }
 
-TEST_CASE("A mass without spring is held to its record by a force that the starred record knows") {
+TEST_CASE("A mass without spring is held to its record by a force that the synthetic record knows") {
   // 10 kg under a force of 20 N at 1 Hz, simulated with the estimated friction 5 % off: without being held it
   // drifts.
   const ForceParameters rail{10.0, 15.0, 0.0, 4.0};
@@ -120,8 +121,8 @@ TEST_CASE("A mass without spring is held to its record by a force that the starr
   }
   ForceParameters off = rail;
   off.c *= 1.05;
-  const StarredRecord starred = star_of(measured, off, 0.2);
-  History exact = starred.exact.histories.front();
+  const SyntheticRecords synthetic = synthetic_of(measured, off, 0.2);
+  History exact = synthetic.exact.histories.front();
   const std::vector<double> none(exact.x.size(), 0.0);
   CHECK(root_mean_square(measured.x, exact.x) < 0.05 * root_mean_square(measured.x, none));
   // Of the order of what 5 % of the damping and the offset lack.
@@ -129,15 +130,15 @@ TEST_CASE("A mass without spring is held to its record by a force that the starr
   CHECK(root_mean_square(measured.force, exact.force) > 0.05);
 }
 
-TEST_CASE("Friction that drives counts as none, and a law that cannot move so gives no starred record") {
+TEST_CASE("Friction that drives counts as none, and a law that cannot move so gives no synthetic record") {
   const History measured = bearing(0.0);
   // 44 N.s/m alone take as much energy from this motion: k Y = c w X + 4 F0/pi at resonance.
   ForceParameters driving = law;
   driving.c = 44.0;
   driving.F0 = -0.1;
-  CHECK(starred_record({{1, &measured}}, driving, 0.0));
+  CHECK(synthetic_records({{1, &measured}}, driving, 0.0));
   CHECK(driving.F0 == 0.0);
   ForceParameters stuck = law;
   stuck.F0 = 1e4;
-  CHECK_FALSE(starred_record({{1, &measured}}, stuck, 0.0));
+  CHECK_FALSE(synthetic_records({{1, &measured}}, stuck, 0.0));
 }

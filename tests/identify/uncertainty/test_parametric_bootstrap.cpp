@@ -1,4 +1,4 @@
-#include "identify/uncertainty/replicas.hpp"
+#include "identify/uncertainty/parametric_bootstrap.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,8 +21,8 @@ namespace {
 constexpr double c = 11.0;
 constexpr double F0 = 3.7;
 
-/// What the second deviate of `replica` b is, through a record of one sample.
-Record number_of(const std::array<double, replica_count>& numbers, int b) {
+/// What the second deviate of `draw` b is, through a record of one sample.
+Record number_of(const std::array<double, synthetic_count>& numbers, int b) {
   Record record;
   record.histories.push_back({.x = {numbers[static_cast<std::size_t>(b)]}});
   return record;
@@ -59,16 +59,16 @@ bool says(const Estimate& estimate, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("The spread over replicas is that of their readings, moved by their bias") {
-  std::array<double, replica_count> numbers{};
+TEST_CASE("The spread over synthetic records is that of their readings, moved by their bias") {
+  std::array<double, synthetic_count> numbers{};
   Normal normal(4);
   double mean = 0.0;
-  for (double& number : numbers) mean += (number = 0.5 + 0.1 * normal()) / replica_count;
+  for (double& number : numbers) mean += (number = 0.5 + 0.1 * normal()) / synthetic_count;
   double variance = 0.0;
-  for (const double number : numbers) variance += (number - mean) * (number - mean) / (replica_count - 1.0);
-  const auto replica = [&](int b) { return number_of(numbers, b); };
+  for (const double number : numbers) variance += (number - mean) * (number - mean) / (synthetic_count - 1.0);
+  const auto draw = [&](int b) { return number_of(numbers, b); };
   const Reading own{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
-  const std::optional<ReplicaSpread> spread = spread_over_replicas(own, own.parameters, replica, read_number);
+  const std::optional<BootstrapSpread> spread = bootstrap_spread(own, own.parameters, draw, read_number);
   REQUIRE(spread);
   CHECK(spread->bias[1] == Approx(mean - 0.4).epsilon(1e-12));
   CHECK(spread->bias[3] == Approx(3.0 - 2.0 * mean - 2.1).epsilon(1e-12));
@@ -79,30 +79,31 @@ TEST_CASE("The spread over replicas is that of their readings, moved by their bi
   CHECK(spread->half_width == Approx(2.0227 * std::sqrt(1.0 + 1.0 / 40.0)).epsilon(1e-4));
 }
 
-TEST_CASE("A record with larger errors than every replica widens the interval by their ratio and by the bias") {
-  std::array<double, replica_count> numbers{};
+TEST_CASE(
+    "A record with larger errors than every synthetic record widens the interval by their ratio and by the bias") {
+  std::array<double, synthetic_count> numbers{};
   Normal normal(5);
   for (double& number : numbers) number = 0.5 + 0.1 * normal();
-  const auto replica = [&](int b) { return number_of(numbers, b); };
+  const auto draw = [&](int b) { return number_of(numbers, b); };
   const Reading alike{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
   Reading rougher = alike;
   rougher.errors[1] = 0.3;
   Reading smoother = alike;
   smoother.errors[1] = 0.01;
   const auto covariance = [&](const Reading& own) {
-    return spread_over_replicas(own, own.parameters, replica, read_number)->covariance;
+    return bootstrap_spread(own, own.parameters, draw, read_number)->covariance;
   };
-  const double bias = spread_over_replicas(alike, alike.parameters, replica, read_number)->bias[1];
+  const double bias = bootstrap_spread(alike, alike.parameters, draw, read_number)->bias[1];
   CHECK(covariance(rougher)(1, 1) == Approx(9.0 * covariance(alike)(1, 1) + bias * bias).epsilon(1e-12));
   CHECK(covariance(smoother)(1, 1) == covariance(alike)(1, 1));
 }
 
-TEST_CASE("A method that refuses more than one replica in ten gets no interval") {
-  const std::array<double, replica_count> numbers{};
+TEST_CASE("A method that refuses more than one record in ten gets no interval") {
+  const std::array<double, synthetic_count> numbers{};
   const Reading own = *read_number(number_of(numbers, 0));
   const auto with_refusals = [&](int refused) {
     int b = 0;
-    return spread_over_replicas(
+    return bootstrap_spread(
                own, own.parameters, [&](int i) { return number_of(numbers, i); },
                [&](const Record& record) { return b++ < refused ? std::nullopt : read_number(record); })
         .has_value();
@@ -142,7 +143,7 @@ TEST_CASE("Intervals of the methods on histories hold the truth, which their bia
   }
 }
 
-TEST_CASE("The same record has the same interval every time, another one has other replicas") {
+TEST_CASE("The same record has the same interval every time, another one has other synthetic records") {
   const Record record = noisy_second(1);
   const auto interval = [](const Record& of) {
     return friction_force(of, bearing_constants, {}).interval95.value().c;
@@ -152,7 +153,7 @@ TEST_CASE("The same record has the same interval every time, another one has oth
   moved.histories[0].x[7] += 1e-12;
   const auto [low, high] = interval(record);
   const auto [moved_low, moved_high] = interval(moved);
-  // Replicas of other draws: standard deviations from 40 of them scatter by a ninth.
+  // Synthetic records of other draws: standard deviations from 40 of them scatter by a ninth.
   CHECK((moved_high - moved_low) / (high - low) == Approx(1.0).epsilon(0.5));
   CHECK(std::abs((moved_high - moved_low) / (high - low) - 1.0) > 1e-3);
 }

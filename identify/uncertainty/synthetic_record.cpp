@@ -1,4 +1,4 @@
-#include "identify/uncertainty/starred_record.hpp"
+#include "identify/uncertainty/synthetic_record.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "identify/models/sampled_oscillator.hpp"
+#include "identify/statistics/lasting_part.hpp"
+#include "identify/statistics/noise_level.hpp"
 
 namespace dualdamp::identify {
 
@@ -19,39 +21,6 @@ double root_mean_square(const std::vector<double>& signal) {
   for (const double value : signal) sum += value * value;
   return signal.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(signal.size()));
 }
-
-/// Deviation of white noise in signals that are smooth but for a few jumps: from fourth differences, those that
-/// noise does not make left out.
-class NoiseMeter {
- public:
-  void add(const std::vector<double>& signal) {
-    constexpr double gain = 70.0;  // of fourth differences, of the variance
-    for (std::size_t i = 0; i + 4 < signal.size(); ++i)
-      differences_.push_back(
-          std::abs(signal[i] - 4.0 * signal[i + 1] + 6.0 * signal[i + 2] - 4.0 * signal[i + 3] + signal[i + 4]) /
-          std::sqrt(gain));
-  }
-
-  [[nodiscard]] double deviation() {
-    if (differences_.empty()) return 0.0;
-    const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
-    std::ranges::nth_element(differences_, middle);
-    constexpr double to_deviation = 1.4826;  // of a normal variable's median magnitude
-    constexpr double rare = 4.0;             // deviations: one normal variable in 16,000
-    const double limit = rare * to_deviation * *middle;
-    double sum = 0.0;
-    double count = 0.0;
-    for (const double difference : differences_) {
-      if (difference > limit) continue;
-      sum += difference * difference;
-      count += 1.0;
-    }
-    return std::sqrt(sum / count);
-  }
-
- private:
-  std::vector<double> differences_;
-};
 
 std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> result(a.size());
@@ -112,10 +81,10 @@ std::vector<double> pull_of(const History& history, const ForceParameters& law, 
   return pull;
 }
 
-/// One history in the starred world.
-class Star {
+/// One history in the synthetic record.
+class SyntheticHistory {
  public:
-  Star(const History& measured, const ForceParameters& law, double offset, bool steered)
+  SyntheticHistory(const History& measured, const ForceParameters& law, double offset, bool steered)
       : measured_(measured),
         law_(law),
         offset_(offset),
@@ -128,23 +97,23 @@ class Star {
     Eigen::VectorXd x;
     Eigen::VectorXd v;
     if (!meet(model) || !model.run(at_, {}, x, nullptr, &v)) return std::nullopt;
-    History starred = measured_;
-    starred.x = vector_of(x);
-    starred.v = vector_of(v);
+    History synthetic = measured_;
+    synthetic.x = vector_of(x);
+    synthetic.v = vector_of(v);
     if (steering_.stiffness > 0.0) {
-      starred.force.resize(starred.x.size());
-      for (std::size_t i = 0; i < starred.x.size(); ++i)
-        starred.force[i] += steering_.stiffness * (steering_.x[i] - starred.x[i]) +
-                            steering_.damping * (steering_.v[i] - starred.v[i]);
+      synthetic.force.resize(synthetic.x.size());
+      for (std::size_t i = 0; i < synthetic.x.size(); ++i)
+        synthetic.force[i] += steering_.stiffness * (steering_.x[i] - synthetic.x[i]) +
+                              steering_.damping * (steering_.v[i] - synthetic.v[i]);
     }
-    const std::vector<double> pull = pull_of(starred, law_, offset_);
-    starred.a.resize(pull.size());
+    const std::vector<double> pull = pull_of(synthetic, law_, offset_);
+    synthetic.a.resize(pull.size());
     for (std::size_t i = 0; i < pull.size(); ++i) {
-      const bool slips = starred.v[i] != 0.0;
-      const double friction = slips ? law_.F0 * sign(starred.v[i]) : std::clamp(pull[i], -law_.F0, law_.F0);
-      starred.a[i] = (pull[i] - friction) / law_.m;
+      const bool slips = synthetic.v[i] != 0.0;
+      const double friction = slips ? law_.F0 * sign(synthetic.v[i]) : std::clamp(pull[i], -law_.F0, law_.F0);
+      synthetic.a[i] = (pull[i] - friction) / law_.m;
     }
-    return starred;
+    return synthetic;
   }
 
   /// x of the same mass under another drive.
@@ -191,35 +160,35 @@ class Star {
   SampledOscillator::Parameters at_;
 };
 
-bool close(const History& starred, const History& measured) {
+bool close(const History& synthetic, const History& measured) {
   constexpr double of_the_motion = 0.1;
-  return root_mean_square(difference(measured.x, starred.x)) < of_the_motion * root_mean_square(measured.x);
+  return root_mean_square(difference(measured.x, synthetic.x)) < of_the_motion * root_mean_square(measured.x);
 }
 
-/// Of a signal that was measured beside a starred motion.
-struct MotionMeter {
-  NoiseMeter beside, own;
+/// Of a signal that was measured beside a synthetic motion.
+struct MotionNoise {
+  RobustNoiseLevel beside, own;
 
-  void add(const std::vector<double>& measured, const std::vector<double>& starred) {
+  void add(const std::vector<double>& measured, const std::vector<double>& synthetic) {
     if (measured.empty()) return;
-    beside.add(difference(measured, starred));
+    beside.add(difference(measured, synthetic));
     own.add(measured);
   }
-  /// The starred motion has the noise of the drive in it, and the signal its jumps.
-  [[nodiscard]] double deviation() { return std::min(beside.deviation(), own.deviation()); }
+  /// The synthetic motion has the noise of the drive in it, and the signal its jumps.
+  [[nodiscard]] double deviation() const { return std::min(beside.deviation(), own.deviation()); }
 };
 
-/// Meters of all histories: a sensor is the same in each.
-struct Meters {
-  NoiseMeter y, force, balance;
-  MotionMeter x, v, a;
+/// NoiseLevels of all histories: a sensor is the same in each.
+struct NoiseLevels {
+  RobustNoiseLevel y, force, balance;
+  MotionNoise x, v, a;
 
-  void add(const History& measured, const History& starred, const ForceParameters& law) {
+  void add(const History& measured, const History& synthetic, const ForceParameters& law) {
     y.add(measured.y);
     force.add(measured.force);
-    x.add(measured.x, starred.x);
-    v.add(measured.v, starred.v);
-    a.add(measured.a, starred.a);
+    x.add(measured.x, synthetic.x);
+    v.add(measured.v, synthetic.v);
+    a.add(measured.a, synthetic.a);
     if (measured.y.empty() && measured.force.empty()) return;
     // Of the forces, what neither inertia nor spring takes up; friction and damping are smooth beside it.
     const std::vector<double> acceleration =
@@ -231,7 +200,7 @@ struct Meters {
     balance.add(left);
   }
 
-  [[nodiscard]] Sensors sensors(const ForceParameters& law) {
+  [[nodiscard]] Sensors sensors(const ForceParameters& law) const {
     const double most = balance.deviation();
     Sensors sensors;
     sensors.x.noise = x.deviation();
@@ -243,39 +212,23 @@ struct Meters {
   }
 };
 
-/// The part that lasts from one sample to the next, as a mean square over all histories.
-class LastingPart {
- public:
-  void add(const std::vector<double>& signal) {
-    for (std::size_t i = 0; i + 1 < signal.size(); ++i) sum_ += signal[i] * signal[i + 1];
-    count_ += static_cast<double>(signal.size() - 1);
-  }
-  /// With what chance may hide of it under white noise.
-  [[nodiscard]] double at_most(double noise) const {
-    return std::max(0.0, sum_ / count_) + 3.0 * noise * noise / std::sqrt(count_);
-  }
-
- private:
-  double sum_ = 0.0;
-  double count_ = 0.0;
-};
-
-/// A drive that is read with noise moves the starred mass beside the measured one: the noise is no more than that
+/// A drive that is read with noise moves the synthetic mass beside the measured one: the noise is no more than that
 /// motion admits, for what looks like noise at high frequency may be a drive indeed.
-void bound_drive_noise(const std::vector<NumberedHistory>& histories, const std::vector<Star>& stars,
-                       const Record& exact, std::uint64_t seed, Sensors& sensors) {
+void bound_drive_noise(const std::vector<NumberedHistory>& histories,
+                       const std::vector<SyntheticHistory>& candidates, const Record& exact, std::uint64_t seed,
+                       Sensors& sensors) {
   if (sensors.y.noise == 0.0 && sensors.force.noise == 0.0) return;
   Sensors drive;
   drive.y = sensors.y;
   drive.force = sensors.force;
   LastingPart seen;
   LastingPart expected;
-  for (std::size_t i = 0; i < stars.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
     const History& measured = *histories[i].history;
     Record noisy;
     noisy.histories = {measured};
     noisy = read(noisy, drive, seed);
-    const std::optional<std::vector<double>> moved = stars[i].motion_under(noisy.histories.front());
+    const std::optional<std::vector<double>> moved = candidates[i].motion_under(noisy.histories.front());
     if (!moved) return;
     seen.add(difference(measured.x, exact.histories[i].x));
     expected.add(difference(*moved, exact.histories[i].x));
@@ -294,39 +247,39 @@ std::uint64_t seed_of(const std::vector<NumberedHistory>& histories) {
   return hash;
 }
 
-Record StarredRecord::replica(int number) const {
+Record SyntheticRecords::record(int number) const {
   return read(exact, sensors, seed + 1 + static_cast<std::uint64_t>(number));
 }
 
-std::optional<StarredRecord> starred_record(const std::vector<NumberedHistory>& histories, ForceParameters& truth,
-                                            double offset) {
+std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHistory>& histories,
+                                                  ForceParameters& truth, double offset) {
   if (!(truth.m > 0.0) || !(truth.k >= 0.0)) return std::nullopt;
   truth.c = std::max(0.0, truth.c);
   truth.F0 = std::max(0.0, truth.F0);
-  StarredRecord starred;
-  starred.seed = seed_of(histories);
-  std::vector<Star> stars;
-  Meters meters;
+  SyntheticRecords synthetic;
+  synthetic.seed = seed_of(histories);
+  std::vector<SyntheticHistory> candidates;
+  NoiseLevels levels;
   for (const NumberedHistory& item : histories) {
     const History& measured = *item.history;
     std::optional<History> history;
     for (const bool steered : {false, true}) {
       if (!steered && truth.k == 0.0) continue;  // it would drift
-      Star star(measured, truth, offset, steered);
-      history = star.history();
+      SyntheticHistory candidate(measured, truth, offset, steered);
+      history = candidate.history();
       if (!history || !close(*history, measured)) continue;
-      stars.push_back(std::move(star));
+      candidates.push_back(std::move(candidate));
       break;
     }
-    if (stars.size() == starred.exact.histories.size()) return std::nullopt;
-    meters.add(measured, *history, truth);
+    if (candidates.size() == synthetic.exact.histories.size()) return std::nullopt;
+    levels.add(measured, *history, truth);
     if (measured.v.empty()) history->v.clear();
     if (measured.a.empty()) history->a.clear();
-    starred.exact.histories.push_back(std::move(*history));
+    synthetic.exact.histories.push_back(std::move(*history));
   }
-  starred.sensors = meters.sensors(truth);
-  bound_drive_noise(histories, stars, starred.exact, starred.seed, starred.sensors);
-  return starred;
+  synthetic.sensors = levels.sensors(truth);
+  bound_drive_noise(histories, candidates, synthetic.exact, synthetic.seed, synthetic.sensors);
+  return synthetic;
 }
 
 }  // namespace dualdamp::identify

@@ -1,0 +1,219 @@
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "identify/records/derived_records.hpp"
+#include "identify/statistics/median.hpp"
+#include "identify/statistics/noise_level.hpp"
+#include "identify/validate.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// A turning point of the samples, before it is fitted.
+struct Turn {
+  std::size_t index = 0;
+  bool at_rest = false;  ///< the mass is held or stays there
+};
+
+/// Alternating extremes farther apart than `band`. The last one is the current candidate, not yet turned back from.
+std::vector<std::size_t> zigzag(std::span<const double> x, double band) {
+  std::vector<std::size_t> turns;
+  std::size_t low = 0;
+  std::size_t high = 0;
+  int direction = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] > x[high]) high = i;
+    if (x[i] < x[low]) low = i;
+    if (direction >= 0 && x[i] < x[high] - band) {
+      turns.push_back(high);
+      direction = -1;
+      low = i;
+    } else if (direction <= 0 && x[i] > x[low] + band) {
+      turns.push_back(low);
+      direction = 1;
+      high = i;
+    }
+  }
+  turns.push_back(direction > 0 ? high : low);
+  return turns;
+}
+
+struct LocalFit {
+  double value = 0.0;
+  double std = 0.0;
+  double sum_of_squares = 0.0;
+  double slope = 0.0;
+};
+
+/// Least squares on samples [first, last) in u = (i - centre)/width; `fill(u, row)` writes the columns, the first
+/// of which is 1.
+template <typename Fill>
+LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t last, double centre, double width,
+                   Eigen::Index columns, Fill fill) {
+  const auto n = static_cast<Eigen::Index>(last - first);
+  Eigen::MatrixXd design(n, columns);
+  Eigen::VectorXd values(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t sample = first + static_cast<std::size_t>(i);
+    fill((static_cast<double>(sample) - centre) / width, design.row(i));
+    values(i) = x[sample];
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design);
+  const Eigen::VectorXd solution = qr.solve(values);
+  LocalFit fit;
+  fit.value = solution(0);
+  fit.slope = solution(1);
+  fit.sum_of_squares = (values - design * solution).squaredNorm();
+  const Eigen::MatrixXd R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  // The first row of the inverse of R is the first coefficient's.
+  const Eigen::VectorXd row = R.transpose().triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(columns, 0));
+  const double variance = fit.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(n - columns - 1, 1));
+  fit.std = std::sqrt(variance) * row.norm();
+  return fit;
+}
+
+class DecayReader {
+ public:
+  explicit DecayReader(const History& history) : history_(history), x_(history.x) {}
+
+  DerivedDecay run() {
+    DerivedDecay result;
+    constexpr std::size_t fewest = 16;
+    if (x_.size() < fewest || !shape_fault(history_).empty()) return result;
+    const auto [low, high] = std::minmax_element(x_.begin(), x_.end());
+    constexpr double noises = 8.0;
+    constexpr double rounding = 1e-9;
+    band_ = std::max(noises * noise_level(x_, 2), rounding * (*high - *low));
+    const std::vector<std::size_t> turns = zigzag(x_, band_);
+    if (turns.size() < 3) return result;
+    // Of the swings between turning points, whose ends are known best, the median.
+    std::vector<double> swings;
+    for (std::size_t i = 2; i + 1 < turns.size(); ++i)
+      swings.push_back(static_cast<double>(turns[i] - turns[i - 1]));
+    const std::size_t begin = is_held(turns[0]) ? held_until() : turns[0];
+    if (swings.empty()) swings.push_back(static_cast<double>(turns[1]) - static_cast<double>(begin));
+    half_period_ = upper_median(std::move(swings));
+    width_ = half_period_ / 4.0;
+    constexpr double fewest_in_width = 8.0;
+    if (width_ < fewest_in_width) return result;
+
+    add_first(result, turns.front());
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i)
+      if (turns[i] > 0 && !is_held(turns[i])) add(result, turns[i]);
+    add_last(result, turns.back());
+    if (!decays(result.record.extremes)) return {};
+    return result;
+  }
+
+ private:
+  void put(DerivedDecay& result, double index, double value, double std) const {
+    result.record.times.push_back(history_.start + index / history_.sample_rate);
+    result.record.extremes.push_back(value);
+    result.standard_errors.push_back(std);
+  }
+
+  void put_mean(DerivedDecay& result, std::size_t first, std::size_t last, std::size_t index) const {
+    const auto n = static_cast<double>(last - first);
+    const double mean = std::reduce(x_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    x_.begin() + static_cast<std::ptrdiff_t>(last)) /
+                        n;
+    double square = 0.0;
+    for (std::size_t i = first; i < last; ++i) square += (x_[i] - mean) * (x_[i] - mean);
+    put(result, static_cast<double>(index), mean, std::sqrt(square / n / std::max(n - 1.0, 1.0)));
+  }
+
+  /// Samples at the beginning that stay where the first one is: the mass is held.
+  [[nodiscard]] std::size_t held_until() const {
+    std::size_t i = 0;
+    while (i < x_.size() && std::abs(x_[i] - x_[0]) < band_) ++i;
+    return i;
+  }
+
+  /// A turning point of the noise on the mass while it is held.
+  [[nodiscard]] bool is_held(std::size_t turn) const { return turn < held_until(); }
+
+  /// The position of release: that in which the mass is held, or the first sample where it starts from rest.
+  void add_first(DerivedDecay& result, std::size_t first_turn) const {
+    const std::size_t held = held_until();
+    if (static_cast<double>(held) > 2.0 * width_) {
+      put_mean(result, 0, held, held - 1);
+      return;
+    }
+    if (static_cast<double>(first_turn) < 2.0 * width_ && first_turn > held) return;  // a turning point of its own
+    const auto last = static_cast<std::size_t>(width_) + 1;
+    if (last < 2 * std::size_t{start_columns} || x_.size() < 2 * last) return;
+    const LocalFit fit = local_fit(x_, 0, last, 0.0, width_, start_columns, [](double u, auto row) {
+      for (Eigen::Index k = 0; k < row.size(); ++k) row(k) = std::pow(u, static_cast<double>(k));
+    });
+    // A slope of 1 % of the largest costs the amplitude 5e-5 of itself.
+    constexpr double least_slope = 0.01;
+    const double swing = std::abs(x_[static_cast<std::size_t>(half_period_)] - x_[0]);
+    if (std::abs(fit.slope) < least_slope * 0.5 * swing * std::numbers::pi / 4.0)
+      put(result, 0.0, fit.value, fit.std);
+  }
+
+  /// The fit's value where its slope is zero, with cubes and fourth powers of its own on each side.
+  void add(DerivedDecay& result, std::size_t turn) const {
+    const auto reach = static_cast<std::size_t>(width_);
+    const std::size_t first = turn > reach ? turn - reach : 0;
+    const std::size_t last = std::min(turn + reach + 1, x_.size());
+    if (last - first < 2 * std::size_t{turn_columns}) return;
+    const auto at = [&](double centre) {
+      return local_fit(x_, first, last, centre, width_, turn_columns, [](double u, auto row) {
+        const Eigen::Index side = u < 0.0 ? 0 : 1;
+        row.setZero();
+        row(0) = 1.0;
+        for (Eigen::Index k = 0; k < 3; ++k) row(1 + 2 * k + side) = std::pow(u, static_cast<double>(k + 2));
+      });
+    };
+    const auto middle = static_cast<double>(turn);
+    constexpr int bits = 26;
+    const double centre = boost::math::tools::brent_find_minima([&](double c) { return at(c).sum_of_squares; },
+                                                                middle - 0.3 * width_, middle + 0.3 * width_, bits)
+                              .first;
+    const LocalFit fit = at(centre);
+    put(result, centre, fit.value, fit.std);
+  }
+
+  /// Where the mass stays to the end of the record.
+  void add_last(DerivedDecay& result, std::size_t turn) const {
+    std::size_t first = x_.size();
+    while (first > 0 && std::abs(x_[first - 1] - x_.back()) < band_) --first;
+    const bool rests = static_cast<double>(x_.size() - first) > half_period_;
+    if (rests && first > 0 && turn + 1 >= first) put_mean(result, first, x_.size(), first);
+  }
+
+  /// Extremes of a free decay alternate, and their swings shrink.
+  static bool decays(const std::vector<double>& extremes) {
+    if (extremes.size() < 3) return false;
+    double last = std::abs(extremes[1] - extremes[0]);
+    for (std::size_t i = 2; i < extremes.size(); ++i) {
+      const double swing = std::abs(extremes[i] - extremes[i - 1]);
+      if (swing >= last) return false;
+      last = swing;
+    }
+    return true;
+  }
+
+  static constexpr Eigen::Index start_columns = 5;
+  static constexpr Eigen::Index turn_columns = 7;
+
+  const History& history_;
+  std::span<const double> x_;
+  double band_ = 0.0;         ///< differences below it are noise [m]
+  double half_period_ = 0.0;  ///< samples
+  double width_ = 0.0;        ///< half of the samples of a local fit
+};
+
+}  // namespace
+
+DerivedDecay decay_of(const History& history) { return DecayReader(history).run(); }
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/records/derived_records.hpp"
+#include "identify/records/sine_fit.hpp"
+#include "identify/validate.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr int most_harmonics = 9;
+constexpr int most_blocks = 24;
+/// Residuals above this share of the signal: it is no steady state at this frequency.
+constexpr double most_residual = 0.2;
+/// A harmonic of the base above this share of its fundamental is worth a word.
+constexpr double notable_distortion = 0.02;
+/// A drift of the amplitude over the periods used that is worth a word.
+constexpr double notable_drift = 0.005;
+/// Below this a settling amplitude makes no difference to any method.
+constexpr double settled = 1e-6;
+
+std::string percent_text(double share) { return core::format_number(100.0 * share, 2) + " %"; }
+
+/// Harmonics below half of the sample rate, with some room.
+int harmonics_within(double omega, double sample_rate, int most) {
+  constexpr double room = 0.9;
+  return std::clamp(static_cast<int>(room * std::numbers::pi * sample_rate / omega), 1, most);
+}
+
+std::string_view sweep_of(std::string_view label) {
+  const std::size_t cut = label.rfind('/');
+  return cut == std::string_view::npos ? std::string_view{} : label.substr(0, cut);
+}
+
+/// The steady part of a history: samples from `first` on, whole periods.
+struct SteadyPart {
+  std::size_t first = 0;
+  std::size_t size = 0;
+  double drift = 0.0;        ///< of the amplitude from the first to the last block, relative
+  double drift_error = 0.0;  ///< what noise makes of it
+};
+
+/// The fundamental of one piece as a complex number at the first sample of the record.
+struct Phasor {
+  double cos = 0.0;
+  double sin = 0.0;
+  double std = 0.0;
+
+  [[nodiscard]] double distance(const Phasor& other) const { return std::hypot(cos - other.cos, sin - other.sin); }
+  [[nodiscard]] double size() const { return std::hypot(cos, sin); }
+};
+
+/// How far noise alone puts a piece from the mean of the late ones, but for one history in 5000.
+///
+/// Such a distance is that of two components, each of variance s^2 (1 + 1/L) for L late pieces: its square over
+/// 2 s^2 (1 + 1/L) is F(2, n) distributed, n = 2 (L - 1), when s is the scatter of the late pieces, and exceeds
+/// (n/2)(p^(-2/n) - 1) with probability p. Few late pieces know their scatter badly. Where it is what the residuals
+/// of the fits make of white noise these know it better: n = infinity, -ln p. Slower noise has the scatter alone.
+double reach_of_noise(std::span<const Phasor> late, const Phasor& mean) {
+  constexpr double p = 1e-4;  // of each of the two ways
+  constexpr double alike = 4.0;
+  const auto count = static_cast<double>(late.size());
+  double scatter = 0.0;
+  double white = 0.0;
+  for (const Phasor& phasor : late) {
+    scatter += phasor.distance(mean) * phasor.distance(mean);
+    white += phasor.std * phasor.std / count;
+  }
+  double square = -std::log(p) * white;
+  if (late.size() > 1) {
+    const double freedom = 2.0 * (count - 1.0);
+    const double by_scatter = scatter / freedom * 0.5 * freedom * (std::pow(p, -2.0 / freedom) - 1.0);
+    square = scatter / freedom < alike * white ? std::min(square, by_scatter) : by_scatter;
+  }
+  return std::sqrt(2.0 * (1.0 + 1.0 / count) * square);
+}
+
+/// Pieces of whole periods; those at the beginning that are farther from the second half's mean than noise puts
+/// them are the transient.
+std::optional<SteadyPart> steady_part(const History& history, double omega) {
+  const std::span<const double> x = history.x;
+  const double period = two_pi / omega * history.sample_rate;
+  constexpr double rounding = 1e-9;
+  const auto periods = static_cast<int>(static_cast<double>(x.size()) / period * (1.0 + rounding));
+  if (periods < 1) return std::nullopt;
+  const int periods_a_block = (periods + most_blocks - 1) / most_blocks;
+  const int blocks = periods / periods_a_block;
+  const int harmonics = harmonics_within(omega, history.sample_rate, 3);
+  const auto samples_of = [&](int count) {
+    return std::min(static_cast<std::size_t>(std::ceil(count * periods_a_block * period * (1.0 - rounding))),
+                    x.size());
+  };
+  // No piece may be shorter than its periods: the last one begins a sample early rather.
+  const std::size_t size = samples_of(1);
+  const auto begin = [&](int block) {
+    return std::min(static_cast<std::size_t>(std::llround(block * periods_a_block * period)), x.size() - size);
+  };
+  std::vector<Phasor> phasors;
+  for (int block = 0; block < blocks; ++block) {
+    const std::size_t first = begin(block);
+    const SineFit fit = fit_sine(x.subspan(first, size), history.sample_rate, omega, {.harmonics = harmonics});
+    if (!fit.outcome.ok()) return std::nullopt;
+    const double phase = fit.harmonics[0].phase - omega * static_cast<double>(first) / history.sample_rate;
+    const double amplitude = fit.harmonics[0].amplitude;
+    phasors.push_back({amplitude * std::cos(phase), amplitude * std::sin(phase), fit.harmonics[0].amplitude_std});
+  }
+  const std::size_t half = phasors.size() / 2;
+  const std::span<const Phasor> late = std::span(phasors).subspan(half);
+  Phasor mean;
+  for (const Phasor& phasor : late) {
+    mean.cos += phasor.cos / static_cast<double>(late.size());
+    mean.sin += phasor.sin / static_cast<double>(late.size());
+  }
+  const double tolerance = std::max(reach_of_noise(late, mean), settled * mean.size());
+  std::size_t skipped = 0;
+  while (skipped < half && phasors[skipped].distance(mean) > tolerance) ++skipped;
+
+  SteadyPart part;
+  part.first = begin(static_cast<int>(skipped));
+  part.size = std::min(x.size() - part.first, samples_of(blocks - static_cast<int>(skipped)));
+  const Phasor& early = phasors[skipped];
+  part.drift = (phasors.back().size() - early.size()) / mean.size();
+  part.drift_error = std::hypot(phasors.back().std, early.std) / mean.size();
+  return part;
+}
+
+class PairReader {
+ public:
+  PairReader(const History& history, std::size_t index, std::vector<std::string>& warnings)
+      : history_(history),
+        name_(history.sweep.empty() ? "history " + std::to_string(index + 1) : "history '" + history.sweep + "'"),
+        warnings_(warnings) {}
+
+  std::optional<Pair> read(double frequency) {
+    if (history_.x.empty() || history_.y.empty()) return std::nullopt;
+    if (const std::string fault = shape_fault(history_); !fault.empty()) return nothing(fault);
+    const SineFit drive = drive_fit(frequency);
+    if (!drive.outcome.ok()) return nothing(drive.outcome.reason);
+    const auto steady = steady_part(history_, drive.omega);
+    if (!steady) return nothing("it holds no whole period");
+
+    const auto cut = [&steady](const std::vector<double>& signal) {
+      return std::span<const double>(signal).subspan(steady->first, steady->size);
+    };
+    const SineFit y = fit(cut(history_.y), drive.omega, 3);
+    const SineFit x = fit(cut(history_.x), drive.omega, most_harmonics);
+    if (!x.outcome.ok() || !y.outcome.ok()) return nothing("its periods are too short to fit");
+    if (is_other(y) || is_other(x)) return nothing("it is no steady state at the frequency of the drive");
+    Pair pair;
+    pair.Y = y.harmonics[0].amplitude;
+    pair.x = half_peak_to_peak(x);
+    pair.omega = drive.omega;
+    pair.fundamental = x.harmonics[0].amplitude;
+    pair.phase = std::remainder(y.harmonics[0].phase - x.harmonics[0].phase, two_pi);
+    pair.mean_square_speed = mean_square_speed(x, cut);
+    pair.sweep = sweep_of(history_.sweep);
+    diagnose(y, *steady, drive.omega);
+    return pair;
+  }
+
+ private:
+  std::optional<Pair> nothing(const std::string& reason) {
+    warnings_.push_back(name_ + " gives no x-Y pair: " + reason);
+    return std::nullopt;
+  }
+
+  [[nodiscard]] SineFit fit(std::span<const double> signal, double omega, int most, bool refine = false) const {
+    // A single period may have as many samples as its harmonics have unknowns.
+    const auto enough = static_cast<int>(std::max<std::size_t>(signal.size(), 5) - 3) / 2;
+    const int harmonics = std::min(harmonics_within(omega, history_.sample_rate, most), enough);
+    return fit_sine(signal, history_.sample_rate, omega, {.harmonics = harmonics, .refine = refine});
+  }
+
+  [[nodiscard]] SineFit drive_fit(double frequency) const {
+    if (!std::isnan(frequency)) return fit(history_.y, frequency, 3);
+    const double guess = guess_frequency(history_.y, history_.sample_rate);
+    if (std::isnan(guess)) return fit_sine({}, history_.sample_rate, 1.0);
+    return fit(history_.y, guess, 3, true);
+  }
+
+  static bool is_other(const SineFit& fit) { return !(fit.noise < most_residual * fit.harmonics[0].amplitude); }
+
+  template <typename Cut>
+  [[nodiscard]] double mean_square_speed(const SineFit& x, Cut cut) const {
+    if (history_.v.empty()) return mean_square_derivative(x);
+    const SineFit v = fit(cut(history_.v), x.omega, most_harmonics);
+    double sum = 0.0;
+    for (const Harmonic& harmonic : v.harmonics) sum += 0.5 * harmonic.amplitude * harmonic.amplitude;
+    return sum;
+  }
+
+  void diagnose(const SineFit& y, const SteadyPart& steady, double omega) {
+    for (std::size_t k = 1; k < y.harmonics.size(); ++k) {
+      const double share = y.harmonics[k].amplitude / y.harmonics[0].amplitude;
+      if (share > notable_distortion && y.harmonics[k].amplitude > 4.0 * y.harmonics[k].amplitude_std)
+        warnings_.push_back(name_ + ": the base is no pure sine, its harmonic " + std::to_string(k + 1) + " has " +
+                            percent_text(share) + " of the fundamental");
+    }
+    if (steady.first > 0)
+      warnings_.push_back(
+          name_ + ": the first " +
+          core::format_number(static_cast<double>(steady.first) / history_.sample_rate * omega / two_pi, 3) +
+          " periods are left out: the motion was not yet steady");
+    if (std::abs(steady.drift) > std::max(notable_drift, 4.0 * steady.drift_error))
+      warnings_.push_back(name_ + ": the amplitude of x still changes by " + percent_text(steady.drift) +
+                          " over the periods used");
+  }
+
+  const History& history_;
+  std::string name_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace
+
+DerivedPairs pairs_of(const std::vector<History>& histories, double frequency) {
+  DerivedPairs result;
+  for (std::size_t i = 0; i < histories.size(); ++i) {
+    auto pair = PairReader(histories[i], i, result.warnings).read(frequency);
+    if (!pair) continue;
+    pair->number = static_cast<int>(result.record.pairs.size()) + 1;
+    result.record.pairs.push_back(std::move(*pair));
+  }
+  return result;
+}
+
+}  // namespace dualdamp::identify

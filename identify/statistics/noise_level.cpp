@@ -1,0 +1,56 @@
+#include "identify/statistics/noise_level.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include "identify/statistics/median.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+double second_difference(std::span<const double> x, std::size_t i) { return x[i] - 2.0 * x[i + 1] + x[i + 2]; }
+
+double fourth_difference(std::span<const double> x, std::size_t i) {
+  return x[i] - 4.0 * x[i + 1] + 6.0 * x[i + 2] - 4.0 * x[i + 3] + x[i + 4];
+}
+
+// Sums of the squared coefficients: what a difference makes of the variance.
+constexpr double second_gain = 6.0;
+constexpr double fourth_gain = 70.0;
+
+}  // namespace
+
+double noise_level(std::span<const double> signal, int order) {
+  const auto reach = static_cast<std::size_t>(order);
+  if (signal.size() <= reach) return 0.0;
+  const std::size_t count = signal.size() - reach;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double difference = order == 2 ? second_difference(signal, i) : fourth_difference(signal, i);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum / ((order == 2 ? second_gain : fourth_gain) * static_cast<double>(count)));
+}
+
+void RobustNoiseLevel::add(const std::vector<double>& signal) {
+  for (std::size_t i = 0; i + 4 < signal.size(); ++i)
+    differences_.push_back(std::abs(fourth_difference(signal, i)) / std::sqrt(fourth_gain));
+}
+
+double RobustNoiseLevel::deviation() const {
+  if (differences_.empty()) return 0.0;
+  constexpr double to_deviation = 1.4826;  // of a normal variable's median magnitude
+  constexpr double rare = 4.0;             // deviations: one normal variable in 16,000
+  const double largest = rare * to_deviation * upper_median(differences_);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double difference : differences_) {
+    if (difference > largest) continue;
+    sum += difference * difference;
+    count += 1.0;
+  }
+  return std::sqrt(sum / count);
+}
+
+}  // namespace dualdamp::identify

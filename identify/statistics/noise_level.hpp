@@ -1,0 +1,28 @@
+#pragma once
+/// Noise level of sampled signals: standard deviation of white noise on a smooth motion, from differences of second
+/// or fourth order, which a smooth motion hardly has.
+///
+///   s^2 = mean(d_i^2)/g,   d = (1, -2, 1), g = 6   or   d = (1, -4, 6, -4, 1), g = 70
+
+#include <span>
+#include <vector>
+
+namespace dualdamp::identify {
+
+/// `order` is 2 or 4. 0 where there are not more than `order` samples. Cost: linear.
+[[nodiscard]] double noise_level(std::span<const double> signal, int order = 4);
+
+/// The same over several signals of one sensor that are smooth but for a few jumps: differences of fourth order,
+/// those that noise does not make left out.
+class RobustNoiseLevel {
+ public:
+  void add(const std::vector<double>& signal);
+
+  /// 0 where nothing was added.
+  [[nodiscard]] double deviation() const;
+
+ private:
+  std::vector<double> differences_;  ///< magnitudes, each in units of the noise
+};
+
+}  // namespace dualdamp::identify
