@@ -92,6 +92,19 @@ std::string needs_of(const scenarios::Analysis& analysis) {
   return text;
 }
 
+/// The table of a method's options.
+std::string options_of(const identify::MethodEntry& method) {
+  if (method.options().empty()) return "  options: none\n";
+  Rows rows = {{"option", "unit", "default", "values", "meaning"}};
+  for (const identify::Option* option : method.options()) {
+    const bool is_flag = option->kind == identify::OptionKind::flag;
+    rows.push_back({std::string(option->name), std::string(option->unit),
+                    is_flag ? "false" : std::string(option->otherwise), option->describe(),
+                    std::string(option->meaning)});
+  }
+  return "\n" + columns(rows);
+}
+
 std::string needs_of(const identify::MethodEntry& method) { return std::string(identify::describe(method.needs)); }
 
 }  // namespace
@@ -123,7 +136,7 @@ Listing list_methods(const std::string& name) {
   return {std::string(method->name) + ": " + std::string(method->summary) + "\n\n  " +
           std::string(method->equation) + "\n\n  needs: " + needs_of(*method) +
           "\n  assumes: " + std::string(method->assumes) + "\n  sources: " + std::string(method->sources) +
-          " in docs/refs.bib\n  page: docs/methods/" + std::string(method->name) + ".md\n"};
+          " in docs/refs.bib\n  page: docs/methods/" + std::string(method->name) + ".md\n" + options_of(*method)};
 }
 
 Listing list_analyses(const std::string& name) {

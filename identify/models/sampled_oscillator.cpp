@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cancellation.hpp"
 #include "sim/engine/sticking_gate.hpp"
 
 namespace dualdamp::identify {
@@ -126,6 +127,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
       (*derivatives)(row, static_cast<Eigen::Index>(j)) = tangents_[j].x;
   };
   for (std::size_t i = 0; i + 1 < count_; ++i) {
+    core::stop_if_cancelled();
     store(i);
     if (!walk_interval(i)) return false;
   }

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "identify/readers/text.hpp"
+#include "identify/readers/data_table.hpp"
 
 namespace dualdamp::identify {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/diagnostics.hpp"
 #include "core/random.hpp"
 
 namespace dualdamp::identify {
@@ -65,6 +66,18 @@ struct Readers {
   Reader y, x, v, a, force;
 };
 
+void require_sound(const Sensors& sensors) {
+  const auto refuse = [](const std::string& message, const std::string& allowed) {
+    throw core::InputError(core::Diagnostic{{}, message, allowed, {}, {}});
+  };
+  if (sensors.average_cycles < 1) refuse("an amplitude is averaged over one period at least", ">= 1");
+  for (const Sensor* sensor : {&sensors.y, &sensors.x, &sensors.v, &sensors.a, &sensors.force}) {
+    if (!(sensor->noise >= 0.0)) refuse("the noise of a sensor must not be negative", ">= 0");
+    if (!(sensor->resolution >= 0.0)) refuse("the resolution of a sensor must not be negative", ">= 0");
+    if (!(sensor->clipping >= 0.0)) refuse("the clipping of a sensor must not be negative", ">= 0");
+  }
+}
+
 /// In [0, 2 pi).
 double wrapped(double phase) {
   constexpr double turn = 2.0 * std::numbers::pi;
@@ -91,6 +104,7 @@ Pair read_pair(const Pair& exact, Readers& readers, int periods) {
 }  // namespace
 
 Record read(const Record& exact, const Sensors& sensors, std::uint64_t seed) {
+  require_sound(sensors);
   Record record = exact;
   Readers readers(sensors, seed);
   if (record.pairs)

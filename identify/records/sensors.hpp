@@ -14,7 +14,8 @@
 /// exactly.
 ///
 /// The draws of each signal are a stream of their own (core/random.hpp): a reading depends on the seed, the signal
-/// and its number in the record. Cost: about 40 ns a noisy reading. Errors: none.
+/// and its number in the record. Cost: about 40 ns a noisy reading. Errors: a
+/// `core::InputError` for a negative or unknown noise, resolution or clipping, or an average over no period.
 
 #include <cstdint>
 #include <limits>

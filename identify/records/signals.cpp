@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/statistics.hpp"
+#include "identify/validate.hpp"
 
 namespace dualdamp::identify {
 
@@ -38,6 +40,7 @@ double mean_frequency(const History& history) {
 std::vector<double> central_difference(std::span<const double> x, double sample_rate) {
   const std::size_t n = x.size();
   std::vector<double> v(n);
+  if (n < 3) return v;
   for (std::size_t i = 1; i + 1 < n; ++i) v[i] = 0.5 * sample_rate * (x[i + 1] - x[i - 1]);
   v[0] = 0.5 * sample_rate * (-3.0 * x[0] + 4.0 * x[1] - x[2]);
   v[n - 1] = 0.5 * sample_rate * (3.0 * x[n - 1] - 4.0 * x[n - 2] + x[n - 3]);
@@ -47,6 +50,7 @@ std::vector<double> central_difference(std::span<const double> x, double sample_
 std::vector<double> second_difference(std::span<const double> x, double sample_rate) {
   const std::size_t n = x.size();
   std::vector<double> a(n);
+  if (n < 3) return a;
   for (std::size_t i = 1; i + 1 < n; ++i) a[i] = sample_rate * sample_rate * (x[i + 1] - 2.0 * x[i] + x[i - 1]);
   a[0] = a[1];
   a[n - 1] = a[n - 2];
@@ -71,6 +75,13 @@ double five_point_gain(double omega, double sample_rate) {
 }
 
 ZeroPhaseFilter::ZeroPhaseFilter(double cutoff, double sample_rate) {
+  if (!(sample_rate > 0.0) || !std::isfinite(sample_rate) || !(cutoff > 0.0 && cutoff < 0.5 * sample_rate))
+    throw core::InputError(
+        core::Diagnostic{{},
+                         "a filter's cut-off frequency must lie between zero and half of the sample rate",
+                         "> 0 and < " + core::format_number(0.5 * sample_rate, 6) + " Hz",
+                         core::format_number(cutoff, 6) + " Hz",
+                         {}});
   const double warped = std::tan(pi * cutoff / sample_rate);
   const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * warped + warped * warped);
   b_ = warped * warped * norm;
@@ -96,6 +107,7 @@ void ZeroPhaseFilter::run(std::vector<double>& signal) const {
 
 std::vector<double> ZeroPhaseFilter::operator()(std::span<const double> signal) const {
   const std::size_t n = signal.size();
+  if (n == 0) return {};
   const std::size_t pad = std::min(edge_, n - 1);
   std::vector<double> all(n + 2 * pad);
   for (std::size_t i = 0; i < pad; ++i) {
@@ -112,6 +124,9 @@ std::vector<double> ZeroPhaseFilter::operator()(std::span<const double> signal) 
 }
 
 Motion motion_of(const History& history, double cutoff) {
+  if (std::string fault = history.x.empty() ? "the displacement x was not recorded" : shape_fault(history);
+      !fault.empty())
+    throw core::InputError(core::Diagnostic{{}, std::move(fault), {}, {}, {}});
   const std::size_t n = history.x.size();
   const double rate = history.sample_rate;
   std::optional<ZeroPhaseFilter> filter;

@@ -16,11 +16,11 @@
 
 namespace dualdamp::identify {
 
-/// (x[i+1] - x[i-1])/2 times the rate [Hz]; at the ends the same second order one-sided. At least three samples.
+/// (x[i+1] - x[i-1])/2 times the rate [Hz]; at the ends the same second order one-sided. Zeros from fewer than three samples.
 /// Gain on i w: sin(wT)/(wT).
 [[nodiscard]] std::vector<double> central_difference(std::span<const double> x, double sample_rate);
 
-/// (x[i+1] - 2 x[i] + x[i-1]) times the rate squared; the ends repeat their neighbours. At least three samples.
+/// (x[i+1] - 2 x[i] + x[i-1]) times the rate squared; the ends repeat their neighbours. Zeros from fewer than three samples.
 [[nodiscard]] std::vector<double> second_difference(std::span<const double> x, double sample_rate);
 
 /// Mean of x[i-2] ... x[i+2]; towards the ends of fewer samples, still centred. No lag.
@@ -33,7 +33,7 @@ namespace dualdamp::identify {
 /// 1/(1 + (tan(w T/2)/tan(wc T/2))^4), one half at the cut-off. The ends are continued by point reflection.
 class ZeroPhaseFilter {
  public:
-  /// Cut-off and rate in Hz, 0 < cutoff < sample_rate/2.
+  /// Cut-off and rate in Hz, 0 < cutoff < sample_rate/2; throws a `core::InputError` for others.
   ZeroPhaseFilter(double cutoff, double sample_rate);
 
   [[nodiscard]] std::vector<double> operator()(std::span<const double> signal) const;
@@ -61,7 +61,7 @@ struct Motion {
 
 /// Velocity and acceleration are taken from the history or, where they were not measured, differentiated from x.
 /// `cutoff` [Hz] 0: no filter, nothing trimmed or thinned. y and force that were not measured are zero. The
-/// history must be sound (`fault_of`), with x, and longer than the filter's edges.
+/// history must be sound (`fault_of`), and longer than the filter's edges.
 [[nodiscard]] Motion motion_of(const History& history, double cutoff);
 
 /// Cut-offs to use [Hz]: those of the options, or else the method's own choice: a twentieth of the rate, or eight

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/cancellation.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -39,6 +41,14 @@ class Cost final : public ceres::CostFunction {
   mutable Eigen::MatrixXd jacobian_;
 };
 
+/// Ends the solver early; exceptions do not go through it.
+class StopIfCancelled final : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return core::cancellation_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+};
+
 /// One run of the solver from `parameters` to where it ends, with the parameters numbered in `held` as they are.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, const std::vector<int>& held, int most_iterations,
                              Eigen::VectorXd& parameters) {
@@ -59,8 +69,11 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, const std::vect
   options.function_tolerance = problem.tolerance;
   options.gradient_tolerance = 0.0;
   options.parameter_tolerance = 1e-15;
+  StopIfCancelled stop;
+  options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
+  core::stop_if_cancelled();
   return summary;
 }
 

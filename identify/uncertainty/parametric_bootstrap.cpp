@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/cancellation.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/synthetic_record.hpp"
 
@@ -45,6 +46,7 @@ std::optional<BootstrapSpread> bootstrap_spread(const Reading& own, const Eigen:
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size);
   int count = 0;
   for (int b = 0; b < records; ++b) {
+    core::stop_if_cancelled();
     const std::optional<Reading> reading = read(draw(b));
     if (!reading) continue;
     ++count;

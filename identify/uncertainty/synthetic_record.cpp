@@ -81,7 +81,7 @@ std::vector<double> pull_of(const History& history, const ForceParameters& law, 
   return pull;
 }
 
-/// One history in the synthetic record.
+/// One history of the synthetic records, free of noise.
 class SyntheticHistory {
  public:
   SyntheticHistory(const History& measured, const ForceParameters& law, double offset, bool steered)
@@ -178,7 +178,7 @@ struct MotionNoise {
   [[nodiscard]] double deviation() const { return std::min(beside.deviation(), own.deviation()); }
 };
 
-/// NoiseLevels of all histories: a sensor is the same in each.
+/// Of all histories together: a sensor is the same in each.
 struct NoiseLevels {
   RobustNoiseLevel y, force, balance;
   MotionNoise x, v, a;

@@ -102,9 +102,10 @@ identify::Record IdentifyQuestion::record(const RunContext& context, std::vector
 Answer IdentifyQuestion::run(const RunContext& context) const {
   std::vector<std::string> warnings;
   const identify::Record data = record(context, warnings);
+  std::ranges::move(unused_options(methods_.options, methods_.list), std::back_inserter(warnings));
   std::vector<identify::Estimate> estimates;
   for (const identify::MethodEntry* method : methods_.list)
-    estimates.push_back(method->run(data, methods_.constants, methods_.options));
+    estimates.push_back(method->run(data, methods_.constants, method->own(methods_.options)));
   Answer answer = answer_of(estimates, data);
   answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
   return answer;

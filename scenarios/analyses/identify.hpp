@@ -24,7 +24,7 @@ class IdentifyQuestion final : public Question {
   struct Methods {
     std::vector<const identify::MethodEntry*> list;
     identify::KnownConstants constants;
-    identify::MethodOptions options;
+    identify::OptionValues options;
   };
 
   IdentifyQuestion(identify::MeasuredRecord data, Methods methods)

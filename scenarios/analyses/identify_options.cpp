@@ -1,66 +1,114 @@
 #include "scenarios/analyses/identify_options.hpp"
 
-#include <numbers>
-
-#include "scenarios/format/values.hpp"
+#include <algorithm>
 
 namespace dualdamp::scenarios {
 
-std::vector<Field> method_option_fields() {
-  return {
-      boolean("approximate_G", "G from the approximation Eq (15) instead of Eq (4)").with_fallback(false),
-      integers("pairs", "numbers of the two pairs that resonance_two_point uses; default: the outermost")
-          .at_least(1)
-          .items(2, 2),
-      quantity("sigma_x", {"m"}, "known standard deviation of a measured output amplitude or extreme").at_least(0),
-      quantity("sigma_Y", {"m"}, "known standard deviation of a measured input amplitude").at_least(0),
-      boolean("zero_offset", "the extremes of a free vibration are known to be about zero").with_fallback(false),
-      boolean("free_natural_frequency", "den_hartog_fit fits the natural frequency too").with_fallback(false),
-      quantities("cutoffs", {"rad/s"},
-                 "cut-off frequencies of the filter that histories are differentiated with; the first one counts, "
-                 "the others show what the choice matters")
-          .above(0)
-          .items(1, 16),
-      quantity("least_speed", {"m/s"}, "slower samples are left out where friction is regressed on speed")
-          .at_least(0),
-      integer("bootstrap", "replicates of a bootstrap by sweeps").at_least(0).at_most(1'000'000),
-      boolean("profile", "profiles of the likelihood of zeta and F0").with_fallback(false),
-      quantity("forgetting", {"1"}, "forgetting factor of recursive_least_squares; 1 forgets nothing")
-          .above(0)
-          .at_most(1),
-      quantity("sign_width", {"m/s"}, "width of the smoothed sign of the velocity in extended_kalman").above(0)};
+namespace {
+
+using identify::OptionKind;
+
+Field field_of(const identify::Option& option) {
+  const std::string name(option.name);
+  const std::string meaning(option.meaning);
+  const std::vector<std::string> units = {std::string(option.unit)};
+  Field field = option.kind == OptionKind::flag      ? boolean(name, meaning).with_fallback(false)
+                : option.kind == OptionKind::count   ? integer(name, meaning)
+                : option.kind == OptionKind::number  ? quantity(name, units, meaning)
+                : option.kind == OptionKind::numbers ? quantities(name, units, meaning)
+                                                     : integers(name, meaning);
+  field.range = option.range;
+  field.min_items = option.least_items;
+  field.max_items = option.most_items;
+  return field;
 }
 
-void check_method_options(CheckedFile& file, std::size_t pairs) {
+identify::OptionValue value_of(OptionKind kind, const Json& value) {
+  switch (kind) {
+    case OptionKind::flag:
+      return value.get<bool>();
+    case OptionKind::count:
+      return value.get<int>();
+    case OptionKind::number:
+      return value.get<double>();
+    case OptionKind::numbers:
+      return value.get<std::vector<double>>();
+    case OptionKind::counts:
+      return value.get<std::vector<int>>();
+  }
+  return false;
+}
+
+/// A flag that is false asks for nothing.
+bool asks_for_something(const identify::OptionValue& value) {
+  const bool* flag = std::get_if<bool>(&value);
+  return flag == nullptr || *flag;
+}
+
+/// Names of the methods that use an option, or of those that do not.
+template <typename Methods>
+std::vector<std::string> names_of(const Methods& methods, const identify::Option& option, bool users) {
+  std::vector<std::string> names;
+  for (const identify::MethodEntry* method : methods)
+    if (method->has(option) == users) names.emplace_back(method->name);
+  return names;
+}
+
+void check_pairs(CheckedFile& file, std::size_t count) {
   if (!file.has("analysis", "pairs")) return;
   const Json& chosen = file.values().at("analysis").at("pairs");
   if (chosen[0] == chosen[1]) file.complain("analysis.pairs", "'analysis.pairs' names one pair twice", "two pairs");
-  for (std::size_t i = 0; i < 2 && pairs > 0; ++i)
-    if (chosen[i].get<std::size_t>() > pairs)
+  for (std::size_t i = 0; i < 2 && count > 0; ++i)
+    if (chosen[i].get<std::size_t>() > count)
       file.complain("analysis.pairs[" + std::to_string(i) + "]", "there is no such pair",
-                    "1 to " + std::to_string(pairs), chosen[i].dump());
+                    "1 to " + std::to_string(count), chosen[i].dump());
 }
 
-identify::MethodOptions method_options(const Json& section) {
-  identify::MethodOptions options;
-  options.approximate_G = section.at("approximate_G").get<bool>();
-  options.zero_offset = section.at("zero_offset").get<bool>();
-  options.sigma_x = number_or(section, "sigma_x", 0.0);
-  options.sigma_Y = number_or(section, "sigma_Y", 0.0);
-  options.profile = section.at("profile").get<bool>();
-  options.free_natural_frequency = section.at("free_natural_frequency").get<bool>();
-  options.least_speed = number_or(section, "least_speed", options.least_speed);
-  options.forgetting = number_or(section, "forgetting", options.forgetting);
-  options.sign_width = number_or(section, "sign_width", options.sign_width);
-  if (section.contains("bootstrap")) options.bootstrap = section.at("bootstrap").get<int>();
-  if (section.contains("cutoffs"))
-    for (const Json& cutoff : section.at("cutoffs"))
-      options.cutoffs.push_back(number(cutoff) / (2.0 * std::numbers::pi));
-  if (section.contains("pairs")) {
-    options.first_pair = section.at("pairs")[0].get<int>();
-    options.second_pair = section.at("pairs")[1].get<int>();
+}  // namespace
+
+std::vector<Field> method_option_fields() {
+  std::vector<Field> fields;
+  for (const identify::Option* option : identify::options()) fields.push_back(field_of(*option));
+  return fields;
+}
+
+void check_method_options(CheckedFile& file, std::size_t pairs) {
+  check_pairs(file, pairs);
+  if (!file.has("analysis", "methods")) return;
+  const Json& analysis = file.values().at("analysis");
+  std::vector<const identify::MethodEntry*> all;
+  for (const identify::MethodEntry& method : identify::methods()) all.push_back(&method);
+  std::vector<const identify::MethodEntry*> chosen;
+  for (const Json& name : analysis.at("methods")) chosen.push_back(identify::find_method(name.get<std::string>()));
+  for (const identify::Option* option : identify::options()) {
+    const std::string path = "analysis." + std::string(option->name);
+    if (!file.is_given(path) || !asks_for_something(value_of(option->kind, analysis.at(option->name)))) continue;
+    if (names_of(chosen, *option, true).empty())
+      file.complain(path, "none of the chosen methods uses '" + path + "'",
+                    "with one of the methods " + joined(names_of(all, *option, true)),
+                    "methods: " + joined(names_of(chosen, *option, false)));
   }
-  return options;
+}
+
+identify::OptionValues method_options(const Json& section) {
+  identify::OptionValues values;
+  for (const identify::Option* option : identify::options())
+    if (section.contains(option->name))
+      values.emplace(option->name, value_of(option->kind, section.at(option->name)));
+  return values;
+}
+
+std::vector<std::string> unused_options(const identify::OptionValues& values,
+                                        const std::vector<const identify::MethodEntry*>& methods) {
+  std::vector<std::string> warnings;
+  for (const identify::Option* option : identify::options()) {
+    const auto value = values.find(option->name);
+    if (value == values.end() || !asks_for_something(value->second)) continue;
+    const std::vector<std::string> names = names_of(methods, *option, false);
+    if (!names.empty() && names.size() < methods.size())
+      warnings.push_back("the option '" + std::string(option->name) + "' is not used by " + joined(names));
+  }
+  return warnings;
 }
 
 }  // namespace dualdamp::scenarios

@@ -1,7 +1,10 @@
 #include "identify/methods/amplitudes/bootstrap.hpp"
 
 #include <algorithm>
+#include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
+
+#include "core/cancellation.hpp"
 
 namespace dualdamp::identify {
 
@@ -29,13 +32,10 @@ double quantile(const std::vector<double>& sorted, double p) {
 }
 
 FurtherParameter summary(std::string name, std::string unit, std::vector<double> values) {
-  double mean = 0.0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  double square = 0.0;
-  for (const double value : values) square += (value - mean) * (value - mean);
+  FurtherParameter parameter{std::move(name), std::move(unit), boost::math::statistics::mean(values), std::nullopt,
+                             std::nullopt};
+  parameter.std = std::sqrt(boost::math::statistics::sample_variance(values));
   std::ranges::sort(values);
-  FurtherParameter parameter{std::move(name), std::move(unit), mean, std::nullopt, std::nullopt};
-  parameter.std = std::sqrt(square / static_cast<double>(values.size() - 1));
   parameter.interval95 = {quantile(values, 0.025), quantile(values, 0.975)};
   return parameter;
 }
@@ -49,6 +49,7 @@ void add_bootstrap(Estimate& estimate, int replicates, std::size_t sweeps, const
   zeta.reserve(static_cast<std::size_t>(replicates));
   F0.reserve(static_cast<std::size_t>(replicates));
   for (int i = 0; i < replicates; ++i) {
+    core::stop_if_cancelled();
     Draws draws(static_cast<std::uint32_t>(i));
     const std::optional<Eigen::Vector2d> value = replicate(draws);
     if (!value) continue;

@@ -43,7 +43,7 @@ class AmplitudeLaw {
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(pairs_.size()); }
   [[nodiscard]] Eigen::Index size() const { return size_; }
 
-  /// AmplitudeLaw less measurement; derivatives in all three directions whether fitted or not. False outside of the
+  /// Law less measurement; derivatives in all three directions whether fitted or not. False outside of the
   /// law's range.
   bool evaluate(const Eigen::Vector3d& p, Eigen::VectorXd& residual, Eigen::MatrixX3d* jacobian) const {
     if (!(p[0] > 0.0 && p[0] < greatest_zeta)) return false;

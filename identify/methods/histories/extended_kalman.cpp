@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/cancellation.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -98,6 +99,7 @@ FilterRun run_filter(const History& history, const Belief& start, const Setting&
   Belief belief = start;
   double count = 0.0;
   for (std::size_t i = 1; i < n && run.finite; ++i) {
+    core::stop_if_cancelled();
     belief = predict(belief, drive(i - 1), drive(i), 1.0 / history.sample_rate, setting);
     const double variance = belief.P(0, 0) + setting.noise * setting.noise;
     const double innovation = history.x[i] - belief.state[0];

@@ -66,12 +66,12 @@ void add_curves(const std::vector<FrictionSamples>& histories, double c, Estimat
 /// Sums over the swings of the motion.
 struct Swings {
   double S_xx = 0.0, S_xF = 0.0, S_FF = 0.0;  ///< of force over displacement after a reversal
-  double samples = 0.0;                       ///< that went into them, beyond two unknowns a turn
+  double samples = 0.0;                       ///< that went into them, beyond two unknowns for each
   double resolved = 0.0;                      ///< swings with three samples or more
   double speed = 0.0;                         ///< sum of transition speeds
   double transitions = 0.0;
-  double swing = 0.0;  ///< sum of |x| from turn to turn
-  double time = 0.0;   ///< from turn to turn
+  double swing = 0.0;  ///< sum of |x| from reversal to reversal
+  double time = 0.0;   ///< from reversal to reversal
   double work = 0.0;   ///< of the friction force
   double count = 0.0;
 
@@ -84,10 +84,10 @@ struct Swings {
   }
 };
 
-/// The dry part has turned by 2 F0: what a contact of stiffness K does on 2 F0/K of displacement.
+/// After a reversal the dry part changes by 2 F0: what a contact of stiffness K does on 2 F0/K of displacement.
 void add_reversal(const FrictionSamples& samples, const std::vector<double>& dry, std::size_t reversal,
                   std::size_t next, double F0, Swings& swings) {
-  constexpr double straight = 0.8;   // of the turn, beyond which the contact begins to slip
+  constexpr double straight = 0.8;   // of that change, beyond which the contact begins to slip
   constexpr double complete = 0.98;  // the level of sliding is known no better
   const std::vector<double>& x = samples.motion.x;
   double n = 0.0, mean_x = 0.0, mean_F = 0.0, S_xx = 0.0, S_xF = 0.0, S_FF = 0.0;
@@ -115,7 +115,7 @@ void add_reversal(const FrictionSamples& samples, const std::vector<double>& dry
   const double after = std::abs(dry[i] - dry[reversal]) / (2.0 * F0);
   const double share = std::clamp((complete - before) / (after - before), 0.0, 1.0);
   const std::vector<double>& v = samples.motion.v;
-  // v^2 grows in proportion to the displacement from the turn.
+  // v^2 grows in proportion to the displacement from the reversal.
   swings.speed += std::abs(v[i - 1] + share * (v[i] - v[i - 1])) / std::sqrt(complete);
   swings.transitions += 1.0;
 }

@@ -29,7 +29,7 @@ TEST_CASE("Synthetic records under white acceleration lose m D/2 to friction and
   CHECK(response.share() == Approx(324.0 / 400.0).epsilon(0.01));
   double power = 0.0;
   constexpr int records = 4;
-  for (int b = 0; b < count; ++b) {
+  for (int b = 0; b < records; ++b) {
     const Record record = response.record(b);
     REQUIRE(record.histories.size() == 1);
     const History& history = record.histories.front();
