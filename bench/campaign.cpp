@@ -30,8 +30,8 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// The scenario's system with its Coulomb friction taken out.
-sim::Truth truth_of(const StressTest& question, const RunContext& context) {
-  sim::Truth truth{.model = context.model, .F0 = question.F0};
+Truth truth_of(const StressTest& question, const RunContext& context) {
+  Truth truth{.model = context.model, .F0 = question.F0};
   truth.model.friction.clear();
   return truth;
 }
@@ -71,7 +71,7 @@ class Meter {
 /// All motions that are left, on all threads of all processes.
 void run_cases(const StressTest& question, const Grid& grid, const RunContext& context, CaseFile& file) {
   const RunOptions& options = context.options;
-  const sim::Truth truth = truth_of(question, context);
+  const Truth truth = truth_of(question, context);
   const sim::SteadyStateOptions steady = context.steady_states();
   Meter meter(file.finished(), grid.cases(), options);
   const auto wanted = [&](std::size_t number) { return !file.is_finished(number); };
@@ -160,7 +160,7 @@ Json summary(const Scores& scores, const Grid& grid) {
                    {"motions", grid.motions()},
                    {"estimates", grid.cases() * grid.question().methods.size()}};
   json["severities"] = Json::object();
-  for (const sim::Departure* law : grid.question().laws) json["severities"][std::string(law->name)] = law->severity;
+  for (const Rig* law : grid.question().laws) json["severities"][std::string(law->name)] = law->severity;
   for (const char* key : {"ranking", "breakdown", "scores"}) json[key] = nullptr;
   return json;
 }
@@ -177,7 +177,7 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   sample.ranges.resize(1);
   sample.seeds = 1;
   const Grid grid(sample);
-  const sim::Truth truth = truth_of(question, context);
+  const Truth truth = truth_of(question, context);
   const auto try_motion = [&](const Grid& cases, std::size_t motion) {
     run_motion(
         cases, truth, context.steady_states(), motion, [](std::size_t) { return true; },

@@ -19,21 +19,21 @@ struct Motions {
   double stated = 1.0;  ///< forcing frequency that the laboratory believes in, over the one it drives at
 };
 
-sim::ReferenceMotion reference_of(const sim::Truth& truth, const ExcitationRange& range,
-                                  const sim::SteadyStateOptions& options) {
-  sim::Model model = sim::undisturbed(truth);
+ReferenceMotion reference_of(const Truth& truth, const ExcitationRange& range,
+                             const sim::SteadyStateOptions& options) {
+  sim::Model model = undisturbed(truth);
   model.excitation.amplitude = range.amplitudes[range.amplitudes.size() / 2];
   model.excitation.frequency = range.frequencies[range.frequencies.size() / 2];
   const sim::SteadyState middle = sim::steady_state(model, options);
   return {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude};
 }
 
-sim::Model model_of(const Grid::Motion& motion, const sim::Truth& truth, const sim::SteadyStateOptions& options) {
-  if (motion.law == nullptr) return sim::undisturbed(truth);
-  return sim::departed(*motion.law, truth, reference_of(truth, *motion.range, options), motion.severity);
+sim::Model model_of(const Grid::Motion& motion, const Truth& truth, const sim::SteadyStateOptions& options) {
+  if (motion.law == nullptr) return undisturbed(truth);
+  return departed(*motion.law, truth, reference_of(truth, *motion.range, options), motion.severity);
 }
 
-Motions motions_of(const Grid& grid, const Grid::Motion& motion, const sim::Truth& truth,
+Motions motions_of(const Grid& grid, const Grid::Motion& motion, const Truth& truth,
                    const identify::Sensors& sensors, const sim::SteadyStateOptions& options) {
   const sim::Model model = model_of(motion, truth, options);
   Motions result;
@@ -76,8 +76,8 @@ Json estimate_json(const Estimate& estimate) {
 
 }  // namespace
 
-void run_motion(const Grid& grid, const sim::Truth& truth, const sim::SteadyStateOptions& options,
-                std::size_t number, const std::function<bool(std::size_t)>& wanted, const TakeLine& take) {
+void run_motion(const Grid& grid, const Truth& truth, const sim::SteadyStateOptions& options, std::size_t number,
+                const std::function<bool(std::size_t)>& wanted, const TakeLine& take) {
   const StressTest& question = grid.question();
   const Grid::Motion motion = grid.motion(number);
   const sim::Oscillator& oscillator = truth.model.oscillator;

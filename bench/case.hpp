@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bench/grid.hpp"
+#include "bench/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -16,7 +16,7 @@ using TakeLine = std::function<void(std::size_t number, const std::string& line)
 
 /// Computes motion `number` once and those of its cases that are `wanted`. A case that cannot be measured is a line
 /// with a reason.
-void run_motion(const Grid& grid, const sim::Truth& truth, const sim::SteadyStateOptions& options,
-                std::size_t number, const std::function<bool(std::size_t)>& wanted, const TakeLine& take);
+void run_motion(const Grid& grid, const Truth& truth, const sim::SteadyStateOptions& options, std::size_t number,
+                const std::function<bool(std::size_t)>& wanted, const TakeLine& take);
 
 }  // namespace dualdamp::bench

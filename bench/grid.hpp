@@ -25,7 +25,7 @@ class Grid {
 
   struct Motion {
     const ExcitationRange* range = nullptr;
-    const sim::Departure* law = nullptr;  ///< nullptr: the truth
+    const Rig* law = nullptr;  ///< nullptr: the truth
     double severity = 0.0;
     [[nodiscard]] std::string name() const { return law == nullptr ? truth_name : std::string(law->name); }
   };

@@ -12,13 +12,12 @@ namespace {
 
 using scenarios::Json;
 using scenarios::Table;
-using sim::Mechanism;
 
-Json parameters_json(const Mechanism& mechanism, const std::vector<double>& values,
+Json parameters_json(const Rig& mechanism, const std::vector<double>& values,
                      const std::vector<bool>& at_bound = {}) {
   Json list = Json::array();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const sim::MechanismParameter& parameter = mechanism.parameters[i];
+    const RigParameter& parameter = mechanism.parameters[i];
     list.push_back({{"name", parameter.name}, {"unit", parameter.unit}, {"value", values[i]}});
     if (!at_bound.empty()) list.back()["at_bound"] = static_cast<bool>(at_bound[i]);
   }
@@ -82,11 +81,11 @@ Json effect_json(const Effect& effect, const MechanismStudy& study) {
 }
 
 /// "saturation_velocity 0.514 m/s, ..."
-std::string values_text(const Mechanism& mechanism, const std::vector<double>& values) {
+std::string values_text(const Rig& mechanism, const std::vector<double>& values) {
   std::string text;
   constexpr int digits = 4;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const sim::MechanismParameter& parameter = mechanism.parameters[i];
+    const RigParameter& parameter = mechanism.parameters[i];
     text += (i == 0 ? "" : ", ") + std::string(parameter.name) + " " + core::format_number(values[i], digits) +
             (parameter.unit == "1" ? "" : " " + std::string(parameter.unit));
   }

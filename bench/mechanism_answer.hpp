@@ -21,7 +21,7 @@ struct DecayReading {
 
 /// One mechanism, answered.
 struct Explanation {
-  const sim::Mechanism* mechanism = nullptr;
+  const Rig* mechanism = nullptr;
   std::size_t unknowns = 0;
   MechanismFit fit;
   double misfit = scenarios::none;   ///< largest of all numbers, relative

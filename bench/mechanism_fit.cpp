@@ -18,9 +18,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using sim::Apparatus;
-using sim::Mechanism;
-using sim::MechanismParameter;
 
 /// Error of steps and closure of orbits: what differences over `step` can bear.
 constexpr double accuracy = 1e-8;
@@ -95,10 +92,10 @@ double usual_intercept(const MechanismStudy& study, double stiffness) {
   return 4.0 * std::numbers::inv_pi * sum / static_cast<double>(study.estimates.size()) / stiffness;
 }
 
-bool goes_by_ratios(const MechanismParameter& parameter) { return parameter.low > 0.0; }
+bool goes_by_ratios(const RigParameter& parameter) { return parameter.low > 0.0; }
 
 /// Of a parameter in units of its scale.
-double to_unknown(const MechanismParameter& parameter, double value) {
+double to_unknown(const RigParameter& parameter, double value) {
   return goes_by_ratios(parameter) ? std::log(value) : value;
 }
 
@@ -174,9 +171,8 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
   return best;
 }
 
-std::optional<Response> response(const Mechanism& mechanism, const Apparatus& apparatus,
-                                 const sim::RigFriction& friction, std::span<const double> values,
-                                 const std::vector<double>& Y) {
+std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                                 std::span<const double> values, const std::vector<double>& Y) {
   sim::SteadyStateOptions options;
   options.tolerance = accuracy;
   options.max_periods = patience;
@@ -193,8 +189,8 @@ std::optional<Response> response(const Mechanism& mechanism, const Apparatus& ap
   return result;
 }
 
-MechanismSearch::MechanismSearch(const Mechanism& mechanism, const MechanismStudy& study,
-                                 const Apparatus& apparatus, Levels near)
+MechanismSearch::MechanismSearch(const Rig& mechanism, const MechanismStudy& study, const Apparatus& apparatus,
+                                 Levels near)
     : mechanism_(mechanism), study_(study), apparatus_(apparatus), near_(std::move(near)) {}
 
 std::size_t MechanismSearch::starts() const {
@@ -208,7 +204,7 @@ MechanismSearch::Point MechanismSearch::point(const VectorXd& p) const {
   point.Y =
       levels_are_free() ? spaced(p[2] * near_.Y[0], p[3] * (near_.Y[1] - near_.Y[0]), near_.Y.size()) : near_.Y;
   for (std::size_t i = 0; i < parameters(); ++i) {
-    const MechanismParameter& parameter = mechanism_.parameters[i];
+    const RigParameter& parameter = mechanism_.parameters[i];
     const double u = p[first_parameter() + static_cast<Index>(i)];
     point.values.push_back(natural_scale(apparatus_, parameter.unit) *
                            (goes_by_ratios(parameter) ? std::exp(u) : u));
@@ -225,7 +221,7 @@ VectorXd MechanismSearch::bounds(bool high) const {
     p[3] = high ? 3.0 : 0.1;
   }
   for (std::size_t i = 0; i < parameters(); ++i) {
-    const MechanismParameter& parameter = mechanism_.parameters[i];
+    const RigParameter& parameter = mechanism_.parameters[i];
     p[first_parameter() + static_cast<Index>(i)] = to_unknown(parameter, high ? parameter.high : parameter.low);
   }
   return p;
@@ -241,7 +237,7 @@ VectorXd MechanismSearch::start(std::size_t number) const {
   p[0] = below * estimate.F0 / study_.friction.F0;
   p[1] = below * c / study_.friction.c;
   for (std::size_t i = 0; i < parameters(); ++i) {
-    const MechanismParameter& parameter = mechanism_.parameters[i];
+    const RigParameter& parameter = mechanism_.parameters[i];
     double value = parameter.start;
     // The first parameter is what a mechanism is about: it begins at several places.
     if (i == 0) value *= goes_by_ratios(parameter) ? ratios.at(number) : number == 0 ? 1.0 : -1.0;

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "bench/mechanisms.hpp"
+#include "bench/rigs/rigs.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -55,13 +55,13 @@ struct Response {
   std::vector<double> x;  ///< m
   bool sticks = false;    ///< at one of them at least
 };
-[[nodiscard]] std::optional<Response> response(const sim::Mechanism& mechanism, const sim::Apparatus& apparatus,
-                                               const sim::RigFriction& friction, std::span<const double> values,
+[[nodiscard]] std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatus,
+                                               const RigFriction& friction, std::span<const double> values,
                                                const std::vector<double>& Y);
 
 struct MechanismFit {
   core::Outcome outcome;
-  sim::RigFriction friction;
+  RigFriction friction;
   std::vector<double> values;  ///< of the mechanism's parameters, SI
   std::vector<bool> at_bound;  ///< of each of them: the search would have gone on
   Levels levels;
@@ -74,8 +74,7 @@ struct MechanismFit {
 class MechanismSearch {
  public:
   /// `near`: levels with which searches begin, or the known ones.
-  MechanismSearch(const sim::Mechanism& mechanism, const MechanismStudy& study, const sim::Apparatus& apparatus,
-                  Levels near);
+  MechanismSearch(const Rig& mechanism, const MechanismStudy& study, const Apparatus& apparatus, Levels near);
 
   /// Places from which the mechanism's parameters are sought.
   [[nodiscard]] std::size_t starts() const;
@@ -90,7 +89,7 @@ class MechanismSearch {
 
  private:
   struct Point {
-    sim::RigFriction friction;
+    RigFriction friction;
     std::vector<double> values;
     std::vector<double> Y;
   };
@@ -107,9 +106,9 @@ class MechanismSearch {
   [[nodiscard]] Eigen::VectorXd pull(const Eigen::VectorXd& p) const;
   [[nodiscard]] MechanismFit fit(const Eigen::VectorXd& start, double tolerance) const;
 
-  const sim::Mechanism& mechanism_;
+  const Rig& mechanism_;
   const MechanismStudy& study_;
-  const sim::Apparatus& apparatus_;
+  const Apparatus& apparatus_;
   Levels near_;
 };
 

@@ -16,8 +16,6 @@ namespace dualdamp::bench {
 
 namespace {
 
-using sim::Mechanism;
-
 /// The whole study; its parts are computed apart and in parallel.
 class Study {
  public:
@@ -26,15 +24,14 @@ class Study {
         levels_(std::move(levels)),
         apparatus_(apparatus_of(model, levels_)),
         constants_{apparatus_.oscillator.mass, apparatus_.oscillator.stiffness, apparatus_.reference.frequency} {
-    for (const Mechanism* mechanism : study_.mechanisms)
-      searches_.emplace_back(*mechanism, study_, apparatus_, levels_);
+    for (const Rig* mechanism : study_.mechanisms) searches_.emplace_back(*mechanism, study_, apparatus_, levels_);
   }
 
   [[nodiscard]] std::vector<Explanation> explain() const;
   [[nodiscard]] std::vector<Effect> effects() const;
 
  private:
-  static sim::Apparatus apparatus_of(const sim::Model& model, const Levels& levels);
+  static Apparatus apparatus_of(const sim::Model& model, const Levels& levels);
   [[nodiscard]] std::vector<MechanismFit> rough_fits() const;
   void finish(Explanation& explanation) const;
   [[nodiscard]] std::optional<DecayReading> decay(const Explanation& explanation) const;
@@ -43,12 +40,12 @@ class Study {
 
   const MechanismStudy& study_;
   Levels levels_;
-  sim::Apparatus apparatus_;
+  Apparatus apparatus_;
   identify::KnownConstants constants_;
   std::vector<MechanismSearch> searches_;
 };
 
-sim::Apparatus Study::apparatus_of(const sim::Model& model, const Levels& levels) {
+Apparatus Study::apparatus_of(const sim::Model& model, const Levels& levels) {
   // Steady states know a slow warming by its mean power: five periods are slow enough for four digits.
   constexpr double warming_periods = 5.0;
   const std::size_t middle = levels.Y.size() / 2;
@@ -105,8 +102,8 @@ double Study::stretch(const Explanation& explanation) const {
 /// Of the fitted rig on the spring of the decay, cold, released from rest.
 std::optional<DecayReading> Study::decay(const Explanation& explanation) const {
   const MeasuredDecay& measured = *study_.decay;
-  sim::Apparatus cold = apparatus_;
-  cold.warming_time = sim::Apparatus{}.warming_time;
+  Apparatus cold = apparatus_;
+  cold.warming_time = Apparatus{}.warming_time;
   const sim::Model model = released(*explanation.mechanism, cold, explanation.fit.friction, explanation.fit.values,
                                     measured.stiffness, measured.displacement);
   constexpr int extremes = 5;

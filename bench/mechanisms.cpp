@@ -29,17 +29,17 @@ class MechanismsQuestion final : public Question {
 
 std::vector<std::string> mechanism_names() {
   std::vector<std::string> names;
-  for (const sim::Mechanism& mechanism : sim::mechanisms()) names.emplace_back(mechanism.name);
+  for (const Rig& mechanism : mechanisms()) names.emplace_back(mechanism.name);
   return names;
 }
 
 /// Values of each mechanism's own parameters.
 Field plausible_values() {
   Choice rigs{"mechanism", {}};
-  for (const sim::Mechanism& mechanism : sim::mechanisms()) {
+  for (const Rig& mechanism : mechanisms()) {
     std::vector<Field> fields = {text("case", "what the results call these values").with_fallback(""),
                                  text("because", "where they come from").with_fallback("")};
-    for (const sim::MechanismParameter& parameter : mechanism.parameters) {
+    for (const RigParameter& parameter : mechanism.parameters) {
       Field field =
           quantity(std::string(parameter.name), {std::string(parameter.unit)}, std::string(parameter.meaning))
               .required();
@@ -178,8 +178,8 @@ void complete_plausible(CheckedFile& file) {
   for (const Json& name : analysis.at("mechanisms")) {
     const auto is_it = [&](const Json& item) { return item.at("mechanism") == name; };
     if (std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(given), is_it)) continue;
-    const sim::Mechanism* mechanism = sim::find_mechanism(name.get<std::string>());
-    for (const sim::PlausibleValues& plausible : mechanism->plausible) {
+    const Rig* mechanism = find_mechanism(name.get<std::string>());
+    for (const PlausibleValues& plausible : mechanism->plausible) {
       Json item = {{"mechanism", name}, {"case", plausible.name}, {"because", plausible.because}};
       for (std::size_t i = 0; i < plausible.values.size(); ++i)
         item[std::string(mechanism->parameters[i].name)] = plausible.values[i];
@@ -195,7 +195,7 @@ void check(CheckedFile& file) {
   if (analysis.contains("estimates")) check_parts(file);
   if (!file.stands_in_file("analysis", "mechanisms")) {
     Json all = Json::array();
-    for (const sim::Mechanism& mechanism : sim::mechanisms()) all.push_back(mechanism.name);
+    for (const Rig& mechanism : mechanisms()) all.push_back(mechanism.name);
     file.fill_in("mechanisms", std::move(all));
   }
   if (analysis.contains("mechanisms")) complete_plausible(file);
@@ -213,11 +213,11 @@ MechanismStudy study_of(const Json& section, const Json& system) {
   std::ranges::sort(result.amplitudes);
   result.levels = section.contains("levels") ? section.at("levels").get<std::size_t>() : result.amplitudes.size();
   for (const Json& name : section.at("mechanisms"))
-    result.mechanisms.push_back(sim::find_mechanism(name.get<std::string>()));
+    result.mechanisms.push_back(find_mechanism(name.get<std::string>()));
   for (const Json& item : section.at("plausible")) {
-    const sim::Mechanism* mechanism = sim::find_mechanism(item.at("mechanism").get<std::string>());
+    const Rig* mechanism = find_mechanism(item.at("mechanism").get<std::string>());
     PlausibleRig rig{mechanism, item.at("case").get<std::string>(), {}, item.at("because").get<std::string>()};
-    for (const sim::MechanismParameter& parameter : mechanism->parameters)
+    for (const RigParameter& parameter : mechanism->parameters)
       rig.values.push_back(number(item.at(std::string(parameter.name))));
     result.plausible.push_back(std::move(rig));
   }

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/rigs/rigs.hpp"
 #include "scenarios/analyses/analysis.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -26,7 +26,7 @@ struct PartEstimate {
 
 /// What a rig with the mechanism may well have.
 struct PlausibleRig {
-  const sim::Mechanism* mechanism = nullptr;
+  const Rig* mechanism = nullptr;
   std::string name;            ///< which of several; may be empty
   std::vector<double> values;  ///< SI, in the order of the mechanism's parameters
   std::string because;
@@ -45,11 +45,11 @@ struct MeasuredDecay {
 };
 
 struct MechanismStudy {
-  sim::RigFriction friction;            ///< what the rig is believed to have
+  RigFriction friction;                 ///< what the rig is believed to have
   std::vector<PartEstimate> estimates;  ///< largest share first
   std::size_t levels = 0;
   std::vector<double> amplitudes;  ///< input levels [m]; empty: equally spaced at unknown places
-  std::vector<const sim::Mechanism*> mechanisms;
+  std::vector<const Rig*> mechanisms;
   std::vector<PlausibleRig> plausible;
   std::optional<MeasuredDecay> decay;
 };

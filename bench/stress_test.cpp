@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bench/campaign.hpp"
+#include "bench/rigs/rigs.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/format/common_keys.hpp"
@@ -12,7 +13,6 @@
 #include "scenarios/measurements/sensors.hpp"
 #include "scenarios/measurements/work_checks.hpp"
 #include "scenarios/results/motion.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -35,7 +35,7 @@ class StressTestQuestion final : public Question, public Campaign {
 
 std::vector<std::string> departure_names() {
   std::vector<std::string> names;
-  for (const sim::Departure& departure : sim::departures()) names.emplace_back(departure.name);
+  for (const Rig& departure : departures()) names.emplace_back(departure.name);
   return names;
 }
 
@@ -110,7 +110,7 @@ void check_severities(CheckedFile& file, const Json& analysis) {
   for (const Json& value : grid.is_array() ? grid : Json::array({grid.at("from"), grid.at("to")}))
     most = std::max(most, number(value));
   for (const Json& name : analysis.at("laws")) {
-    const sim::Departure& law = *sim::find_departure(name.get<std::string>());
+    const Rig& law = *find_departure(name.get<std::string>());
     if (most > law.largest)
       file.complain("analysis.severities", "'" + std::string(law.name) + "' has no such severity",
                     "at most " + core::format_number(law.largest, 3) + ": " + std::string(law.severity),
@@ -186,7 +186,7 @@ void check(CheckedFile& file) {
   check_samples(file, analysis);
   if (!file.stands_in_file("analysis", "laws")) {
     Json all = Json::array();
-    for (const sim::Departure& departure : sim::departures()) all.push_back(departure.name);
+    for (const Rig& departure : departures()) all.push_back(departure.name);
     file.fill_in("laws", std::move(all));
   }
   resolve_methods(file, outlines(analysis));
@@ -210,7 +210,7 @@ StressTest stress_test_of(const CheckedValues& values) {
   const double frequency = values.model.excitation.frequency;
   StressTest result;
   result.F0 = number(values.system.at("friction").at("kinetic"));
-  for (const Json& name : section.at("laws")) result.laws.push_back(sim::find_departure(name.get<std::string>()));
+  for (const Json& name : section.at("laws")) result.laws.push_back(find_departure(name.get<std::string>()));
   result.severities = grid_values(section.at("severities"));
   std::ranges::sort(result.severities);
   for (const Json& range : section.at("ranges"))

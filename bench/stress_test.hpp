@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/rigs/rigs.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
 #include "scenarios/analyses/analysis.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -35,7 +35,7 @@ struct DecayTest {
 
 struct StressTest {
   double F0 = 0.0;  ///< the Coulomb friction of the truth [N]
-  std::vector<const sim::Departure*> laws;
+  std::vector<const Rig*> laws;
   std::vector<double> severities;  ///< ascending, > 0
   std::vector<ExcitationRange> ranges;
   std::vector<SensorSet> sensors;

@@ -40,7 +40,6 @@ ROOMS = {
         "orbits": [".", "engine", "motion", "analytic", "batch"],
         "batch": [".", "engine", "motion", "orbits"],
         "conformance": [".", "engine"],
-        "rigs": ["."],
     },
     "identify": {
         ".": ["methods"],  # the list of methods

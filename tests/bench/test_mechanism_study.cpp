@@ -23,8 +23,8 @@ namespace {
 
 const sim::Oscillator oscillator{.mass = 1.042, .stiffness = 1568.0};
 const identify::KnownConstants constants{1.042, 1568.0, sim::natural_frequency(oscillator)};
-const sim::Apparatus rig{.oscillator = oscillator,
-                         .reference = {.amplitude = 9.7e-3, .frequency = constants.frequency, .Y = 5.6e-3}};
+const bench::Apparatus rig{.oscillator = oscillator,
+                           .reference = {.amplitude = 9.7e-3, .frequency = constants.frequency, .Y = 5.6e-3}};
 const bench::Levels five = {{4.452e-3, 5.027e-3, 5.602e-3, 6.177e-3, 6.752e-3},
                             {5.117e-3, 7.143e-3, 9.667e-3, 12.707e-3, 16.896e-3}};
 
@@ -41,7 +41,7 @@ bench::MechanismStudy paper() {
 }
 
 /// The study of a test that a mechanism made.
-bench::MechanismStudy made_by(const sim::Mechanism& mechanism, const sim::RigFriction& friction,
+bench::MechanismStudy made_by(const bench::Rig& mechanism, const bench::RigFriction& friction,
                               const std::vector<double>& values) {
   bench::MechanismStudy study = paper();
   const auto response = bench::response(mechanism, rig, friction, values, five.Y);
@@ -55,7 +55,7 @@ bench::MechanismStudy made_by(const sim::Mechanism& mechanism, const sim::RigFri
   return study;
 }
 
-bench::MechanismFit best_fit(const sim::Mechanism& mechanism, const bench::MechanismStudy& study,
+bench::MechanismFit best_fit(const bench::Rig& mechanism, const bench::MechanismStudy& study,
                              const bench::Levels& near) {
   const bench::MechanismSearch search(mechanism, study, rig, near);
   bench::MechanismFit best = search.begin(0);
@@ -99,7 +99,7 @@ TEST_CASE("mechanism study: the lines are those of resonance_least_squares") {
 }
 
 TEST_CASE("mechanism study: levels behind the estimates are found, known or not") {
-  bench::MechanismStudy study = made_by(*sim::find_mechanism("viscous_saturating"), {3.0, 12.0}, {0.5});
+  bench::MechanismStudy study = made_by(*bench::find_mechanism("viscous_saturating"), {3.0, 12.0}, {0.5});
   for (const bool known : {false, true}) {
     CAPTURE(known);
     if (known) study.amplitudes = five.Y;
@@ -124,14 +124,14 @@ TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
   // error, against a valley in which the parameters trade off for one another.
   struct Case {
     const char* name;
-    sim::RigFriction friction;
+    bench::RigFriction friction;
     std::vector<double> values;
     double tolerance;
   };
   for (const Case& made : {Case{"viscous_saturating", {3.0, 12.0}, {0.5}, 0.05},
                            Case{"contact_compliance", {6.0, 5.0}, {1500.0}, 0.05}}) {
     CAPTURE(made.name);
-    const sim::Mechanism& mechanism = *sim::find_mechanism(made.name);
+    const bench::Rig& mechanism = *bench::find_mechanism(made.name);
     const bench::MechanismStudy study = made_by(mechanism, made.friction, made.values);
     const bench::MechanismFit fit = best_fit(mechanism, study, five);
     REQUIRE(fit.outcome.ok());
@@ -141,7 +141,7 @@ TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
     CHECK(fit.values[0] == Approx(made.values[0]).epsilon(2.0 * made.tolerance));
     CHECK(fit.levels.Y[2] == Approx(five.Y[2]).epsilon(made.tolerance));
     // Coulomb + viscous friction does not explain it: its lines are the same for all parts.
-    const bench::MechanismFit none = best_fit(*sim::find_mechanism("coulomb_viscous"), study, five);
+    const bench::MechanismFit none = best_fit(*bench::find_mechanism("coulomb_viscous"), study, five);
     REQUIRE(none.outcome.ok());
     CHECK(none.chi2 > 100.0);
   }
@@ -149,7 +149,7 @@ TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
 
 TEST_CASE("mechanism study: the paper's bend is explained by a film that saturates, not by Coulomb friction") {
   const bench::MechanismStudy study = paper();
-  const bench::MechanismFit film = best_fit(*sim::find_mechanism("viscous_saturating"), study, five);
+  const bench::MechanismFit film = best_fit(*bench::find_mechanism("viscous_saturating"), study, five);
   REQUIRE(film.outcome.ok());
   CHECK(film.chi2 < 8.0);
   // With F0 and c alone the best is one pair for all parts: the mean of their numbers, weighted by the errors.
@@ -164,7 +164,7 @@ TEST_CASE("mechanism study: the paper's bend is explained by a film that saturat
   for (const bench::PartEstimate& estimate : study.estimates)
     chi2 += std::pow((estimate.zeta - zeta / weight) / estimate.zeta_std, 2) +
             std::pow((estimate.F0 - F0) / estimate.F0_std, 2);
-  const bench::MechanismFit none = best_fit(*sim::find_mechanism("coulomb_viscous"), study, five);
+  const bench::MechanismFit none = best_fit(*bench::find_mechanism("coulomb_viscous"), study, five);
   REQUIRE(none.outcome.ok());
   // H, which the method neglects, bends by 2e-4, and the search ends within a per cent.
   CHECK(none.chi2 == Approx(chi2).epsilon(0.01));

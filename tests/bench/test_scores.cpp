@@ -17,7 +17,7 @@ namespace {
 bench::StressTest question() {
   bench::StressTest result;
   result.F0 = 10.0;
-  result.laws = {sim::find_departure("dahl")};
+  result.laws = {bench::find_departure("dahl")};
   result.severities = {0.01, 0.1};
   result.ranges = {{"low", {0.1, 0.2}, {10.0}}};
   result.sensors = {{"perfect", {}}};

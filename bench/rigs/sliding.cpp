@@ -1,14 +1,14 @@
 #include <numbers>
 
-#include "sim/rigs/groups.hpp"
+#include "bench/rigs/groups.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 namespace {
 
 using friction::ParameterValues;
 
-Model friction_lag(const RigBase& base, RigValues p) {
+sim::Model friction_lag(const RigBase& base, RigValues p) {
   return with_law(
       base.model, "friction_lag",
       {{"kinetic", base.F0}, {"static", (1.0 + p[0]) * base.F0}, {"stribeck_velocity", p[1]}, {"lag", p[2]}});
@@ -19,7 +19,7 @@ constexpr double mu = 0.3;
 double weight_of(const RigBase& base) { return base.F0 / mu; }
 
 /// The rider's own vibration is ten times as fast as the forcing and damped to a tenth.
-Model normal_vibration(const RigBase& base, RigValues p) {
+sim::Model normal_vibration(const RigBase& base, RigValues p) {
   constexpr double approach = 1e-6;
   const double weight = weight_of(base);
   const double fast = 10.0 * base.reference.frequency;
@@ -33,29 +33,29 @@ Model normal_vibration(const RigBase& base, RigValues p) {
                    {"lift_velocity", base.reference.speed()}});
 }
 
-Model on_slope(const RigBase& base, double slope) { return with_coulomb(base, {{"position_slope", slope}}); }
+sim::Model on_slope(const RigBase& base, double slope) { return with_coulomb(base, {{"position_slope", slope}}); }
 
-Model position_dependence(const RigBase& base, RigValues p) { return on_slope(base, -base.F0 / p[0]); }
+sim::Model position_dependence(const RigBase& base, RigValues p) { return on_slope(base, -base.F0 / p[0]); }
 
-Model position_slope(const RigBase& base, RigValues p) { return on_slope(base, p[0]); }
+sim::Model position_slope(const RigBase& base, RigValues p) { return on_slope(base, p[0]); }
 
 /// Friction that varies along the way, the same each time the mass comes by.
-Model rough_way(const RigBase& base, RigValues p) {
+sim::Model rough_way(const RigBase& base, RigValues p) {
   const ParameterValues roughness{{"ratio", p[0]}, {"correlation_length", p[1]}, {"seed", 1.0}};
   return with_coulomb(base, {{"fluctuation", std::vector<ParameterValues>{roughness}}});
 }
 
-Model static_friction(const RigBase& base, RigValues p) {
+sim::Model static_friction(const RigBase& base, RigValues p) {
   return with_coulomb(base, {{"static", (1.0 + p[0]) * base.F0}});
 }
 
-Model stribeck(const RigBase& base, RigValues p) {
+sim::Model stribeck(const RigBase& base, RigValues p) {
   return with_law(base.model, "stribeck",
                   {{"kinetic", base.F0}, {"static", (1.0 + p[0]) * base.F0}, {"stribeck_velocity", p[1]}});
 }
 
 /// Friction of F0 warms the contact by 4 F0 X each period.
-Model warming_contact(const RigBase& base, RigValues p) {
+sim::Model warming_contact(const RigBase& base, RigValues p) {
   const double heat = 2.0 / std::numbers::pi * base.F0 * base.reference.speed();
   RigBase cold = base;
   cold.F0 = when_cold(base, base.F0, heat, p[0]);
@@ -184,4 +184,4 @@ std::vector<Rig> by_warmth() {
 
 std::vector<Rig> sliding_rigs() { return joined({by_speed(), by_place(), by_warmth()}); }
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/rigs/groups.hpp"
+#include "bench/rigs/groups.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 namespace {
 
@@ -20,27 +20,27 @@ double bristle_damping(const RigBase& base, double stiffness) {
   return 0.2 * std::sqrt(stiffness * base.model.oscillator.mass);
 }
 
-Model bouc_wen(const RigBase& base, RigValues p) {
+sim::Model bouc_wen(const RigBase& base, RigValues p) {
   return with_law(base.model, "bouc_wen", {{"limit", base.F0}, {"stiffness", p[0]}, {"exponent", 2.0}});
 }
 
-Model behind_spring(Model model, double F0, double stiffness) {
+sim::Model behind_spring(sim::Model model, double F0, double stiffness) {
   return with_law(std::move(model), "contact_compliance", {{"kinetic", F0}, {"contact_stiffness", stiffness}});
 }
 
-Model contact_compliance(const RigBase& base, RigValues p) { return behind_spring(base.model, base.F0, p[0]); }
+sim::Model contact_compliance(const RigBase& base, RigValues p) { return behind_spring(base.model, base.F0, p[0]); }
 
-Model rigid_and_compliant(const RigBase& base, RigValues p) {
+sim::Model rigid_and_compliant(const RigBase& base, RigValues p) {
   RigBase rigid = base;
   rigid.F0 = (1.0 - p[1]) * base.F0;
   return behind_spring(with_coulomb(rigid), p[1] * base.F0, p[0]);
 }
 
-Model dahl(const RigBase& base, RigValues p) {
+sim::Model dahl(const RigBase& base, RigValues p) {
   return with_law(base.model, "dahl", {{"kinetic", base.F0}, {"sigma0", p[0]}});
 }
 
-Model elasto_plastic(const RigBase& base, RigValues p) {
+sim::Model elasto_plastic(const RigBase& base, RigValues p) {
   return with_law(base.model, "elasto_plastic",
                   {{"kinetic", base.F0},
                    {"stribeck_velocity", tenth_of_speed(base)},
@@ -51,7 +51,7 @@ Model elasto_plastic(const RigBase& base, RigValues p) {
 
 /// Four elements that slip at equal shares of the level, one after the other, none of them before half of the mean
 /// deflection.
-Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
+sim::Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
   std::vector<ParameterValues> elements;
   for (const double deflection : {0.5, 0.75, 1.25, 1.5})  // over their mean
     elements.push_back({{"stiffness", 0.25 * p[0] / deflection}, {"share", 0.25}});
@@ -64,11 +64,11 @@ Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
                    {"attraction", 100.0 * base.F0 * base.reference.frequency}});
 }
 
-Model iwan(const RigBase& base, RigValues p) {
+sim::Model iwan(const RigBase& base, RigValues p) {
   return with_law(base.model, "iwan", {{"limit", base.F0}, {"stiffness", p[0]}, {"count", 20.0}});
 }
 
-Model lugre(const RigBase& base, RigValues p) {
+sim::Model lugre(const RigBase& base, RigValues p) {
   return with_law(base.model, "lugre",
                   {{"kinetic", base.F0},
                    {"static", (1.0 + p[1]) * base.F0},
@@ -77,7 +77,7 @@ Model lugre(const RigBase& base, RigValues p) {
                    {"sigma1", bristle_damping(base, p[0])}});
 }
 
-Model reset_integrator(const RigBase& base, RigValues p) {
+sim::Model reset_integrator(const RigBase& base, RigValues p) {
   return with_law(base.model, "reset_integrator",
                   {{"kinetic", base.F0}, {"stiffness", p[0]}, {"static_gain", p[1]}});
 }
@@ -194,4 +194,4 @@ std::vector<Rig> bristles() {
 
 std::vector<Rig> contact_rigs() { return joined({sliders(), bristles()}); }
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

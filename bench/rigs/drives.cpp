@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/rigs/groups.hpp"
+#include "bench/rigs/groups.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 namespace {
 
@@ -22,9 +22,9 @@ std::array<double, 8> clipped_cosine(double a) {
   return coefficients;
 }
 
-Model base_clipping(const RigBase& base, RigValues p) {
+sim::Model base_clipping(const RigBase& base, RigValues p) {
   const double Y = base.model.excitation.amplitude;
-  Model model = with_coulomb(base);
+  sim::Model model = with_coulomb(base);
   const std::array<double, 8> shares = clipped_cosine(Y / p[0]);
   model.excitation.amplitude = shares[0] * Y;
   for (std::size_t j = 1; j < shares.size(); ++j) {
@@ -37,27 +37,27 @@ Model base_clipping(const RigBase& base, RigValues p) {
   return model;
 }
 
-Model base_distortion(const RigBase& base, RigValues p) {
-  Model model = with_coulomb(base);
+sim::Model base_distortion(const RigBase& base, RigValues p) {
+  sim::Model model = with_coulomb(base);
   model.excitation.harmonics = {{.order = 3, .amplitude = p[0], .phase = 0.0}};
   return model;
 }
 
 /// A spring of the force k x + k3 x^3, driven at another frequency than the one that is stated.
-Model spring_and_drive(const RigBase& base, double k3, double offset) {
-  Model model = with_coulomb(base);
+sim::Model spring_and_drive(const RigBase& base, double k3, double offset) {
+  sim::Model model = with_coulomb(base);
   model.oscillator.cubic_stiffness = k3;
   model.excitation.frequency *= 1.0 + offset;
   return model;
 }
 
-Model cubic_spring(const RigBase& base, RigValues p) { return spring_and_drive(base, p[0], 0.0); }
+sim::Model cubic_spring(const RigBase& base, RigValues p) { return spring_and_drive(base, p[0], 0.0); }
 
-Model softening_spring(const RigBase& base, RigValues p) { return spring_and_drive(base, -p[0], 0.0); }
+sim::Model softening_spring(const RigBase& base, RigValues p) { return spring_and_drive(base, -p[0], 0.0); }
 
-Model hardening_spring_detuned(const RigBase& base, RigValues p) { return spring_and_drive(base, p[0], p[1]); }
+sim::Model hardening_spring_detuned(const RigBase& base, RigValues p) { return spring_and_drive(base, p[0], p[1]); }
 
-Model detuning(const RigBase& base, RigValues p) {
+sim::Model detuning(const RigBase& base, RigValues p) {
   return spring_and_drive(base, base.model.oscillator.cubic_stiffness, p[0]);
 }
 
@@ -157,4 +157,4 @@ std::vector<Rig> springs() {
 
 std::vector<Rig> drive_rigs() { return joined({drives(), springs()}); }
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

@@ -1,4 +1,4 @@
-#include "sim/rigs/rigs.hpp"
+#include "bench/rigs/rigs.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/rigs/groups.hpp"
+#include "bench/rigs/groups.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 namespace {
 
@@ -33,7 +33,7 @@ RigBase base_of(const Apparatus& apparatus, const RigFriction& friction, double 
   base.model.oscillator = apparatus.oscillator;
   base.model.oscillator.damping = friction.c;
   base.model.excitation = {
-      .type = ExcitationType::base_harmonic, .amplitude = Y, .frequency = apparatus.reference.frequency};
+      .type = sim::ExcitationType::base_harmonic, .amplitude = Y, .frequency = apparatus.reference.frequency};
   return base;
 }
 
@@ -62,9 +62,9 @@ const Rig* find_departure(std::string_view name) { return find(departures(), nam
 
 const Rig* find_mechanism(std::string_view name) { return find(mechanisms(), name); }
 
-Model undisturbed(const Truth& truth) { return with_coulomb({.model = truth.model, .F0 = truth.F0}); }
+sim::Model undisturbed(const Truth& truth) { return with_coulomb({.model = truth.model, .F0 = truth.F0}); }
 
-Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s) {
+sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s) {
   const double period = 2.0 * std::numbers::pi / reference.frequency;
   const RigBase base{.model = truth.model,
                      .F0 = truth.F0,
@@ -74,17 +74,17 @@ Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& 
   return departure.build(base, departure.values_at(base, s));
 }
 
-Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-             std::span<const double> values, double Y) {
+sim::Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                  std::span<const double> values, double Y) {
   return mechanism.build(base_of(apparatus, friction, Y), values);
 }
 
-Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-               std::span<const double> values, double stiffness, double displacement) {
+sim::Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                    std::span<const double> values, double stiffness, double displacement) {
   Apparatus other = apparatus;
   other.oscillator.stiffness = stiffness;
   const RigBase base = base_of(other, friction, apparatus.reference.Y);
-  Model model = mechanism.forced_only ? with_coulomb(base) : mechanism.build(base, values);
+  sim::Model model = mechanism.forced_only ? with_coulomb(base) : mechanism.build(base, values);
   model.excitation = {};
   model.initial = {.position = displacement};
   return model;
@@ -106,4 +106,4 @@ double natural_scale(const Apparatus& apparatus, std::string_view unit) {
   throw std::logic_error("no scale for the unit " + std::string(unit));
 }
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

@@ -1,4 +1,4 @@
-#include "sim/rigs/groups.hpp"
+#include "bench/rigs/groups.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include "friction_models/registry.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 using friction::ParameterValues;
 
@@ -17,7 +17,7 @@ std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups) {
   return all;
 }
 
-Model with_law(Model model, std::string_view law, ParameterValues values) {
+sim::Model with_law(sim::Model model, std::string_view law, ParameterValues values) {
   const friction::LawEntry* entry = friction::find_law(law);
   if (entry == nullptr || !friction::complete(*entry, values).empty())
     throw std::logic_error("the law " + std::string(law) + " refuses the values of a table");
@@ -25,12 +25,12 @@ Model with_law(Model model, std::string_view law, ParameterValues values) {
   return model;
 }
 
-Model with_coulomb(const RigBase& base, ParameterValues values) {
+sim::Model with_coulomb(const RigBase& base, ParameterValues values) {
   values.set("kinetic", base.F0);
   return with_law(base.model, "coulomb", std::move(values));
 }
 
-Model coulomb_viscous(const RigBase& base, RigValues) { return with_coulomb(base); }
+sim::Model coulomb_viscous(const RigBase& base, RigValues) { return with_coulomb(base); }
 
 std::vector<ParameterValues> warming(const RigBase& base, double power) {
   return {ParameterValues{{"power", power}, {"time_constant", base.warming_time}}};
@@ -40,4 +40,4 @@ double when_cold(const RigBase& base, double found, double heat, double power) {
   return base.found_at_reference ? found * std::exp(heat / power) : found;
 }
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

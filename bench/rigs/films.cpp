@@ -1,35 +1,35 @@
 #include <utility>
 
-#include "sim/rigs/groups.hpp"
+#include "bench/rigs/groups.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 namespace {
 
 /// Coulomb friction and a film in place of the damper.
-Model with_film(const RigBase& base, std::string_view law, friction::ParameterValues values) {
-  Model model = with_coulomb(base);
+sim::Model with_film(const RigBase& base, std::string_view law, friction::ParameterValues values) {
+  sim::Model model = with_coulomb(base);
   model.oscillator.damping = 0.0;
   return with_law(std::move(model), law, std::move(values));
 }
 
-Model quadratic_drag(const RigBase& base, RigValues p) {
+sim::Model quadratic_drag(const RigBase& base, RigValues p) {
   return with_law(with_coulomb(base), "viscous_power", {{"coefficient", p[0]}, {"exponent", 2.0}});
 }
 
-Model viscous_power(const RigBase& base, RigValues p) {
+sim::Model viscous_power(const RigBase& base, RigValues p) {
   const double V = base.reference.speed();
   return with_film(base, "viscous_power",
                    {{"coefficient", base.c() * V}, {"reference_velocity", V}, {"exponent", p[0]}});
 }
 
-Model viscous_saturating(const RigBase& base, RigValues p) {
+sim::Model viscous_saturating(const RigBase& base, RigValues p) {
   const double loss = base.found_at_reference ? 1.0 + base.reference.speed() / p[0] : 1.0;
   return with_film(base, "viscous_saturating", {{"coefficient", base.c() * loss}, {"saturation_velocity", p[0]}});
 }
 
 /// A damper warms by c V^2/2 in the mean.
-Model warming_film(const RigBase& base, RigValues p) {
+sim::Model warming_film(const RigBase& base, RigValues p) {
   const double heat = 0.5 * base.c() * base.reference.speed() * base.reference.speed();
   return with_film(base, "viscous_power",
                    {{"coefficient", when_cold(base, base.c(), heat, p[0])},
@@ -88,4 +88,4 @@ std::vector<Rig> film_rigs() {
   };
 }
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

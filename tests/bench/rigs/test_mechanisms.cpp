@@ -7,11 +7,11 @@
 #include <numbers>
 #include <string>
 
+#include "bench/rigs/rigs.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 
@@ -20,14 +20,14 @@ namespace {
 /// The rig of the paper: X = 9.7 mm in mid range.
 const sim::Oscillator oscillator{.mass = 1.042, .stiffness = 1568.0};
 const double natural = sim::natural_frequency(oscillator);
-const sim::Apparatus rig{.oscillator = oscillator,
-                         .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
-const sim::RigFriction usual{.F0 = 3.7, .c = 11.0};
+const bench::Apparatus rig{.oscillator = oscillator,
+                           .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
+const bench::RigFriction usual{.F0 = 3.7, .c = 11.0};
 
 sim::SteadyState steady(const std::string& name, const std::vector<double>& values) {
-  const sim::Mechanism* mechanism = sim::find_mechanism(name);
+  const bench::Rig* mechanism = bench::find_mechanism(name);
   REQUIRE(mechanism != nullptr);
-  const sim::SteadyState state = sim::steady_state(sim::driven(*mechanism, rig, usual, values, rig.reference.Y));
+  const sim::SteadyState state = sim::steady_state(bench::driven(*mechanism, rig, usual, values, rig.reference.Y));
   REQUIRE(state.outcome.ok());
   return state;
 }
@@ -54,31 +54,31 @@ double force_at(const sim::Model& model, double v) {
 }  // namespace
 
 TEST_CASE("mechanisms: sorted, explained, with plausible values and searches within their ranges") {
-  const auto& list = sim::mechanisms();
+  const auto& list = bench::mechanisms();
   CHECK(list.size() >= 16);
-  CHECK(std::ranges::is_sorted(list, {}, &sim::Mechanism::name));
-  for (const sim::Mechanism& mechanism : list) {
+  CHECK(std::ranges::is_sorted(list, {}, &bench::Rig::name));
+  for (const bench::Rig& mechanism : list) {
     CAPTURE(mechanism.name);
-    CHECK(sim::find_mechanism(mechanism.name) == &mechanism);
+    CHECK(bench::find_mechanism(mechanism.name) == &mechanism);
     CHECK_FALSE(mechanism.meaning.empty());
     CHECK_FALSE(mechanism.plausible.empty());
-    for (const sim::MechanismParameter& parameter : mechanism.parameters) {
+    for (const bench::RigParameter& parameter : mechanism.parameters) {
       CAPTURE(parameter.name);
-      const double scale = sim::natural_scale(rig, parameter.unit);
+      const double scale = bench::natural_scale(rig, parameter.unit);
       CHECK(scale > 0.0);
       CHECK(parameter.low < parameter.start);
       CHECK(parameter.start < parameter.high);
       CHECK(parameter.range.contains(parameter.low * scale));
       CHECK(parameter.range.contains(parameter.high * scale));
     }
-    for (const sim::PlausibleValues& plausible : mechanism.plausible) {
+    for (const bench::PlausibleValues& plausible : mechanism.plausible) {
       REQUIRE(plausible.values.size() == mechanism.parameters.size());
       CHECK_FALSE(plausible.because.empty());
       for (std::size_t i = 0; i < plausible.values.size(); ++i)
         CHECK(mechanism.parameters[i].range.contains(plausible.values[i]));
     }
   }
-  CHECK(sim::find_mechanism("gremlins") == nullptr);
+  CHECK(bench::find_mechanism("gremlins") == nullptr);
 }
 
 TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose amplitude has a closed form") {
@@ -97,7 +97,7 @@ TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose 
       {"viscous_power", {1.000001}}, {"viscous_saturating", {4e5}},
       {"warming_contact", {1e6}},    {"warming_film", {1e6}}};
   const double expected = closed_form(usual.c);
-  for (const sim::Mechanism& mechanism : sim::mechanisms()) {
+  for (const bench::Rig& mechanism : bench::mechanisms()) {
     const std::string name(mechanism.name);
     CAPTURE(name);
     REQUIRE(vanishing.contains(name));
@@ -114,7 +114,7 @@ TEST_CASE("mechanisms: a film has the force of the damper c at the reference spe
        std::map<std::string, double>{{"viscous_power", 0.4}, {"viscous_saturating", 0.3}}) {
     CAPTURE(name);
     const sim::Model model =
-        sim::driven(*sim::find_mechanism(name), rig, usual, std::vector{value}, rig.reference.Y);
+        bench::driven(*bench::find_mechanism(name), rig, usual, std::vector{value}, rig.reference.Y);
     CHECK(force_at(model, V) == Approx(expected).epsilon(1e-14));
     // Below it sublinear films have more: F = c V (v/V)^n, and c (1 + V/v0) v/(1 + v/v0).
     const double half =
@@ -127,7 +127,7 @@ TEST_CASE("mechanisms: a clipped base moves as the formula says and is read by i
   const double stroke = 6e-3;
   const double Y = 6.75e-3;
   const sim::Excitation drive =
-      sim::driven(*sim::find_mechanism("base_clipping"), rig, usual, std::vector{stroke}, Y).excitation;
+      bench::driven(*bench::find_mechanism("base_clipping"), rig, usual, std::vector{stroke}, Y).excitation;
   const double a = Y / stroke;
   // Coefficients fall by exp(-2 asinh(pi/2a)) = 0.11 from one to the next: eight of them leave 0.11^8 = 2e-8 of Y.
   for (int i = 0; i <= 40; ++i) {
@@ -150,7 +150,7 @@ TEST_CASE("mechanisms: a warm film is a weaker damper, by the power that it turn
   double c = usual.c;
   for (int i = 0; i < 60; ++i) {
     sim::Model model =
-        sim::driven(*sim::find_mechanism("coulomb_viscous"), rig, {usual.F0, c}, {}, rig.reference.Y);
+        bench::driven(*bench::find_mechanism("coulomb_viscous"), rig, {usual.F0, c}, {}, rig.reference.Y);
     const double heat = c * sim::steady_state(model).mean_square_speed;
     c = 0.5 * (c + cold * std::exp(-heat / power));
   }
@@ -162,11 +162,11 @@ TEST_CASE("mechanisms: what lies in drive or spring is not there in a free decay
   const double stiffness = 4365.0;
   const double zeta = usual.c / (2.0 * std::sqrt(oscillator.mass * stiffness));
   const auto expected = sim::analytic::free_decay_extremes(zeta, usual.F0 / stiffness, 14.7e-3, 5);
-  for (const sim::Mechanism& mechanism : sim::mechanisms()) {
+  for (const bench::Rig& mechanism : bench::mechanisms()) {
     CAPTURE(mechanism.name);
     const auto& values = mechanism.plausible.front().values;
     const sim::FreeDecay decay =
-        sim::free_decay(sim::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
+        sim::free_decay(bench::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
     REQUIRE(decay.outcome.ok());
     REQUIRE(decay.peaks.size() == expected.size());
     double distance = 0.0;

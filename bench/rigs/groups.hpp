@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/rigs/rigs.hpp"
 #include "friction_models/parameters.hpp"
-#include "sim/rigs/rigs.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 /// Friction that yields before it slips: contacts behind a stiffness, and bristles.
 [[nodiscard]] std::vector<Rig> contact_rigs();
@@ -26,13 +26,13 @@ using RigValues = std::span<const double>;
 
 /// `model` with the law beside those it has; defaults of `values` are filled in. Errors: `std::logic_error` when
 /// the law is unknown or refuses the values, which is a fault of the table.
-[[nodiscard]] Model with_law(Model model, std::string_view law, friction::ParameterValues values);
+[[nodiscard]] sim::Model with_law(sim::Model model, std::string_view law, friction::ParameterValues values);
 
 /// The base with Coulomb friction F0; `values` are further parameters of the law.
-[[nodiscard]] Model with_coulomb(const RigBase& base, friction::ParameterValues values = {});
+[[nodiscard]] sim::Model with_coulomb(const RigBase& base, friction::ParameterValues values = {});
 
 /// `with_coulomb` as the builder of a rig without parameters.
-[[nodiscard]] Model coulomb_viscous(const RigBase& base, RigValues values);
+[[nodiscard]] sim::Model coulomb_viscous(const RigBase& base, RigValues values);
 
 /// Parameters of the modifier `warming` for a heat power at which the force has fallen to 1/e [W].
 [[nodiscard]] std::vector<friction::ParameterValues> warming(const RigBase& base, double power);
@@ -69,4 +69,4 @@ inline constexpr RigParameter power_parameter = {
     .low = 0.1,
     .high = 1e3};
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench

@@ -4,28 +4,28 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "bench/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 
 TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") {
-  const auto& list = sim::departures();
+  const auto& list = bench::departures();
   CHECK(list.size() >= 12);
-  CHECK(std::ranges::is_sorted(list, {}, &sim::Departure::name));
-  sim::Truth truth;
+  CHECK(std::ranges::is_sorted(list, {}, &bench::Rig::name));
+  bench::Truth truth;
   truth.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
   truth.F0 = 2.0;
-  const sim::SteadyState reference = sim::steady_state(sim::undisturbed(truth));
+  const sim::SteadyState reference = sim::steady_state(bench::undisturbed(truth));
   REQUIRE(reference.outcome.ok());
-  const sim::ReferenceMotion motion{.amplitude = reference.amplitude, .frequency = 10.0, .Y = 0.1};
-  for (const sim::Departure& departure : list) {
+  const bench::ReferenceMotion motion{.amplitude = reference.amplitude, .frequency = 10.0, .Y = 0.1};
+  for (const bench::Rig& departure : list) {
     CAPTURE(departure.name);
-    CHECK(sim::find_departure(departure.name) == &departure);
+    CHECK(bench::find_departure(departure.name) == &departure);
     CHECK_FALSE(departure.severity.empty());
     const auto distance = [&](double s) {
-      const sim::SteadyState state = sim::steady_state(sim::departed(departure, truth, motion, s));
+      const sim::SteadyState state = sim::steady_state(bench::departed(departure, truth, motion, s));
       REQUIRE(state.outcome.ok());
       return std::abs(state.amplitude / reference.amplitude - 1.0) + std::abs(state.phase - reference.phase);
     };

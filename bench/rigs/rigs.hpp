@@ -21,7 +21,7 @@
 #include "friction_models/parameters.hpp"
 #include "sim/model.hpp"
 
-namespace dualdamp::sim {
+namespace dualdamp::bench {
 
 /// The motion that parameters are measured by.
 struct ReferenceMotion {
@@ -35,8 +35,8 @@ struct ReferenceMotion {
 
 /// What a rig is built on.
 struct RigBase {
-  Model model{};    ///< oscillator with its damper c, and its drive; without friction laws
-  double F0 = 0.0;  ///< Coulomb friction [N]
+  sim::Model model{};  ///< oscillator with its damper c, and its drive; without friction laws
+  double F0 = 0.0;     ///< Coulomb friction [N]
   ReferenceMotion reference{};
   double warming_time = 0.0;       ///< in which contact or film warms [s]
   double boundary_velocity = 0.0;  ///< over which friction falls from its value at rest as a film forms [m/s]
@@ -71,7 +71,7 @@ struct Rig {
   std::string_view meaning;  ///< what happens in the rig, one line
   std::vector<RigParameter> parameters;
   /// `values`: SI, in the order of the parameters.
-  Model (*build)(const RigBase& base, std::span<const double> values);
+  sim::Model (*build)(const RigBase& base, std::span<const double> values);
 
   // As a departure; a rig without `severity` is none.
   std::string_view severity{};  ///< what s is, in words: "deflection of the contact F0/K over X"
@@ -95,27 +95,23 @@ struct Rig {
 [[nodiscard]] const Rig* find_departure(std::string_view name);
 [[nodiscard]] const Rig* find_mechanism(std::string_view name);
 
-// Names of rigs by what they serve as.
-using Departure = Rig;
-using Mechanism = Rig;
-using MechanismParameter = RigParameter;
-
 /// Coulomb + viscous friction: what the methods assume, and are to find.
 struct Truth {
-  Model model;      ///< with the damper c; without friction laws
-  double F0 = 0.0;  ///< N
+  sim::Model model;  ///< with the damper c; without friction laws
+  double F0 = 0.0;   ///< N
 };
 
 /// The truth itself.
-[[nodiscard]] Model undisturbed(const Truth& truth);
+[[nodiscard]] sim::Model undisturbed(const Truth& truth);
 
 /// The truth with a departure of severity s.
-[[nodiscard]] Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s);
+[[nodiscard]] sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference,
+                                  double s);
 
 /// What is known of a laboratory's rig, and the motion in the middle of its tests.
 struct Apparatus {
-  Oscillator oscillator;      ///< its damping is not used
-  ReferenceMotion reference;  ///< its frequency is the one that the laboratory sets
+  sim::Oscillator oscillator;  ///< its damping is not used
+  ReferenceMotion reference;   ///< its frequency is the one that the laboratory sets
   /// In which contact or film warms [s]. A minute is long against a free decay, which stays cold. Steady states
   /// depend on it by the ratio of a period to it, and are found the sooner the shorter it is.
   double warming_time = 60.0;
@@ -128,16 +124,16 @@ struct RigFriction {
 };
 
 /// The rig driven at the laboratory's frequency with the input amplitude Y [m].
-[[nodiscard]] Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-                           std::span<const double> values, double Y);
+[[nodiscard]] sim::Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                                std::span<const double> values, double Y);
 
 /// A release from rest at x = displacement [m], on a spring of this stiffness [N/m], without drive.
-[[nodiscard]] Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-                             std::span<const double> values, double stiffness, double displacement);
+[[nodiscard]] sim::Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                                  std::span<const double> values, double stiffness, double displacement);
 
 /// The size that a quantity of this unit has in the reference motion: X for m, wX for m/s, k for N/m, k/X^2 for
 /// N/m^3, kY/(wX)^2 for N.s^2/m^2, the drive's power kY wX/2 for W, 1/w for s, 1 for 1. Errors: `std::logic_error`
 /// for another unit.
 [[nodiscard]] double natural_scale(const Apparatus& apparatus, std::string_view unit);
 
-}  // namespace dualdamp::sim
+}  // namespace dualdamp::bench
