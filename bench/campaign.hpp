@@ -25,7 +25,7 @@ struct CampaignSize {
 
 [[nodiscard]] CampaignSize size_of(const StressTest& question, const scenarios::RunContext& context);
 
-/// In one line for people.
+/// In a title in one line.
 [[nodiscard]] std::string describe(const CampaignSize& size);
 
 /// Only process 0 returns scores; the others return an empty answer.

@@ -63,7 +63,7 @@ struct MechanismFit {
   core::Outcome outcome;
   RigFriction friction;
   std::vector<double> values;  ///< of the mechanism's parameters, SI
-  std::vector<bool> at_bound;  ///< of each of them: the search would have gone on
+  std::vector<bool> at_bound;  ///< of each of them: the search ended at a bound
   Levels levels;
   std::vector<PartReading> readings;
   double chi2 = 0.0;

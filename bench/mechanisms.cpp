@@ -37,7 +37,7 @@ std::vector<std::string> mechanism_names() {
 Field plausible_values() {
   Choice rigs{"mechanism", {}};
   for (const Rig& mechanism : mechanisms()) {
-    std::vector<Field> fields = {text("case", "what the results call these values").with_fallback(""),
+    std::vector<Field> fields = {text("case", "name of these values in the results").with_fallback(""),
                                  text("because", "where they come from").with_fallback("")};
     for (const RigParameter& parameter : mechanism.parameters) {
       Field field =
@@ -48,8 +48,8 @@ Field plausible_values() {
     }
     rigs.variants.push_back({std::string(mechanism.name), std::string(mechanism.meaning), {std::move(fields)}});
   }
-  Field field = choice("plausible", std::move(rigs),
-                       "values that the rig may well have, in place of the known ones of that mechanism");
+  Field field =
+      choice("plausible", std::move(rigs), "plausible values of the rig; they replace those of that mechanism");
   field.listed = field.only_listed = true;
   return std::move(field).items(1, max_sets);
 }
@@ -60,11 +60,10 @@ Section keys() {
         .required()
         .above(0);
   };
-  const Section estimate = {
-      {quantity("share", {"1"}, "which part of the data, the lower one").required().above(0).at_most(1),
-       quantity("zeta", {"1"}, "damping ratio that it gave").required().above(0),
-       quantity("F0", {"N"}, "friction force that it gave").required().above(0),
-       error("zeta_std", "1", "damping ratio"), error("F0_std", "N", "friction force")}};
+  const Section estimate = {{quantity("share", {"1"}, "lower part of the data").required().above(0).at_most(1),
+                             quantity("zeta", {"1"}, "damping ratio that it gave").required().above(0),
+                             quantity("F0", {"N"}, "friction force that it gave").required().above(0),
+                             error("zeta_std", "1", "damping ratio"), error("F0_std", "N", "friction force")}};
   const auto segment = [](const char* name, const char* which) {
     return section(name,
                    {{quantity("zeta", {"1"}, "damping ratio").required().above(0),
@@ -74,10 +73,11 @@ Section keys() {
   };
   const Section decay = {
       {quantity("stiffness", {"N/m"}, "of the spring in this test").required().above(0),
-       quantity("displacement", {"m"}, "from which the mass is released at rest").required().above(0),
+       quantity("displacement", {"m"}, "initial displacement of a release from rest").required().above(0),
        segment("high", "first"), segment("low", "last")}};
   return {
-      {section_list("estimates", estimate, "what straight lines through the data and their lower parts gave")
+      {section_list("estimates", estimate,
+                    "estimates from straight lines through the data and through their lower parts")
            .required()
            .items(2, max_sets),
        integer("levels", "number of input levels, equally spaced at unknown places").at_least(4).at_most(max_sets),
@@ -108,13 +108,13 @@ ResultFields levels_and_decay(const std::string& prefix) {
 ResultFields fields() {
   const std::string fit = "mechanisms[].";
   ResultFields fields =
-      joined({{"verdict", "", "what the study says, and what it does not"}}, reading("explained.", ", measured"));
+      joined({{"verdict", "", "conclusions of the study and their limits"}}, reading("explained.", ", measured"));
   fields =
       joined(joined(fields, levels_and_decay("explained.")),
              {{fit + "mechanism", "", "name, closest first"},
               {fit + "meaning", "", "what happens in the rig"},
               {fit + "unknowns", "1", "unknowns of the fit"},
-              {fit + "reason", "", "only without a fit: why"},
+              {fit + "reason", "", "without a fit: the reason"},
               {fit + "chi2", "1", "sum of squares of the misfits over their standard errors"},
               {fit + "misfit", "1", "largest relative misfit of all numbers"},
               {fit + "stretch", "1", "largest ratio between a parameter and its plausible value, either way"},
@@ -123,7 +123,7 @@ ResultFields fields() {
               {fit + "parameters[].name", "", "a parameter of the mechanism"},
               {fit + "parameters[].unit", "", "its unit"},
               {fit + "parameters[].value", "", "its value"},
-              {fit + "parameters[].at_bound", "", "the search would have gone on"},
+              {fit + "parameters[].at_bound", "", "the search ended at a bound"},
               {fit + "aliases[]", "", "mechanisms that differ from this one by less than the standard errors"}});
   fields = joined(joined(fields, reading(fit, " of the fit")), levels_and_decay(fit));
   const std::string effect = "effects[].";
@@ -134,7 +134,7 @@ ResultFields fields() {
                                 {effect + "parameters[].unit", "", "its unit"},
                                 {effect + "parameters[].value", "", "its value"},
                                 {effect + "sticks", "", "the mass sticks at one of the levels"},
-                                {effect + "reason", "", "only without estimates: why"}}),
+                                {effect + "reason", "", "without estimates: the reason"}}),
                 reading(effect, ""));
 }
 

@@ -40,7 +40,7 @@ struct MeasuredDecay {
     double x_f = 0.0;  ///< m
   };
   double stiffness = 0.0;     ///< N/m
-  double displacement = 0.0;  ///< from which the mass is released at rest [m]
+  double displacement = 0.0;  ///< initial displacement of a release from rest [m]
   Segment high, low;
 };
 

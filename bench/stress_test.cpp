@@ -41,31 +41,35 @@ std::vector<std::string> departure_names() {
 
 Section keys() {
   constexpr int max_seeds = 1'000'000;
-  std::vector<Field> set = {text("name", "what the results call it").required()};
+  std::vector<Field> set = {text("name", "its name in the results").required()};
   for (Field& field : sensor_fields())
     if (field.name != "seed") set.push_back(std::move(field));
   const Section range = {
-      {text("name", "what the results call it").required(), amplitudes(), optional(frequencies())}};
+      {text("name", "its name in the results").required(), amplitudes(), optional(frequencies())}};
   const Section decay = {
-      {quantity("displacement", {"m"}, "from which the mass is released at rest").required().above(0), peaks()}};
+      {quantity("displacement", {"m"}, "initial displacement of a release from rest").required().above(0),
+       peaks()}};
   return {
       {word_list("laws", departure_names(), "departures from Coulomb + viscous friction; default: all"),
-       grid("severities", {"1"}, "their sizes, in the sense of each").required().above(0).items(1, max_sets),
+       grid("severities", {"1"}, "severities; each departure defines its own")
+           .required()
+           .above(0)
+           .items(1, max_sets),
        section_list("ranges", range, "input amplitudes, and frequencies, of the steady states that are measured")
            .required()
            .items(1, max_sets),
        section_list("sensors", Section{std::move(set)},
                     "what the curves are measured with; default: perfect sensors")
            .items(1, max_sets),
-       integer("seeds", "of the sensors' noise: 0 to seeds - 1").with_fallback(1).at_least(1).at_most(max_seeds),
-       section("decay", decay, "a free vibration beside each curve, for the methods that need one"),
+       integer("seeds", "number of seeds of the sensors' noise").with_fallback(1).at_least(1).at_most(max_seeds),
+       section("decay", decay, "a free vibration in addition to each curve, for the methods that need one"),
        methods_key("all that the measurements allow")}};
 }
 
 scenarios::ResultFields fields() {
   return {{"cases.all", "1", "cases of the grid"},
           {"cases.failed", "1", "cases without an estimate by any method"},
-          {"cases.motions", "1", "motions behind them"},
+          {"cases.motions", "1", "motions computed for them"},
           {"cases.estimates", "1", "cases times methods"},
           {"ranking[].method", "", "a method, best first"},
           {"ranking[].unwarned", "1", "share of missed detections: wrong by more than 5 % without a diagnostic"},

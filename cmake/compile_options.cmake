@@ -4,6 +4,8 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# A shared library of someone else's may hold ours; functions call each other as directly as without.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 find_program(CCACHE ccache)
 if(CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
@@ -19,6 +21,7 @@ string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_R
 add_library(dualdamp_options INTERFACE)
 target_compile_options(dualdamp_options INTERFACE
   -ffp-contract=off
+  -fno-semantic-interposition
   $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range;-fno-math-errno>
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wdouble-promotion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wcast-qual -Wcast-align -Wformat=2 -Wimplicit-fallthrough

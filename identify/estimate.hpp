@@ -109,7 +109,7 @@ struct Estimate {
   std::string method;
   core::Outcome outcome;  ///< not ok(): there is no estimate, and why
   bool usable = false;
-  std::string reason;  ///< why it is not usable, or what it rests on
+  std::string reason;  ///< why it is not usable, or which data it is from
   ParameterSet value;
   std::optional<ParameterSet> std;  ///< standard errors; absent when the data leave no freedom for them
   std::optional<ParameterIntervals> interval95;

@@ -127,8 +127,8 @@ inline constexpr Option cutoffs_option{
     .per_unit = 2.0 * std::numbers::pi,
     .otherwise = "from the sample rate and the motion",
     .meaning =
-        "cut-off frequencies of the filter that histories are differentiated with; the first one counts, the "
-        "others show what the choice matters"};
+        "cut-off frequencies of the filter that histories are differentiated with; the estimate uses the first; "
+        "the others show the effect of the choice"};
 inline constexpr Option least_speed_option{
     .name = "least_speed",
     .kind = OptionKind::number,

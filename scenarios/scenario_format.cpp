@@ -11,17 +11,17 @@ Section system_section() {
       choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
   friction.listed = true;
   friction.max_items = 16;
-  return {
-      {quantity("mass", {"kg"}, "sliding mass m; may be left out where measured data are to tell it").above(0),
-       quantity("stiffness", {"N/m"},
-                "spring k between mass and base; of measured data it may be left out, or 0 for a mass on a rail")
-           .at_least(0),
-       quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
-       quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
-       quantity("cubic_stiffness", {"N/m^3"}, "of the spring's elongation cubed; any sign").with_fallback(0.0),
-       words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
-       std::move(friction)},
-      {{{"damping", "damping_ratio"}, false}}};
+  return {{quantity("mass", {"kg"}, "sliding mass m; optional with measured data").above(0),
+           quantity("stiffness", {"N/m"},
+                    "spring k between mass and base; with measured data it is optional, or 0 for a mass on a rail")
+               .at_least(0),
+           quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
+           quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
+           quantity("cubic_stiffness", {"N/m^3"}, "coefficient of the cube of the spring's elongation; any sign")
+               .with_fallback(0.0),
+           words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
+           std::move(friction)},
+          {{{"damping", "damping_ratio"}, false}}};
 }
 
 Section expect_section() {
@@ -48,14 +48,14 @@ Choice choice_of(const AnalysisList& analyses) {
 Section scenario_format(const AnalysisList& analyses) {
   return {
       {words("schema", {std::string(schema_name)}, "version of this format").required(),
-       text("title", "one line for people"), section("system", system_section(), "the oscillator"),
-       choice("excitation", excitations(), "what drives it; default: none"),
+       text("title", "a title in one line"), section("system", system_section(), "the oscillator"),
+       choice("excitation", excitations(), "what drives the oscillator; default: nothing"),
        section("initial",
                {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
                  quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0)}},
                "the state at t = 0"),
        choice("analysis", choice_of(analyses), "the question").required(),
-       section_list("expect", expect_section(), "checks of the result; one that is off ends the run with status 1")
+       section_list("expect", expect_section(), "checks of the result; if a value differs, the exit status is 1")
            .items(1, 10'000),
        section("numerics",
                {{quantity("tolerance", {"1"},
@@ -67,7 +67,7 @@ Section scenario_format(const AnalysisList& analyses) {
                        "steps of the smooth engine; automatic: the exact engine where every law allows it, else "
                        "explicit steps until the motion is stiff")
                      .with_fallback("automatic")}},
-               "settings of the numerics")}};
+               "numerical settings")}};
 }
 
 }  // namespace dualdamp::scenarios

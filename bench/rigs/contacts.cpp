@@ -84,7 +84,7 @@ sim::Model reset_integrator(const RigBase& base, RigValues p) {
 
 constexpr RigParameter contact_parameter = {.name = "contact_stiffness",
                                             .unit = "N/m",
-                                            .meaning = "of the contact in series with its slider",
+                                            .meaning = "stiffness of the contact in series with its slider",
                                             .range = positive,
                                             .start = 1.0,
                                             .low = 0.05,
@@ -152,7 +152,7 @@ std::vector<Rig> sliders() {
 std::vector<Rig> bristles() {
   return {
       {.name = "dahl",
-       .meaning = "bristles that give way gradually, whatever the speed",
+       .meaning = "bristles that yield gradually, independent of speed",
        .parameters = {bristles_parameter},
        .build = dahl,
        .severity = "deflection of the bristles F0/sigma0 over the amplitude X",

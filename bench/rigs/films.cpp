@@ -70,7 +70,7 @@ std::vector<Rig> film_rigs() {
        .meaning = "the viscous force levels off with speed: a film that thins under shear",
        .parameters = {{.name = "saturation_velocity",
                        .unit = "m/s",
-                       .meaning = "speed at which the force is half of what it comes to",
+                       .meaning = "speed at which the force is half of its largest value",
                        .range = positive,
                        .start = 2.0,
                        .low = 0.05,

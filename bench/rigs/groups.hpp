@@ -48,7 +48,7 @@ using RigValues = std::span<const double>;
 inline constexpr friction::Range positive = {.low = 0.0, .low_open = true};
 inline constexpr RigParameter excess_parameter = {.name = "excess",
                                                   .unit = "1",
-                                                  .meaning = "of friction at rest over F0, over F0",
+                                                  .meaning = "excess of static friction over F0, relative to F0",
                                                   .range = {.low = 0.0},
                                                   .start = 0.3,
                                                   .low = 1e-4,

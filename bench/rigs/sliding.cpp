@@ -71,7 +71,7 @@ std::vector<Rig> by_speed() {
                       fall_parameter,
                       {.name = "lag",
                        .unit = "s",
-                       .meaning = "time by which it is late",
+                       .meaning = "time lag",
                        .range = positive,
                        .start = 0.1,
                        .low = 0.003,

@@ -36,7 +36,7 @@ std::vector<Parameter> StribeckCurve::shape_parameters() {
        .unit = "1",
        .fallback = 2.0,
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "of the speed ratio in the form gaussian"},
+       .meaning = "exponent of the speed ratio in the form gaussian"},
       {.name = "form",
        .kind = ParameterKind::choice,
        .words = {"gaussian", "exponential", "lorentz"},

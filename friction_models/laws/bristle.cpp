@@ -29,7 +29,7 @@ const std::vector<Parameter>& Bristle::parameters() {
        .kind = ParameterKind::count,
        .range = {.low = 1.0, .high = 10'000.0},
        .meaning = "number of bristles"},
-      {.name = "seed", .kind = ParameterKind::seed, .meaning = "which of the random paths"},
+      {.name = "seed", .kind = ParameterKind::seed, .meaning = "seed of the random numbers"},
   };
   return table;
 }
@@ -82,7 +82,7 @@ void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Directio
 
 LawEntry bristle_entry() {
   return {.name = "bristle",
-          .summary = "bonds that stretch, snap and form anew at random (Haessig and Friedland)",
+          .summary = "bonds that stretch, snap and form again at random (Haessig and Friedland)",
           .equation = "F = sum of stiffness (x - b);  at |x - b| = snap_distance: b = x + snap_distance U(-1, 1)",
           .states = "place of each bristle",
           .is_random = true,

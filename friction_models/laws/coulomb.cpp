@@ -21,7 +21,7 @@ const std::vector<Parameter>& Coulomb::parameters() {
 
 LawEntry coulomb_entry() {
   return {.name = "coulomb",
-          .summary = "constant force against the motion, static limit at rest",
+          .summary = "constant force against the slip, static friction at v = 0",
           .equation = "slip: F = kinetic sgn v;  stick: F = pull while |pull| <= static",
           .sources = "coulomb1785, denhartog1931",
           .modifiers = all_modifiers(),

@@ -42,7 +42,7 @@ double Dahl::dissipation(const Memory& memory, const Instant& now, Direction dir
 
 LawEntry dahl_entry() {
   return {.name = "dahl",
-          .summary = "bristles that give way gradually, whatever the speed (Dahl)",
+          .summary = "bristles that yield gradually, independent of speed (Dahl)",
           .equation = "F = sigma0 z;  z' = v |1 - sigma0 z sgn v/kinetic|^exponent sgn(1 - sigma0 z sgn v/kinetic)",
           .engine = EngineKind::smooth,
           .states = "mean deflection z of the bristles",

@@ -16,7 +16,7 @@ const std::vector<Parameter>& ElastoPlastic::parameters() {
     list.push_back({.name = "elastic_limit",
                     .unit = "m",
                     .range = {.low = 0.0, .low_open = true},
-                    .meaning = "deflection up to which the bristles do not give way, < kinetic/sigma0"});
+                    .meaning = "deflection up to which the bristles do not yield, < kinetic/sigma0"});
     return list;
   }();
   return table;

@@ -16,7 +16,7 @@ const std::vector<Parameter>& FrictionLag::parameters() {
     list.push_back({.name = "lag",
                     .unit = "s",
                     .range = {.low = 0.0, .low_open = true},
-                    .meaning = "time by which the level follows the speed late"});
+                    .meaning = "time by which the friction lags the speed"});
     list.push_back({.name = "delay",
                     .kind = ParameterKind::flag,
                     .fallback = false,
@@ -51,7 +51,7 @@ std::vector<Law> make_friction_lag(const ParameterValues& p) {
 
 LawEntry friction_lag_entry() {
   return {.name = "friction_lag",
-          .summary = "force against the motion at a level that follows the speed late",
+          .summary = "force against the motion that lags the speed",
           .equation =
               "slip: F = level sgn v;  stick: F = pull while |pull| <= level, level = g(|w|), w' = (v - w)/lag, or "
               "with delay g(|v(t - lag)|), g as the level of stribeck",

@@ -43,7 +43,7 @@ const std::vector<Parameter>& GeneralizedMaxwellSlip::parameters() {
     list.push_back({.name = "attraction",
                     .unit = "N/s",
                     .range = {.low = 0.0, .low_open = true},
-                    .meaning = "how fast slipping elements follow the level"});
+                    .meaning = "rate at which slipping elements approach the friction level"});
     return list;
   }();
   return table;

@@ -53,7 +53,7 @@ double Lugre::dissipation(const Memory& memory, const Instant& now, Direction di
 
 LawEntry lugre_entry() {
   return {.name = "lugre",
-          .summary = "bristles that bend, with damping, and give way at a level that falls with speed",
+          .summary = "bristles with stiffness and damping that yield at a level that falls with speed",
           .equation =
               "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v - sigma0 |v| z/g(v), g(v) = kinetic + (static - "
               "kinetic) exp(-(v/stribeck_velocity)^2)",

@@ -34,7 +34,7 @@ const std::vector<Parameter>& NormalVibration::parameters() {
       {.name = "lift_velocity",
        .unit = "m/s",
        .range = positive,
-       .meaning = "speed at which the lift is half of what it comes to"},
+       .meaning = "speed at which the lift is half of its largest value"},
   };
   return table;
 }

@@ -38,7 +38,7 @@ const std::vector<Parameter>& RateState::parameters() {
        .unit = "1",
        .range = positive,
        .meaning = "coefficient of steady friction at the reference velocity"},
-      {.name = "a", .unit = "1", .range = positive, .meaning = "direct effect: growth with ln of speed, at once"},
+      {.name = "a", .unit = "1", .range = positive, .meaning = "direct effect: immediate rise with ln of speed"},
       {.name = "b",
        .unit = "1",
        .range = {.low = 0.0},
@@ -89,7 +89,7 @@ double RateState::respond(const Memory& memory, const Instant& now, Direction di
 
 LawEntry rate_state_entry() {
   return {.name = "rate_state",
-          .summary = "friction that grows with ln of speed at once and falls with it over a distance of slip",
+          .summary = "friction that rises with ln of speed immediately and falls with it over a slip distance",
           .equation =
               "F = a normal_force asinh(v/(2 V0) exp((mu0 + b psi)/a));  aging: psi' = (V0/Dc) (exp(-psi) - "
               "|v|/V0);  slip: psi' = -(|v|/Dc) (ln(|v|/V0) + psi)",

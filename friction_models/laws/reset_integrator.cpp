@@ -74,7 +74,7 @@ void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, 
 
 LawEntry reset_integrator_entry() {
   return {.name = "reset_integrator",
-          .summary = "bond that stretches, breaks and is dragged along (Haessig and Friedland)",
+          .summary = "bond that stretches, breaks and then slides (Haessig and Friedland)",
           .equation =
               "stick: z' = v, F = (1 + static_gain) stiffness z + damping v, |z| < z0 = kinetic/stiffness;  "
               "slip: F = +-kinetic",

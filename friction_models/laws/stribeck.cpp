@@ -20,7 +20,7 @@ const std::vector<Parameter>& Stribeck::parameters() {
 
 LawEntry stribeck_entry() {
   return {.name = "stribeck",
-          .summary = "force against the motion that falls with speed, static limit at rest",
+          .summary = "force against the motion that falls with speed, static friction at v = 0",
           .equation =
               "slip: F = level(|v|) sgn v, level(u) = kinetic + (static - kinetic) h(u/stribeck_velocity);  "
               "stick: F = pull while |pull| <= static",

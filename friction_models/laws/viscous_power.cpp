@@ -12,11 +12,11 @@ const std::vector<Parameter>& ViscousPower::parameters() {
        .unit = "m/s",
        .fallback = 1.0,
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "speed to which the power refers"},
+       .meaning = "reference speed of the power"},
       {.name = "exponent",
        .unit = "1",
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "of the speed: 1 a dashpot, 2 drag"},
+       .meaning = "exponent of the speed: 1 a dashpot, 2 drag"},
   };
   return table;
 }
@@ -24,7 +24,7 @@ const std::vector<Parameter>& ViscousPower::parameters() {
 LawEntry viscous_power_entry() {
   return {
       .name = "viscous_power",
-      .summary = "force against the motion that goes with a power of speed: drag, films that thin under shear",
+      .summary = "force against the motion proportional to a power of speed: drag, films that thin under shear",
       .equation = "F = coefficient (|v|/reference_velocity)^exponent sgn v",
       .engine = EngineKind::smooth,
       .sources = "ostwald1925, jacobsen1930",

@@ -11,14 +11,14 @@ const std::vector<Parameter>& ViscousSaturating::parameters() {
       {.name = "saturation_velocity",
        .unit = "m/s",
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "speed at which the force is half of what it comes to"},
+       .meaning = "speed at which the force is half of its largest value"},
   };
   return table;
 }
 
 LawEntry viscous_saturating_entry() {
   return {.name = "viscous_saturating",
-          .summary = "viscous friction that levels off with speed",
+          .summary = "viscous friction that saturates with speed",
           .equation = "F = coefficient v/(1 + |v|/saturation_velocity)",
           .engine = EngineKind::smooth,
           .sources = "cross1965",

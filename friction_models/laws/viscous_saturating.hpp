@@ -1,5 +1,5 @@
 #pragma once
-/// Viscous friction that levels off with speed, as the shear stress of a film that thins or warms under shear.
+/// Viscous friction that saturates with speed, as the shear stress of a film that thins or warms under shear.
 ///
 ///   F = coefficient v/(1 + |v|/saturation_velocity)                    [N]
 ///

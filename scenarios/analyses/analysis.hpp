@@ -62,7 +62,7 @@ class Campaign {
   Campaign(const Campaign&) = delete;
   Campaign& operator=(const Campaign&) = delete;
 
-  /// What the run asks of the machine, in one line for people.
+  /// What the run asks of the machine, in a title in one line.
   [[nodiscard]] virtual std::string size(const RunContext& context) const = 0;
 };
 

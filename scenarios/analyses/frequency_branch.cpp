@@ -17,13 +17,12 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
 }  // namespace
 
 const Analysis& frequency_branch_analysis() {
-  static const Analysis analysis = {
-      .name = "frequency_branch",
-      .summary = "continuation of one orbit in frequency",
-      .keys = {{range("frequencies", {"rad/s"}, "forcing frequencies, in place of the excitation's own")}},
-      .needs = needs_of_steady_states({"amplitude"}),
-      .results = branch_fields({"omega", "rad/s", "forcing frequency"}),
-      .ask = ask};
+  static const Analysis analysis = {.name = "frequency_branch",
+                                    .summary = "continuation of one orbit in frequency",
+                                    .keys = {{range("frequencies", {"rad/s"}, "range of the forcing frequency")}},
+                                    .needs = needs_of_steady_states({"amplitude"}),
+                                    .results = branch_fields({"omega", "rad/s", "forcing frequency"}),
+                                    .ask = ask};
   return analysis;
 }
 

@@ -65,7 +65,9 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
   IdentifyQuestion::Methods methods = {
       methods_of(section.at("methods")),
       {model.oscillator.mass, model.oscillator.stiffness,
-       model.excitation.is_harmonic() ? model.excitation.frequency : identify::unknown},
+       // A measurement at several frequencies needs none of the excitation's own, which is then zero.
+       model.excitation.is_harmonic() && model.excitation.frequency > 0.0 ? model.excitation.frequency
+                                                                          : identify::unknown},
       method_options(section)};
   if (values.data) return std::make_unique<IdentifyQuestion>(std::move(*values.data), std::move(methods));
   IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), model)};
@@ -112,14 +114,15 @@ Answer IdentifyQuestion::run(const RunContext& context) const {
 }
 
 const Analysis& identify_analysis() {
-  static const Analysis analysis = {.name = "identify",
-                                    .summary = "what the identification methods make of measured or simulated data",
-                                    .keys = keys(),
-                                    .needs = needs(),
-                                    .results = estimate_fields(),
-                                    .check = check,
-                                    .ask = ask,
-                                    .length_of = length_of};
+  static const Analysis analysis = {
+      .name = "identify",
+      .summary = "estimates by the identification methods from measured or simulated data",
+      .keys = keys(),
+      .needs = needs(),
+      .results = estimate_fields(),
+      .check = check,
+      .ask = ask,
+      .length_of = length_of};
   return analysis;
 }
 

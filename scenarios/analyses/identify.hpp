@@ -1,5 +1,5 @@
 #pragma once
-/// `identify`: what the identification methods make of measured or simulated data.
+/// `identify`: estimates by the identification methods from measured or simulated data.
 
 #include <cstdint>
 #include <string>

@@ -28,7 +28,7 @@ ResultFields fields() {
                  {"points[].x", "m", "output amplitude (peak - trough)/2"},
                  {"points[].stops", "1", "stops in a period"},
                  {"points[].sticks", "1", "sticks in a period; 1 without a stop: the mass never moves"},
-                 {"points[].reason", "", "only of a point without numbers: why"},
+                 {"points[].reason", "", "for a point without numbers: the reason"},
                  {"regimes[].stops", "1", "stops in a period"},
                  {"regimes[].sticks", "1", "sticks in a period"},
                  {"regimes[].points", "1", "points of the map in this regime"},
@@ -40,7 +40,7 @@ ResultFields fields() {
                  {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
                  {"boundary[].x", "m", "output amplitude there"},
                  {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
-                 {"boundary[].reason", "", "only where no boundary was found: why"}},
+                 {"boundary[].reason", "", "where no boundary was found: the reason"}},
                 certificate_fields());
 }
 

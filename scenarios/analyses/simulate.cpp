@@ -15,7 +15,8 @@ namespace {
 Section keys() {
   return {{quantity("duration", {"s"}, "time to simulate").above(0),
            quantity("cycles", {"1"}, "time to simulate, in forcing periods").above(0).at_most(max_periods),
-           quantity("sample_rate", {"1/s"}, "rows a second in history.csv; without it there is none").above(0)},
+           quantity("sample_rate", {"1/s"}, "rows of history.csv in a second; without it the file is not written")
+               .above(0)},
           {{{"duration", "cycles"}, true}}};
 }
 

@@ -20,7 +20,7 @@ const Analysis& xy_branch_analysis() {
   static const Analysis analysis = {
       .name = "xy_branch",
       .summary = "continuation of one orbit in amplitude, past folds and through orbits that do not attract",
-      .keys = {{range("amplitudes", {"m", "N"}, "excitation amplitudes, in place of the excitation's own")}},
+      .keys = {{range("amplitudes", {"m", "N"}, "range of the excitation amplitude")}},
       .needs = needs_of_steady_states({"frequency"}),
       .results = branch_fields({"Y", "m or N", "excitation amplitude"}),
       .ask = ask};

@@ -11,14 +11,14 @@ constexpr auto max_items = static_cast<std::size_t>(max_points);
 }  // namespace
 
 Field amplitudes() {
-  return grid("amplitudes", {"m", "N"}, "excitation amplitudes, each in place of the excitation's own")
+  return grid("amplitudes", {"m", "N"}, "excitation amplitudes; each replaces that of the excitation")
       .required()
       .at_least(0)
       .items(1, max_items);
 }
 
 Field frequencies() {
-  return grid("frequencies", {"rad/s"}, "forcing frequencies, each in place of the excitation's own")
+  return grid("frequencies", {"rad/s"}, "forcing frequencies; each replaces that of the excitation")
       .required()
       .above(0)
       .items(1, max_items);
@@ -32,13 +32,18 @@ Field peaks() {
 }
 
 Field seed() {
-  return integer("seed", "of the random values").with_fallback(0).at_least(0).at_most(friction::seed_range.high);
+  return integer("seed", "seed of the random numbers")
+      .with_fallback(0)
+      .at_least(0)
+      .at_most(friction::seed_range.high);
 }
 
 Field range(std::string name, const std::vector<std::string>& units, std::string meaning) {
   return section(std::move(name),
                  {{quantity("from", units, "value at the first point").required().above(0),
-                   quantity("to", units, "the branch is followed until it leaves the range").required().above(0)}},
+                   quantity("to", units, "the continuation ends where the branch leaves the range")
+                       .required()
+                       .above(0)}},
                  std::move(meaning))
       .required();
 }

@@ -26,7 +26,7 @@ std::vector<Field> harmonic_fields(const std::string& unit) {
 
 std::vector<Field> noise_fields(const std::string& unit) {
   return {quantity("intensity", {unit}, "spectral density at low frequencies, two-sided").required().at_least(0),
-          quantity("bandwidth", {"rad/s"}, "linear between random values at the rate of twice this")
+          quantity("bandwidth", {"rad/s"}, "the signal is linear between random values at twice this rate")
               .required()
               .above(0),
           seed()};

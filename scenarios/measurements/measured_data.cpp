@@ -66,8 +66,8 @@ Field for_columns(std::string name, std::string meaning, bool numbers_only) {
 std::vector<Field> data_fields() {
   return {text("data",
                "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
-          for_columns("units", "units of the columns of the data file where it does not state them: {x: mm}", true),
-          for_columns("columns", "what the data file calls the columns, or their numbers: {x: LVDT 2}", false)};
+          for_columns("units", "units of columns for which the data file states none: {x: mm}", true),
+          for_columns("columns", "names or numbers of the columns in the data file: {x: LVDT 2}", false)};
 }
 
 void read_data(CheckedFile& file) {

@@ -18,19 +18,16 @@ namespace {
 /// How often the tests of a measurement are repeated, and what friction does in between.
 std::vector<Field> repetition() {
   return {
-      integer("sweeps", "times that all tests are made, one sweep after the other")
-          .with_fallback(1)
-          .at_least(1)
-          .at_most(10'000),
-      section(
-          "friction_drift",
-          {{quantity("rate", {"1"}, "change of all forces of friction from sweep to sweep, relative to the first")
-                .with_fallback(0.0),
-            quantity("walk", {"1"}, "standard deviation of a random change from sweep to sweep, likewise")
-                .with_fallback(0.0)
-                .at_least(0),
-            seed()}},
-          "friction that differs from sweep to sweep")};
+      integer("sweeps", "number of sweeps; each repeats all tests").with_fallback(1).at_least(1).at_most(10'000),
+      section("friction_drift",
+              {{quantity("rate", {"1"}, "change of all friction forces from sweep to sweep, relative to the first")
+                    .with_fallback(0.0),
+                quantity("walk", {"1"},
+                         "standard deviation of a random change from sweep to sweep, relative to the first")
+                    .with_fallback(0.0)
+                    .at_least(0),
+                seed()}},
+              "friction that differs from sweep to sweep")};
 }
 
 Choice measurements() {
@@ -40,7 +37,7 @@ Choice measurements() {
       optional(amplitudes()), quantity("duration", {"s"}, "length of a record").above(0),
       quantity("cycles", {"1"}, "length of a record in forcing periods").above(0).at_most(max_periods),
       quantity("settle", {"s"}, "time from the initial state that is not recorded").with_fallback(0.0).at_least(0),
-      word_list("signals", {"x", "v", "a"}, "signals recorded beside that of the drive; default: all")};
+      word_list("signals", {"x", "v", "a"}, "signals recorded in addition to the drive; default: all")};
   for (std::vector<Field>* fields : {&curve, &response, &histories})
     for (Field& field : repetition()) fields->push_back(std::move(field));
   return {"type",
@@ -132,8 +129,7 @@ identify::History outline_history(const CheckedFile& file) {
 
 std::vector<Field> measurement_fields() {
   return {choice("measurement", measurements(), "a synthetic measurement of this scenario's system"),
-          section("sensors", {sensor_fields()},
-                  "what the sensors make of a synthetic measurement; default: perfect ones")};
+          section("sensors", {sensor_fields()}, "sensors of a synthetic measurement; default: perfect ones")};
 }
 
 Measurement measurement_of(const Json& section, const sim::Model& model) {

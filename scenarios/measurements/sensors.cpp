@@ -8,15 +8,16 @@ namespace dualdamp::scenarios {
 namespace {
 
 Field sensor(const std::string& name, const std::string& unit, const std::string& what) {
-  return section(name,
-                 {{quantity("noise", {unit}, "standard deviation of a reading").with_fallback(0.0).at_least(0),
-                   quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
-                   quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
-                   quantity("phase_lag", {"rad"}, "by which it comes late, at the forcing frequency").at_least(0),
-                   quantity("delay", {"s"}, "by which it comes late").at_least(0),
-                   quantity("clipping", {unit}, "readings beyond this are cut off, on either side").above(0)},
-                  {{{"phase_lag", "delay"}, false}}},
-                 "sensor of " + what);
+  return section(
+      name,
+      {{quantity("noise", {unit}, "noise level: standard deviation of a reading").with_fallback(0.0).at_least(0),
+        quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
+        quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
+        quantity("phase_lag", {"rad"}, "lag of the reading at the forcing frequency").at_least(0),
+        quantity("delay", {"s"}, "lag of the reading").at_least(0),
+        quantity("clipping", {unit}, "readings are limited to plus and minus this value").above(0)},
+       {{{"phase_lag", "delay"}, false}}},
+      "sensor of " + what);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ ResultFields energy_fields() {
 ResultFields certificate_fields() {
   return {{"certificate.searches", "1", "searches for the next event"},
           {"certificate.panels", "1", "stretches of time examined"},
-          {"certificate.splits", "1", "how many of them had to be divided"},
+          {"certificate.splits", "1", "how many of them were divided"},
           {"certificate.grazings", "1", "guards that touch zero and do not cross it"}};
 }
 

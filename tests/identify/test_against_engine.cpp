@@ -50,8 +50,8 @@ TEST_CASE("A simulated resonance test returns its friction") {
       measure(bearing_under(zeta, F0), natural, {2.0 * x_f, 2.3 * x_f, 2.6 * x_f, 2.9 * x_f, 3.2 * x_f});
   const KnownConstants constants{mass, stiffness, natural};
   // What is left is the method's own error, the neglect of H: below 1 % at r = 1, and known in advance from Eq (3).
-  for (const auto& method : {resonance_least_squares, resonance_two_point}) {
-    const Estimate e = method(record, constants, {});
+  for (const auto& method : {resonance_least_squares_method, resonance_two_point_method}) {
+    const Estimate e = method.run(record, constants);
     REQUIRE(e.outcome.ok());
     CHECK(e.usable);
     CHECK(e.warnings.empty());

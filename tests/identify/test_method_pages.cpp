@@ -54,7 +54,7 @@ TEST_CASE("The examples of the method pages give the printed numbers") {
   for (const identify::MethodEntry& method : identify::methods()) {
     const std::string name(method.name);
     CAPTURE(name);
-    const std::string page = read_text(std::string(DUALDAMP_SOURCE_DIR) + "/docs/methods/" + name + ".md");
+    const std::string page = read_text((DUALDAMP_SOURCE_DIR "/docs/methods/" + name).append(".md"));
     const std::string csv = between(page, "```csv\n", "```");
     if (csv.empty()) {
       // Histories are too long for a page: there a scenario measures, and expects the printed numbers.

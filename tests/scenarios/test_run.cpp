@@ -260,3 +260,11 @@ TEST_CASE("run: a curve of the program is data for the program", "[scenarios][ru
   CHECK(record.record.pairs->pairs.size() == 4);
   CHECK(record.record.pairs->pairs[3].x == result.tables[0].columns[1].numbers[3]);
 }
+
+TEST_CASE("run: an option that some of the chosen methods do not use is named in a warning", "[scenarios][run]") {
+  const RunResult result = scenarios::run(
+      scenario_of("{type: identify, measurement: {type: xy_curve, amplitudes: [0.3 m, 0.4 m, 0.5 m]}, "
+                  "methods: [resonance_two_point, resonance_least_squares], bootstrap: 20}"));
+  CHECK(std::ranges::find(result.warnings, "the option 'bootstrap' is not used by resonance_two_point") !=
+        result.warnings.end());
+}

@@ -56,7 +56,7 @@ ResultFields branch_fields(const ResultField& parameter) {
                  {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
                  {"changes[].x", "m", "output amplitude there"},
                  {"changes[].stops_before", "1", "stops before"},
-                 {"changes[].stops_after", "1", "stops behind"}},
+                 {"changes[].stops_after", "1", "stops after"}},
                 certificate_fields());
 }
 

@@ -63,7 +63,7 @@ ResultFields curve_fields(const ResultFields& own) {
                  {"points[].stops", "1", "stops in a period"},
                  {"points[].sticks", "1", "sticks in a period"},
                  {"points[].stable", "", "all Floquet multipliers inside the unit circle"},
-                 {"points[].reason", "", "only of a point without numbers: why"}});
+                 {"points[].reason", "", "for a point without numbers: the reason"}});
 }
 
 std::optional<std::size_t> number_of_points(const CheckedFile& file, std::string_view list) {

@@ -30,7 +30,7 @@ struct Reference {
 };
 
 std::vector<Reference> references() {
-  std::ifstream file(std::string(DUALDAMP_SOURCE_DIR) + "/tests/reference/slider_orbits.csv");
+  std::ifstream file(DUALDAMP_SOURCE_DIR "/tests/reference/slider_orbits.csv");
   std::vector<Reference> list;
   std::string line;
   std::getline(file, line);

@@ -145,7 +145,7 @@ namespace {
 /// The drive train of the EMPS benchmark (janot2019), when it is there; else nothing. Not part of this project.
 Record emps() {
   const char* named = std::getenv("DUALDAMP_EMPS");
-  const std::string beside = std::string(DUALDAMP_SOURCE_DIR) + "/../shared/data/emps/estimation.csv";
+  const std::string beside = DUALDAMP_SOURCE_DIR "/../shared/data/emps/estimation.csv";
   std::ifstream file(named != nullptr ? named : beside.c_str());
   Record record;
   std::string line;
