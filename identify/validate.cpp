@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dualdamp::identify {
 
@@ -28,9 +29,11 @@ void check(double value, bool may_be_zero, const std::string& name, Faults& faul
 
 void check(const Pair& pair, const std::string& where, Faults& faults) {
   check(pair.omega, false, where + "the forcing frequency", faults);
-  check(pair.fundamental, true, where + "the fundamental amplitude", faults);
-  check(pair.mean_square_speed, true, where + "the mean square speed", faults);
-  if (std::isinf(pair.phase)) add(faults, where, "the phase is not finite", "a finite number");
+  // What a sensor read of a small amplitude may be below zero, by noise.
+  for (const auto& [value, name] : {std::pair{pair.fundamental, "fundamental amplitude"},
+                                    {pair.mean_square_speed, "mean square speed"},
+                                    {pair.phase, "phase"}})
+    if (std::isinf(value)) add(faults, where, std::string("the ") + name + " is not finite", "a finite number");
 }
 
 void check(const DecayRecord& decay, Faults& faults) {

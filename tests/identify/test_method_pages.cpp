@@ -30,10 +30,10 @@ std::string between(const std::string& page, const std::string& open, const std:
   return page.substr(begin, page.find(close, begin) - begin);
 }
 
-/// The value of `--name "1 kg"` in the page's command, SI; 0 when it is not there.
+/// The value of `--name "1 kg"` in the page's command, SI; unknown when it is not there.
 double option(const std::string& page, const std::string& name, const std::string& unit) {
   const std::string text = between(page, "--" + name + " \"", "\"");
-  return text.empty() ? 0.0 : core::parse_quantity(text, unit).value.value();
+  return text.empty() ? identify::unknown : core::parse_quantity(text, unit).value.value();
 }
 
 /// A printed number and half a unit of its last digit.
