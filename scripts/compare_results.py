@@ -6,7 +6,7 @@ usage: compare_results.py BASELINE PROGRAM [--record] [--only TEXT]...
 The jobs are `run` on every scenario under scenarios/ and `identify` on every data file listed below. With --record
 their outputs are written to the directory BASELINE; without it the jobs are run in a temporary directory and every
 difference from BASELINE is printed, a line each: result.json and the other JSON files value by value, CSV files cell
-by cell, and the exit status. What says who computed it and when (program, provenance, title, comments of CSV files) is left
+by cell, and the exit status. What says who computed it and when (program, provenance, title, campaign, comments of CSV files) is left
 out. --only picks the jobs whose name contains TEXT. Exit status 1 when something differs.
 """
 
@@ -30,7 +30,7 @@ DATA = {
     "scenarios/paper/subset_trend.csv": [*RIG, "--frequency", "6.17 Hz"],
     "tests/valid/pairs.csv": ["--mass", "1 kg", "--stiffness", "100 N/m", "--frequency", "10 rad/s"],
 }
-VARYING = {"program", "provenance", "title"}
+VARYING = {"program", "provenance", "title", "campaign"}
 SHOWN = 8  # differences of one job
 
 

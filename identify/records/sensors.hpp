@@ -6,7 +6,8 @@
 ///   reading = clip(round((1 + gain_error) q + noise n)),   n normal with variance 1,
 ///
 /// rounded to multiples of `resolution`, cut off at +-`clipping`. A signal that lags is read `lag(w)` late; of
-/// histories the motion that is sampled must allow for that (`scenarios/measurements/measure.hpp`), of phases it is done here.
+/// histories the motion that is sampled must allow for that (`scenarios/measurements/measure.hpp`), of phases it is
+/// done here.
 ///
 /// An amplitude is half the difference of a peak and a trough, each read once a period, averaged over
 /// `average_cycles`: a standard deviation of noise/sqrt(2 periods). A phase is read at zero crossings of x and y,

@@ -16,11 +16,12 @@
 
 namespace dualdamp::identify {
 
-/// (x[i+1] - x[i-1])/2 times the rate [Hz]; at the ends the same second order one-sided. Zeros from fewer than three samples.
-/// Gain on i w: sin(wT)/(wT).
+/// (x[i+1] - x[i-1])/2 times the rate [Hz]; at the ends the same second order one-sided. Zeros from fewer than
+/// three samples. Gain on i w: sin(wT)/(wT).
 [[nodiscard]] std::vector<double> central_difference(std::span<const double> x, double sample_rate);
 
-/// (x[i+1] - 2 x[i] + x[i-1]) times the rate squared; the ends repeat their neighbours. Zeros from fewer than three samples.
+/// (x[i+1] - 2 x[i] + x[i-1]) times the rate squared; the ends repeat their neighbours. Zeros from fewer than three
+/// samples.
 [[nodiscard]] std::vector<double> second_difference(std::span<const double> x, double sample_rate);
 
 /// Mean of x[i-2] ... x[i+2]; towards the ends of fewer samples, still centred. No lag.

@@ -49,7 +49,7 @@ class Engine {
   [[nodiscard]] double time() const;  ///< s
   [[nodiscard]] long periods_passed() const {
     return periods_passed_;
-  }                                                     ///< whole forcing periods passed, or cells of a noise
+  }  ///< whole forcing periods passed, or cells of a noise
   [[nodiscard]] double position() const { return x_; }  ///< m
   [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/search_result.hpp"
 #include "core/outcome.hpp"
+#include "core/search_result.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/model.hpp"
 #include "sim/motion/energy.hpp"

@@ -268,7 +268,8 @@ class Refusals(Case):
 
     def test_an_interrupted_list_of_files_stops_and_keeps_what_is_complete(self):
         self.write("long.yaml", BASE.replace("steady_state", "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}"))
-        process = subprocess.Popen([PROGRAM, "run", "base.yaml", "long.yaml", "base.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.write("last.yaml", BASE)
+        process = subprocess.Popen([PROGRAM, "run", "base.yaml", "long.yaml", "last.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         done = self.folder / "results/base/report.html"
         deadline = time.monotonic() + 60.0
         while not done.exists() and time.monotonic() < deadline:
