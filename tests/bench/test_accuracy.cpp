@@ -6,6 +6,7 @@
 
 #include "bench/accuracy/accuracy.hpp"
 #include "identify/methods.hpp"
+#include "tests/support/source_tree.hpp"
 
 using namespace dualdamp;
 
@@ -16,7 +17,7 @@ std::vector<bench::Cell> cells_of(std::string_view method, double noise, int see
 }
 
 std::string committed_page() {
-  std::ifstream file(DUALDAMP_SOURCE_DIR "/docs/methods/accuracy.md");
+  std::ifstream file(dualdamp::testing::in_tree("docs/methods/accuracy.md"));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

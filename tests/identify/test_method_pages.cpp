@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "identify/methods.hpp"
 #include "identify/readers/record_reader.hpp"
+#include "tests/support/source_tree.hpp"
 
 using namespace dualdamp;
 
@@ -54,7 +55,7 @@ TEST_CASE("The examples of the method pages give the printed numbers") {
   for (const identify::MethodEntry& method : identify::methods()) {
     const std::string name(method.name);
     CAPTURE(name);
-    const std::string page = read_text((DUALDAMP_SOURCE_DIR "/docs/methods/" + name).append(".md"));
+    const std::string page = read_text(dualdamp::testing::in_tree("docs/methods/" + name + ".md"));
     const std::string csv = between(page, "```csv\n", "```");
     if (csv.empty()) {
       // Histories are too long for a page: there a scenario measures, and expects the printed numbers.

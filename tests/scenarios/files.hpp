@@ -10,10 +10,11 @@
 
 #include "bench/analyses.hpp"
 #include "scenarios/scenario.hpp"
+#include "tests/support/source_tree.hpp"
 
 namespace dualdamp::testing {
 
-inline const std::filesystem::path root = DUALDAMP_SOURCE_DIR;
+inline const std::filesystem::path root = in_tree("");
 
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -1,5 +1,6 @@
 #include "identify/methods/histories/recursive_least_squares.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,30 +17,32 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// theta and P, in units that make both columns of order one.
+/// The recursion in its information form, P^-1 <- lambda P^-1 + psi psi^T, in units that make both columns of order
+/// one: the form with P itself subtracts numbers of the size of its start and keeps only some of their digits.
 class Recursion {
  public:
   Recursion(double forgetting, double speed) : forgetting_(forgetting), speed_(speed) {
-    constexpr double ignorance = 1e12;  // variance at the start: the first samples decide
-    P_ << ignorance, 0.0, 0.0, ignorance;
+    constexpr double known_at_start = 1e-12;  // in samples: the first samples decide
+    information_ = known_at_start * Eigen::Matrix2d::Identity();
   }
 
   void update(double force, double v, double sign) {
     const Eigen::Vector2d psi(v / speed_, sign);
-    const Eigen::Vector2d gain = P_ * psi / (forgetting_ + psi.dot((P_ * psi).eval()));
-    theta_ += gain * (force - psi.dot(theta_));
-    P_ = ((P_ - gain * (psi.transpose() * P_).eval()) / forgetting_).eval();
-    P_(1, 0) = P_(0, 1) = 0.5 * (P_(0, 1) + P_(1, 0));  // rounding must not make P lose its symmetry
+    information_ = forgetting_ * information_ + psi * psi.transpose();
+    moment_ = forgetting_ * moment_ + force * psi;
   }
 
-  [[nodiscard]] double c() const { return theta_[0] / speed_; }
-  [[nodiscard]] double F0() const { return theta_[1]; }
+  /// (c, F0).
+  [[nodiscard]] Eigen::Vector2d state() const {
+    const Eigen::Vector2d theta = information_.ldlt().solve(moment_);
+    return {theta[0] / speed_, theta[1]};
+  }
 
  private:
   double forgetting_;
   double speed_;
-  Eigen::Vector2d theta_ = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d P_;
+  Eigen::Matrix2d information_;
+  Eigen::Vector2d moment_ = Eigen::Vector2d::Zero();
 };
 
 /// The samples that count, as rows.
@@ -83,8 +86,9 @@ Recursion recursion_over(const Rows& rows, double forgetting, double speed, Esti
     recursion.update(rows.target[i], rows.columns(i, 0), rows.columns(i, 1));
     if (i % every != 0 || i < 2) continue;
     curve.columns[0].values.push_back(rows.time[static_cast<std::size_t>(i)]);
-    curve.columns[1].values.push_back(recursion.c());
-    curve.columns[2].values.push_back(recursion.F0());
+    const Eigen::Vector2d state = recursion.state();
+    curve.columns[1].values.push_back(state[0]);
+    curve.columns[2].values.push_back(state[1]);
   }
   return recursion;
 }
@@ -128,8 +132,9 @@ RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, cons
   if (!result.fit) return result;
   const double fastest = result.rows.columns.col(0).cwiseAbs().maxCoeff();
   const Recursion recursion = recursion_over(result.rows, options.forgetting, fastest, result.curve);
+  const Eigen::Vector2d state = recursion.state();
   const Eigen::Matrix2d covariance = covariance_of(*result.fit, options.forgetting);
-  result.reading.parameters = Eigen::Vector4d(constants.mass, recursion.c(), constants.stiffness, recursion.F0());
+  result.reading.parameters = Eigen::Vector4d(constants.mass, state[0], constants.stiffness, state[1]);
   result.reading.errors = Eigen::Vector4d(0.0, std::sqrt(covariance(0, 0)), 0.0, std::sqrt(covariance(1, 1)));
   return result;
 }

@@ -13,6 +13,7 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/iwan.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/source_tree.hpp"
 
 using namespace dualdamp;
 
@@ -30,7 +31,7 @@ struct Reference {
 };
 
 std::vector<Reference> references() {
-  std::ifstream file(DUALDAMP_SOURCE_DIR "/tests/reference/slider_orbits.csv");
+  std::ifstream file(dualdamp::testing::in_tree("tests/reference/slider_orbits.csv"));
   std::vector<Reference> list;
   std::string line;
   std::getline(file, line);

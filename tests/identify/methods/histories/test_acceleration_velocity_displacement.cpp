@@ -10,6 +10,7 @@
 
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "tests/identify/histories.hpp"
+#include "tests/support/source_tree.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify;
@@ -145,7 +146,7 @@ namespace {
 /// The drive train of the EMPS benchmark (janot2019), when it is there; else nothing. Not part of this project.
 Record emps() {
   const char* named = std::getenv("DUALDAMP_EMPS");
-  const std::string beside = DUALDAMP_SOURCE_DIR "/../shared/data/emps/estimation.csv";
+  const std::string beside = dualdamp::testing::in_tree("../shared/data/emps/estimation.csv").string();
   std::ifstream file(named != nullptr ? named : beside.c_str());
   Record record;
   std::string line;
