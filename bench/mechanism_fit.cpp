@@ -10,7 +10,7 @@
 
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/statistics/least_squares.hpp"
-#include "sim/orbits/steady_state.hpp"
+#include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::bench {
 
@@ -99,6 +99,13 @@ double to_unknown(const RigParameter& parameter, double value) {
   return goes_by_ratios(parameter) ? std::log(value) : value;
 }
 
+sim::Model test_model(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+                      std::span<const double> values, double Y) {
+  sim::Model model = driven(mechanism, apparatus, friction, values, Y);
+  model.solver.tolerance = accuracy;
+  return model;
+}
+
 /// Ratios to where the search of a parameter begins.
 constexpr std::array<double, 3> ratios = {1.0, 0.3, 3.0};
 
@@ -172,19 +179,18 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
 }
 
 std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-                                 std::span<const double> values, const std::vector<double>& Y) {
-  sim::SteadyStateOptions options;
-  options.tolerance = accuracy;
-  options.max_periods = patience;
-  options.full_account = false;
+                                 std::span<const double> values, const std::vector<double>& Y,
+                                 const std::vector<sim::KnownOrbit>& near) {
+  const sim::SteadyStateOptions options{.tolerance = accuracy, .max_periods = patience, .full_account = false};
   Response result;
-  for (const double amplitude : Y) {
-    sim::Model model = driven(mechanism, apparatus, friction, values, amplitude);
-    model.solver.tolerance = accuracy;
-    const sim::SteadyState state = sim::steady_state(model, options);
+  for (std::size_t i = 0; i < Y.size(); ++i) {
+    const sim::Model model = test_model(mechanism, apparatus, friction, values, Y[i]);
+    sim::SteadyState state =
+        near.empty() ? sim::steady_state(model, options) : sim::steady_state_near(near[i], model, options);
     if (!state.outcome.ok()) return std::nullopt;
     result.x.push_back(state.amplitude);
     result.sticks = result.sticks || !state.sticks.empty();
+    result.orbits.push_back(std::move(state));
   }
   return result;
 }
@@ -210,6 +216,23 @@ MechanismSearch::Point MechanismSearch::point(const VectorXd& p) const {
                            (goes_by_ratios(parameter) ? std::exp(u) : u));
   }
   return point;
+}
+
+/// Of the test at p; next to the last one where p differs by the step of a derivative. A test from nothing is
+/// repeated next to itself, so that it closes as well as those: differences bear no less.
+std::optional<Response> MechanismSearch::outputs(const VectorXd& p, LastTest& last) const {
+  const Point here = point(p);
+  const bool is_near = last.p.size() > 0 && (p - last.p).cwiseAbs().maxCoeff() < 2.0 * step;
+  if (!is_near) {
+    last = {};
+    const std::optional<Response> found = response(mechanism_, apparatus_, here.friction, here.values, here.Y);
+    if (!found) return std::nullopt;
+    for (std::size_t i = 0; i < here.Y.size(); ++i)
+      last.near.push_back(sim::known_orbit(
+          test_model(mechanism_, apparatus_, here.friction, here.values, here.Y[i]), found->orbits[i]));
+    last.p = p;
+  }
+  return response(mechanism_, apparatus_, here.friction, here.values, here.Y, last.near);
 }
 
 VectorXd MechanismSearch::bounds(bool high) const {
@@ -269,11 +292,11 @@ MechanismFit MechanismSearch::fit(const VectorXd& from, double tolerance) const 
   const identify::KnownConstants constants{apparatus_.oscillator.mass, apparatus_.oscillator.stiffness,
                                            apparatus_.reference.frequency};
   MechanismFit result;
+  LastTest last;
   const auto test = [&](const VectorXd& p) -> std::optional<VectorXd> {
-    const Point here = point(p);
-    const auto outputs = response(mechanism_, apparatus_, here.friction, here.values, here.Y);
-    if (!outputs || outputs->sticks) return std::nullopt;
-    result.levels = {here.Y, outputs->x};
+    const auto response = outputs(p, last);
+    if (!response || response->sticks) return std::nullopt;
+    result.levels = {point(p).Y, response->x};
     const auto readings = read_parts(result.levels, study_, constants);
     if (!readings) return std::nullopt;
     result.readings = *readings;

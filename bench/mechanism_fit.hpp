@@ -22,6 +22,7 @@
 #include "bench/rigs/rigs.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
+#include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::bench {
 
@@ -50,14 +51,17 @@ struct PartReading {
 [[nodiscard]] std::optional<Levels> reconstruct(const MechanismStudy& study,
                                                 const identify::KnownConstants& constants);
 
-/// Output amplitudes of the mechanism at input amplitudes; nothing where one has no steady state.
+/// Output amplitudes of the mechanism at input amplitudes; nothing where one has no steady state. `orbits`: those
+/// of a test that differs little, near which these are sought, or none yet; then those of this test.
 struct Response {
   std::vector<double> x;  ///< m
   bool sticks = false;    ///< at one of them at least
+  std::vector<sim::SteadyState> orbits;
 };
 [[nodiscard]] std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatus,
                                                const RigFriction& friction, std::span<const double> values,
-                                               const std::vector<double>& Y);
+                                               const std::vector<double>& Y,
+                                               const std::vector<sim::KnownOrbit>& near = {});
 
 struct MechanismFit {
   core::Outcome outcome;
@@ -94,12 +98,19 @@ class MechanismSearch {
     std::vector<double> Y;
   };
 
+  /// The last test that was computed from nothing; its orbits lead to those of its derivatives.
+  struct LastTest {
+    Eigen::VectorXd p{};
+    std::vector<sim::KnownOrbit> near{};
+  };
+
   // The unknowns are numbers of order one: F0 and c over those of the study, first level and spacing over those
   // near, and the parameters over their scales, by their logarithms where they cannot vanish.
   [[nodiscard]] bool levels_are_free() const { return study_.amplitudes.empty(); }
   [[nodiscard]] Eigen::Index first_parameter() const { return levels_are_free() ? 4 : 2; }
   [[nodiscard]] std::size_t parameters() const { return mechanism_.parameters.size(); }
   [[nodiscard]] Point point(const Eigen::VectorXd& p) const;
+  [[nodiscard]] std::optional<Response> outputs(const Eigen::VectorXd& p, LastTest& last) const;
   [[nodiscard]] Eigen::VectorXd bounds(bool high) const;
   [[nodiscard]] Eigen::VectorXd start(std::size_t number) const;
   /// Residuals that draw p to the first start.

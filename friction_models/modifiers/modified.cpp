@@ -21,9 +21,12 @@ class Parts {
  public:
   Parts(const Memory& memory, bool warms) : whole_(memory) {
     if (!warms) return;
-    own_ = memory;
-    power_ = own_->state.back();
-    own_->state.pop_back();
+    // Not a copy cut short: most laws under warming have no state of their own, and then nothing is allocated.
+    own_ = Memory{.mode = memory.mode,
+                  .indices = memory.indices,
+                  .state = {memory.state.begin(), memory.state.end() - 1},
+                  .course = memory.course};
+    power_ = memory.state.back();
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -133,6 +136,7 @@ class ModifiedLaw final : public LawModel,
   [[nodiscard]] Instant modify(const OpenParts& parts, const Instant& now, Direction direction) const {
     return modify(parts.inner, parts.course, parts.power, now, direction);
   }
+  void warm(Instant& modified, double rate) const;
   [[nodiscard]] double warming_rate(const Memory& inner, const ModifierCourse& course, double power,
                                     const Instant& now, Direction direction) const;
 
@@ -177,10 +181,13 @@ std::string_view ModifiedLaw::aperiodic() const {
 Instant ModifiedLaw::modify(const Memory& inner, const ModifierCourse& course, double power, const Instant& now,
                             Direction direction) const {
   Instant modified = limits_.at(course, power, now);
-  if (!warms()) return modified;
-  const double rate = warming_rate(inner, course, power, modified, direction);
-  modified.modification.factor_rate -= modified.modification.factor * rate / limits_.settings().warming_power;
+  if (warms()) warm(modified, warming_rate(inner, course, power, modified, direction));
   return modified;
+}
+
+/// The force limits fall at d(power)/dt = `rate` [W/s].
+void ModifiedLaw::warm(Instant& modified, double rate) const {
+  modified.modification.factor_rate -= modified.modification.factor * rate / limits_.settings().warming_power;
 }
 
 /// d(power)/dt [W/s]. A stretched spring gives off heat when it relaxes with its force limit; that heat is left
@@ -195,10 +202,11 @@ double ModifiedLaw::respond(const Memory& memory, const Instant& now, Direction 
                             std::span<double> rates) const {
   const Parts parts = parts_of(memory);
   std::ranges::fill(rates, 0.0);
-  const Instant modified = modify(parts, now, direction);
+  Instant modified = limits_.at(parts.course(), parts.power(), now);
   if (warms()) {
-    const Instant unwarmed = limits_.at(parts.course(), parts.power(), now);
-    rates.back() = warming_rate(parts.inner(), parts.course(), parts.power(), unwarmed, direction);
+    const double rate = warming_rate(parts.inner(), parts.course(), parts.power(), modified, direction);
+    warm(modified, rate);
+    rates.back() = rate;
     rates = rates.first(rates.size() - 1);
   }
   return limits_.are_gone(parts.course()) ? 0.0 : law_.respond(parts.inner(), modified, direction, rates);

@@ -139,7 +139,7 @@ bool OrbitFinder::newton(ForcingPeriod& period, SteadyState& result) {
     const State fallback = period.end;
     if (step.size() > 0) {
       const ForcingPeriod trial = map_.from(displaced(period.begin, step), Monodromy::with);
-      if (trial.closure(omega_) < 0.5 * closure) {
+      if (map_.outcome().ok() && trial.closure(omega_) < 0.5 * closure) {
         period = trial;
         continue;
       }

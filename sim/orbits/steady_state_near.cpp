@@ -1,0 +1,67 @@
+#include "sim/orbits/steady_state_near.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "sim/orbits/orbit_account.hpp"
+#include "sim/orbits/period_map.hpp"
+#include "sim/validate.hpp"
+
+namespace dualdamp::sim {
+
+namespace {
+
+/// A correction must bring the orbit closer by this factor; neighbours come closer by far more.
+constexpr double quick = 0.3;
+
+/// Corrections by the known orbit's monodromy matrix until the orbit closes, and one more: differences between
+/// neighbours are small beside the tolerance. False where they do not help.
+bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const SteadyStateOptions& options,
+             SteadyState& result) {
+  const double tolerance = std::max(options.tolerance, map.engine().accuracy());
+  State start = near.start;
+  bool closes = false;
+  for (double before = 1.0 / quick;; ++result.newton_steps) {
+    OrbitAccount account(model, options.full_account);
+    ForcingPeriod period = map.from(start, Monodromy::without, &account);
+    const double closure = period.closure(model.excitation.frequency);
+    if (!map.outcome().ok() || !(closes ? closure <= tolerance : closure < quick * before)) return false;
+    if (closes) {
+      result.start = start;
+      account.write(result);
+      return true;
+    }
+    closes = closure <= tolerance;
+    before = closure;
+    period.monodromy = near.monodromy;
+    const Eigen::VectorXd step = newton_step(period);
+    if (step.size() == 0) return false;
+    start = displaced(start, step);
+  }
+}
+
+}  // namespace
+
+KnownOrbit known_orbit(const Model& model, const SteadyState& state) {
+  PeriodMap map(model);
+  if (map.engine().has_past()) return {state.start, {}};
+  return {state.start, map.from(state.start, Monodromy::with).monodromy};
+}
+
+SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const SteadyStateOptions& options) {
+  valid_harmonic(model, "steady_state");
+  require(near.start.memories.size() == model.friction.size(), "a known orbit needs a memory for each law",
+          "one of a model with the same laws");
+  SteadyState result;
+  result.period = 2.0 * std::numbers::pi / model.excitation.frequency;
+  PeriodMap map(model);
+  if (near.monodromy.size() == 0 || !correct(map, near, model, options, result))
+    return steady_state(model, options);
+  ForcingPeriod known;
+  known.monodromy = near.monodromy;
+  result.multipliers = known.multipliers();
+  result.certificate = map.engine().count();
+  return result;
+}
+
+}  // namespace dualdamp::sim

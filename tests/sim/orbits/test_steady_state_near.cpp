@@ -1,0 +1,69 @@
+/// Steady states sought next to a known one.
+
+#include "sim/orbits/steady_state_near.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "friction_models/registry.hpp"
+#include "tests/support/standard_system.hpp"
+
+namespace {
+
+using namespace dualdamp;
+using friction::ParameterValues;
+
+friction::Law law(std::string_view name, ParameterValues values) {
+  const friction::LawEntry* entry = friction::find_law(name);
+  REQUIRE(entry != nullptr);
+  REQUIRE(friction::complete(entry->parameters, values).empty());
+  return entry->make(values).front();
+}
+
+std::vector<sim::Model> models() {
+  return {test::standard_system(law("coulomb", {{"kinetic", 2.0}})),
+          test::standard_system(law("contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", 1e3}})),
+          test::standard_system(law("dahl", {{"kinetic", 2.0}, {"sigma0", 1e3}})),
+          test::standard_system(law("stribeck", {{"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.05}}))};
+}
+
+}  // namespace
+
+TEST_CASE("the orbit next to a known one is the steady state of its own numbers") {
+  for (sim::Model model : models()) {
+    const sim::KnownOrbit known = sim::known_orbit(model, sim::steady_state(model));
+    for (const double change : {1e-4, 1e-2}) {
+      model.excitation.amplitude = 0.1 * (1.0 + change);
+      const sim::SteadyState near = sim::steady_state_near(known, model);
+      const sim::SteadyState own = sim::steady_state(model);
+      REQUIRE(near.outcome.ok());
+      REQUIRE(own.outcome.ok());
+      CHECK(near.transient_periods == 0);
+      CHECK(near.amplitude == Approx(own.amplitude).epsilon(1e-9));
+      CHECK(near.phase == Approx(own.phase).margin(1e-9));
+      CHECK(near.stops_per_cycle == own.stops_per_cycle);
+      CHECK(near.stable());
+    }
+  }
+}
+
+TEST_CASE(
+    "where a known orbit does not lead quickly to its neighbour the result is that of a search from nothing") {
+  for (sim::Model model : models()) {
+    const sim::KnownOrbit known = sim::known_orbit(model, sim::steady_state(model));
+    model.excitation.amplitude = 0.035;  // sticks, or nearly
+    const sim::SteadyState far = sim::steady_state_near(known, model);
+    const sim::SteadyState own = sim::steady_state(model);
+    REQUIRE(far.outcome.ok() == own.outcome.ok());
+    CHECK(far.amplitude == Approx(own.amplitude).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("a known orbit of other laws is refused") {
+  const std::vector<sim::Model> list = models();
+  sim::Model two = list[0];
+  two.friction.push_back(list[2].friction.front());
+  const sim::KnownOrbit known = sim::known_orbit(list[0], sim::steady_state(list[0]));
+  CHECK_THROWS(sim::steady_state_near(known, two));
+}
