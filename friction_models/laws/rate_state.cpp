@@ -55,9 +55,8 @@ const std::vector<Parameter>& RateState::parameters() {
 }
 
 std::vector<std::string> RateState::warnings(const ParameterValues& values) {
-  // Beyond 25 a speed of exp(-mu0/a) times one that the motion has is near the rounding of that; motions that
-  // stick, whose contacts age, have been given up from 16 on.
-  constexpr double largest = 15.0;
+  // Motions that stick, whose contacts age, are followed up to 40 and have been given up from 50 on.
+  constexpr double largest = 40.0;
   const double ratio = values.number("mu0") / values.number("a");
   if (ratio <= largest) return {};
   return {

@@ -11,11 +11,18 @@ using friction::Memory;
 
 namespace {
 
-/// Relative increment at which truncation and rounding of a central difference balance.
-constexpr double increment = 6e-6;
+/// Relative increment at which truncation and rounding of a difference balance.
+constexpr double increment = 1.5e-8;
 
 /// Speeds matter down to this part of the largest one: the scale of Stribeck curves.
 constexpr double slow = 0.01;
+
+/// Shorter steps over which a speed is varied: each by this factor, down to this part of the largest speed.
+constexpr double ladder = 100.0;
+constexpr double least_speed = 1e-40;
+
+/// A change of force by this part of it or more is not rounding.
+constexpr double resolved = 1e-11;
 
 }  // namespace
 
@@ -109,21 +116,37 @@ void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates
   rates[1] = (driving(X[0], X[1], drive(t)) - force) / model_.oscillator.mass;
 }
 
-/// One column of the Jacobian as far as law i makes it.
-void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t,
-                             std::span<double> columns) const {
-  const double smallest = column == 1 ? slow * scales_[1] : scales_[column];
-  const double step = increment * (std::abs(X[column]) + smallest);
-  above_.assign(count_[i], 0.0);
-  below_.assign(count_[i], 0.0);
+/// Difference of law i over a step from X, where its force is `base` and its rates base_: of its rates, left in
+/// displaced_rates_, and of its force.
+Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
+                             double base) const {
   displaced_.assign(X.begin(), X.end());
-  displaced_[column] = X[column] + step;
-  const double upper = respond(i, displaced_, t, above_);
-  displaced_[column] = X[column] - step;
-  const double lower = respond(i, displaced_, t, below_);
+  displaced_[column] += step;
+  const double exact_step = displaced_[column] - X[column];
+  const double force = respond(i, displaced_, t, displaced_rates_);
+  for (std::size_t k = 0; k < count_[i]; ++k)
+    displaced_rates_[k] = (displaced_rates_[k] - base_rates_[k]) / exact_step;
+  return {(force - base) / exact_step, std::abs(force - base) > resolved * (std::abs(force) + std::abs(base))};
+}
+
+/// One column of the Jacobian as far as law i makes it.
+void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
+                             std::span<double> columns) const {
+  const double own = std::abs(X[column]);
+  double step = increment * (own + (column == 1 ? slow * scales_[1] : scales_[column]));
+  double slope = difference(i, column, step, X, t, base).value;
+  // Friction that goes by the logarithm of the speed is a steep dashpot at speeds far below the largest one: the
+  // step is shortened until the slope no longer grows.
+  const double shortest = std::max(increment * own, least_speed * scales_[1]);
+  while (column == 1 && step > ladder * shortest) {
+    step = std::max(shortest, step / ladder);
+    const Slope steeper = difference(i, column, step, X, t, base);
+    if (!steeper.resolved || !(std::abs(steeper.value) > 2.0 * std::abs(slope))) break;
+    slope = steeper.value;
+  }
   const std::span<double> target = columns.subspan(column * size_, size_);
-  if (direction_ != Direction::none) target[1] -= (upper - lower) / (2.0 * step) / model_.oscillator.mass;
-  for (std::size_t k = 0; k < count_[i]; ++k) target[first_[i] + k] = (above_[k] - below_[k]) / (2.0 * step);
+  if (direction_ != Direction::none) target[1] -= slope / model_.oscillator.mass;
+  for (std::size_t k = 0; k < count_[i]; ++k) target[first_[i] + k] = displaced_rates_[k];
 }
 
 void Flow::jacobian(std::span<const double> X, double t, std::span<double> columns) const {
@@ -136,8 +159,12 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
     columns[size_ + 1] = -o.damping / o.mass;
   }
   for (std::size_t i = 0; i < first_.size(); ++i) {
-    for (const std::size_t column : {std::size_t{0}, std::size_t{1}}) differentiate_law(i, column, X, t, columns);
-    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, columns);
+    base_rates_.assign(count_[i], 0.0);
+    displaced_rates_.assign(count_[i], 0.0);
+    const double base = respond(i, X, t, base_rates_);
+    for (const std::size_t column : {std::size_t{0}, std::size_t{1}})
+      differentiate_law(i, column, X, t, base, columns);
+    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, base, columns);
   }
 }
 

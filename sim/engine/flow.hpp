@@ -9,8 +9,9 @@
 /// While the mass sticks x' = v' = 0. The direction of slip and the modes of the laws are those given to freeze(),
 /// whatever X: the field is analytic beyond the event that ends the interval. Time runs within the forcing period.
 ///
-/// The Jacobian is that of the known part exactly and of the laws by central differences, relative error about
-/// 1e-10: enough for Newton iterations and Floquet multipliers, and the same for every law (decision 017).
+/// The Jacobian is that of the known part exactly and of the laws by differences, relative error about 1e-8:
+/// enough for Newton iterations and Floquet multipliers, and the same for every law (decision 017). Where a law
+/// changes over speeds far below the motion's the differences are taken over those.
 
 #include <array>
 #include <limits>
@@ -62,7 +63,13 @@ class Flow final : public VectorField {
   [[nodiscard]] double resisting(std::span<const double> X, double t) const;
   [[nodiscard]] const Drive::Value& drive(double t) const;
   [[nodiscard]] double driving(double x, double v, const Drive::Value& drive) const;
-  void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t,
+  struct Slope {
+    double value = 0.0;     ///< N per unit of the column
+    bool resolved = false;  ///< beyond rounding
+  };
+  Slope difference(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
+                   double base) const;
+  void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
                          std::span<double> columns) const;
 
   Model model_;
@@ -79,8 +86,8 @@ class Flow final : public VectorField {
   // Scratch: laws take their memories as they are kept, with the states of X put in.
   mutable std::vector<friction::Memory> memories_;
   mutable std::vector<double> displaced_;
-  mutable std::vector<double> above_;
-  mutable std::vector<double> below_;
+  mutable std::vector<double> base_rates_;
+  mutable std::vector<double> displaced_rates_;
   /// The drive of late: iterations and displaced steps ask for the times of a step's stages again and again.
   struct KnownDrive {
     double t = std::numeric_limits<double>::quiet_NaN();

@@ -19,6 +19,7 @@ using Row = RadauCollocation::Row;
 using Matrix = RadauCollocation::Matrix;
 constexpr std::size_t stages = RadauCollocation::stages;
 constexpr std::size_t pairs = RadauCollocation::pairs;
+constexpr std::size_t middle = stages / 2;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 const RadauCollocation& radau() {
@@ -42,10 +43,12 @@ class RadauStepper final : public Stepper {
         rates_(n * stages),
         correction_(n * stages),
         state_(n),
+        middle_state_(n),
         pair_(n),
         jacobian_(n * n),
         factored_jacobian_(n * n),
         real_factors_(n),
+        stage_factors_(n * stages),
         pair_factors_(make_pair_factors(n, std::make_index_sequence<pairs>{})) {}
 
   [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
@@ -75,6 +78,19 @@ class RadauStepper final : public Stepper {
     for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_, k);
   }
 
+  /// The derivative u of the polynomial: sum_j slopes_ij u_j = h J_i (column + u_i) in every stage i.
+  [[nodiscard]] bool carry(const VectorField& field, std::span<const double>, std::span<double> columns) override {
+    linearise(field);
+    Vector right(n_() * stages);
+    for (std::size_t first = 0; first < columns.size(); first += n_()) {
+      const std::span<double> column = columns.subspan(first, n_());
+      for (std::size_t i = 0; i < stages; ++i) multiply(i, column, std::span(right).subspan(i * n_(), n_()));
+      stage_factors_.solve(right.data());
+      for (std::size_t k = 0; k < n_(); ++k) column[k] += right[(stages - 1) * n_() + k];
+    }
+    return std::ranges::all_of(columns, [](double value) { return std::isfinite(value); });
+  }
+
   [[nodiscard]] int order() const override { return stages; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
 
@@ -82,6 +98,32 @@ class RadauStepper final : public Stepper {
   template <std::size_t... k>
   static std::array<LuFactors<Complex, N>, pairs> make_pair_factors(std::size_t n, std::index_sequence<k...>) {
     return {((void)k, LuFactors<Complex, N>(n))...};
+  }
+
+  /// Jacobians h J_i of the last step's stages, and the factors of the equations for its derivative.
+  void linearise(const VectorField& field) {
+    const std::size_t size = n_() * stages;
+    stage_jacobians_.resize(stages * n_() * n_());
+    Vector matrix(size * size);  // with the other sign: the factors are those of 0 - matrix
+    for (std::size_t i = 0; i < stages; ++i) {
+      for (std::size_t k = 0; k < n_(); ++k) state_[k] = start_[k] + polynomial_[i * n_() + k];
+      const std::span<double> jacobian = std::span(stage_jacobians_).subspan(i * n_() * n_(), n_() * n_());
+      field.jacobian(state_, t_ + radau_.nodes[i] * h_, jacobian);
+      for (double& entry : jacobian) entry *= h_;
+      for (std::size_t j = 0; j < stages; ++j)
+        for (std::size_t k = 0; k < n_(); ++k) matrix[(j * n_() + k) * size + i * n_() + k] = -radau_.slopes[i][j];
+      for (std::size_t j = 0; j < n_(); ++j)
+        for (std::size_t k = 0; k < n_(); ++k)
+          matrix[(i * n_() + j) * size + i * n_() + k] += jacobian[j * n_() + k];
+    }
+    stage_factors_.compute(0.0, matrix);
+  }
+
+  /// h J_i times a column.
+  void multiply(std::size_t i, std::span<const double> column, std::span<double> product) const {
+    std::ranges::fill(product, 0.0);
+    for (std::size_t j = 0; j < n_(); ++j)
+      for (std::size_t k = 0; k < n_(); ++k) product[k] += stage_jacobians_[(i * n_() + j) * n_() + k] * column[j];
   }
 
   /// sum_j weights_j states_j, component k.
@@ -106,38 +148,65 @@ class RadauStepper final : public Stepper {
     return true;
   }
 
-  /// Newton's method on z with one Jacobian, taken in the middle of the step as far as z tells it.
+  /// Newton's method on z with a Jacobian taken in the middle of the step as far as z tells it; again with another
+  /// one where z came to tell something else: a force that is steep at one speed alone would pass for converged.
   bool solve(const VectorField& field, std::span<const double> x, double t, double h,
              std::span<const double> allowed) {
-    constexpr int most_iterations = 20;
-    factorise(field, x, t, h);
-    double before = 0.0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      correct(field, x, t, h);
-      const double size = correction_size(x, allowed);
-      if (!std::isfinite(size)) return false;
-      if (iteration > 0) {
-        const double contraction = size / before;
-        if (contraction >= 1.0) return size <= 1.0;
-        // Hopeless at this pace: most steps that fail do so after three iterations. A quick one has time left.
-        if (contraction > 0.1 && size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0) return false;
-        if (size * std::min(1.0, contraction / (1.0 - contraction)) <= 1.0) return true;
-      }
-      before = size;
+    constexpr int most_jacobians = 20;
+    factorise(field, x, t, h, 0.01);
+    for (int i = 0; i < most_jacobians; ++i) {
+      const Pace pace = iterate(field, x, t, h, allowed);
+      if (pace == Pace::lost) return false;
+      const bool is_stale = has_moved_on(x) && factorise(field, x, t, h, 0.5);
+      if (!is_stale) return pace == Pace::converged;
     }
     return false;
   }
 
-  void factorise(const VectorField& field, std::span<const double> x, double t, double h) {
-    constexpr std::size_t middle = stages / 2;
-    for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[middle * n_() + k];
-    field.jacobian(state_, t + radau_.nodes[middle] * h, jacobian_);
-    const auto close = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); };
-    if (h == factored_h_ && std::ranges::equal(jacobian_, factored_jacobian_, close)) return;
+  enum class Pace { converged, slow, lost };
+
+  /// With the Jacobian as it is.
+  Pace iterate(const VectorField& field, std::span<const double> x, double t, double h,
+               std::span<const double> allowed) {
+    constexpr int most_iterations = 20;
+    double before = 0.0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      correct(field, x, t, h);
+      const double size = correction_size(x, allowed);
+      if (!std::isfinite(size)) return Pace::lost;
+      if (iteration > 0) {
+        const double contraction = size / before;
+        if (contraction >= 1.0) return size <= 1.0 ? Pace::converged : Pace::lost;
+        // Hopeless at this pace: most steps that fail do so after three iterations. A quick one has time left.
+        if (contraction > 0.1 && size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0)
+          return Pace::slow;
+        if (size * std::min(1.0, contraction / (1.0 - contraction)) <= 1.0) return Pace::converged;
+      }
+      before = size;
+    }
+    return Pace::slow;
+  }
+
+  /// The middle of the step is far from where the Jacobian was taken, measured by the smaller of both.
+  [[nodiscard]] bool has_moved_on(std::span<const double> x) const {
+    for (std::size_t k = 0; k < n_(); ++k) {
+      const double now = x[k] + z_[middle * n_() + k];
+      if (std::abs(now - middle_state_[k]) > 0.5 * std::abs(middle_state_[k])) return true;
+    }
+    return false;
+  }
+
+  /// False: the Jacobian is within `closeness` of the one whose factors are there, relative, entry by entry.
+  bool factorise(const VectorField& field, std::span<const double> x, double t, double h, double closeness) {
+    for (std::size_t k = 0; k < n_(); ++k) middle_state_[k] = x[k] + z_[middle * n_() + k];
+    field.jacobian(middle_state_, t + radau_.nodes[middle] * h, jacobian_);
+    const auto close = [&](double a, double b) { return std::abs(a - b) <= closeness * std::abs(b); };
+    if (h == factored_h_ && std::ranges::equal(jacobian_, factored_jacobian_, close)) return false;
     factored_h_ = h;
     std::swap(factored_jacobian_, jacobian_);
     real_factors_.compute(radau_.real_eigenvalue / h, factored_jacobian_);
     for (std::size_t p = 0; p < pairs; ++p) pair_factors_[p].compute(radau_.eigenvalues[p] / h, factored_jacobian_);
+    return true;
   }
 
   /// One iteration: z += correction.
@@ -209,11 +278,15 @@ class RadauStepper final : public Stepper {
   Vector rates_;
   Vector correction_;
   Vector state_;
+  Vector middle_state_;  ///< where the Jacobian was taken
   std::vector<Complex> pair_;
   double factored_h_ = 0.0;
   Vector jacobian_;
   Vector factored_jacobian_;
   LuFactors<double, N> real_factors_;
+  // The derivative.
+  Vector stage_jacobians_;
+  LuFactors<double, N * stages> stage_factors_;
   std::array<LuFactors<Complex, N>, pairs> pair_factors_;
 };
 
@@ -227,6 +300,10 @@ class ImplicitStepper final : public Stepper {
   }
 
   void at(double part, std::span<double> x) const override { method_->at(part, x); }
+  [[nodiscard]] bool carry(const VectorField& field, std::span<const double> sizes,
+                           std::span<double> columns) override {
+    return method_->carry(field, sizes, columns);
+  }
   [[nodiscard]] int order() const override { return stages; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
 

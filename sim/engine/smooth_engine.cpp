@@ -24,6 +24,9 @@ constexpr double safety = 0.9;
 constexpr double stiff = 0.5;
 constexpr int stiff_enough = 15;
 
+/// Friction that acts within this part of the longest step is not even tried by explicit steps.
+constexpr double part_of_longest = 1e-3;
+
 /// A step is at most this part of the shortest period, so that five points show every minimum of a guard.
 constexpr double part_of_period = 0.125;
 
@@ -73,7 +76,6 @@ SmoothEngine::SmoothEngine(const Model& model)
   for (const friction::Law& law : model_.friction) reach_ = std::max(reach_, law.delay());
   is_implicit_ = model.solver.kind == SolverKind::implicit_steps;
   stepper_ = is_implicit_ ? make_implicit_stepper() : make_explicit_stepper();
-  displaced_stepper_ = is_implicit_ ? make_implicit_stepper() : make_explicit_stepper();
   start(model.initial.position, model.initial.velocity);
 }
 
@@ -98,6 +100,9 @@ void SmoothEngine::begin_motion() {
 
 void SmoothEngine::restore_past(const State& state) {
   if (state.past != nullptr) past_ = *state.past;
+  // A state that Newton's method has displaced may move against its direction. That branch is not its own: a force
+  // that falls with speed grows there without bound.
+  if (friction::sign(direction_) * v_ < 0.0) change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
 }
 
 /// The motion's size: the largest |x| met, at first from velocity and forces.
@@ -105,8 +110,10 @@ void SmoothEngine::set_scales() {
   const double wn = natural_frequency(model_.oscillator);
   if (x_scale_ == 0.0) {
     double force = drive_.force_scale();
+    // With the direction of the motion: against it a force that falls with speed is beyond all sizes.
+    const Direction direction = direction_ == Direction::none ? Direction::forward : direction_;
     for (std::size_t i = 0; i < memories_.size(); ++i)
-      force += std::abs(model_.friction[i].force(memories_[i], now(), Direction::forward));
+      force += std::abs(model_.friction[i].force(memories_[i], now(), direction));
     x_scale_ = std::max(std::abs(v_) / wn, small_motion * force / model_.oscillator.stiffness);
     if (x_scale_ == 0.0) x_scale_ = std::abs(x_) > 0.0 ? std::abs(x_) : 1.0;
   }
@@ -186,8 +193,20 @@ bool SmoothEngine::use_implicit_steps() {
   if (is_implicit_ || model_.solver.kind != SolverKind::automatic) return false;
   is_implicit_ = true;
   stepper_ = make_implicit_stepper();
-  displaced_stepper_ = make_implicit_stepper();
   return true;
+}
+
+/// Whether friction turns the acceleration over within a thousandth of the longest step: a dashpot that holds the
+/// mass. Explicit steps would be lost on it.
+bool SmoothEngine::begins_stiff() {
+  if (direction_ == Direction::none) return false;
+  const double s = part_of_longest * longest_step();
+  flow_.evaluate(X_, local_time_, rates_);
+  const double acceleration = rates_[1];
+  probe_ = X_;
+  for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += s * rates_[k];
+  flow_.evaluate(probe_, local_time_ + s, rates_);
+  return acceleration * rates_[1] < 0.0 && std::abs(rates_[1]) > 0.1 * std::abs(acceleration);
 }
 
 /// Counts steps that stability limits. The dense output of the present step is needed still: the change comes with
@@ -213,7 +232,8 @@ bool SmoothEngine::makes_headway() {
 /// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
 bool SmoothEngine::advance(double left) {
   if (!makes_headway()) return false;
-  if (stiff_steps_ > stiff_enough && use_implicit_steps()) h_ = 0.0;
+  const bool hold_off = h_ == 0.0 && !is_implicit_ && begins_stiff();
+  if ((hold_off || stiff_steps_ > stiff_enough) && use_implicit_steps()) h_ = 0.0;
   if (h_ == 0.0) h_ = first_step();
   allow();
   const double longest = longest_step();
@@ -239,7 +259,7 @@ bool SmoothEngine::advance(double left) {
     rejected = true;
     h_ = h * std::clamp(ideal, largest_cut, 0.7);
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
-    if (h_ < 1e-18 * longest) break;
+    if (h_ < 1e-40 * longest) break;
   }
   outcome_ = {core::OutcomeKind::not_finite, "the equation of motion could not be integrated at t = " +
                                                  std::to_string(time()) + " s: steps became too small"};
@@ -305,7 +325,9 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     return interval_.get();
   }
   if (found) {
+    ended_at_once_ = !at_once && taken_ == 0.0 && is<SlipEnd>(ending);
     interval_->ending = act(ending);
+    ended_at_once_ = false;
   } else {
     act_on_schedule(due);
     interval_->ending = EventKind::switching;

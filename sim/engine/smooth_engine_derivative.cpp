@@ -1,10 +1,11 @@
 // The derivative of a motion of the smooth engine by its start. Columns are perturbations of the start: d(x, v,
-// states)(now). Over a step the difference of two displaced steps carries them on; at an event they come late or
+// states)(now). Over a step the derivative of the step as computed carries them on; at an event they come late or
 // early by `delay_of_event_`, and are carried to the crossing with the motion before it, through the mode changes,
 // and back with the motion after it (leine2004).
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/engine/smooth_engine.hpp"
 
@@ -12,7 +13,7 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// Relative displacement of states, steps and guards in central differences.
+/// Relative displacement of states and guards in central differences.
 constexpr double displacement = 1e-5;
 
 Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
@@ -33,30 +34,11 @@ void SmoothEngine::jumped(std::size_t law, const friction::Memory& before, frict
   changes_.push_back({law, before, trigger, direction_});
 }
 
-/// Over the step taken last, from X_.
+/// Over the step taken last.
 void SmoothEngine::track_step() {
   if (taken_ == 0.0) return;
-  std::vector<double> displaced(X_.size());
-  std::vector<double> above(X_.size());
-  std::vector<double> below(X_.size());
-  std::vector<double> unused(X_.size());
-  for (Eigen::Index j = 0; j < columns_.cols(); ++j) {
-    double size = 0.0;
-    for (std::size_t k = 0; k < X_.size(); ++k)
-      size = std::max(size, std::abs(columns_(static_cast<Eigen::Index>(k), j)) / flow_.scales()[k]);
-    if (size == 0.0) continue;
-    const double step = displacement / size;
-    const auto end_of = [&](double factor, std::vector<double>& end) {
-      for (std::size_t k = 0; k < X_.size(); ++k)
-        displaced[k] = X_[k] + factor * columns_(static_cast<Eigen::Index>(k), j);
-      return displaced_stepper_->step(flow_, displaced, local_time_, taken_, allowed_, end, unused);
-    };
-    if (end_of(step, above) && end_of(-step, below)) {
-      columns_.col(j) = (as_vector(above) - as_vector(below)) / (2.0 * step);
-    } else {
-      columns_.col(j).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-  }
+  if (stepper_->carry(flow_, flow_.scales(), {columns_.data(), static_cast<std::size_t>(columns_.size())})) return;
+  columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// How late each perturbation comes to the crossing at end_.

@@ -159,8 +159,8 @@ TEST_CASE("rate_state: the critical stiffness", "[friction][rate_state]") {
 
 TEST_CASE("rate_state: it warns of values whose reversal is too sharp", "[friction][rate_state]") {
   const auto warnings = [](double a) { return RateState::warnings({{"mu0", 0.6}, {"a", a}}); };
-  CHECK(warnings(0.05).empty());
-  CHECK(warnings(0.036).size() == 1);
+  CHECK(warnings(0.016).empty());
+  CHECK(warnings(0.0145).size() == 1);
   REQUIRE(warnings(0.01).size() == 1);
   CHECK(warnings(0.01)[0].find("exp(-60)") != std::string::npos);
 }
