@@ -95,7 +95,7 @@ concept StateLaw =
     };
 
 /// Says, of states that move, the size of each in a motion that slips, > 0: errors are measured against it. A state
-/// without a size is a position, of the size of the motion.
+/// without a size is a position, of the size of the motion; a velocity says `size_of_velocity` (state_sizes.hpp).
 template <class L>
 concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<double> scales) {
   { law.scales(memory, scales) } -> std::same_as<void>;

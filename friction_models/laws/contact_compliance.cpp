@@ -8,8 +8,18 @@
 #include "friction_models/law_entry.hpp"
 #include "friction_models/modifiers/modified.hpp"
 #include "friction_models/modifiers/modifiers.hpp"
+#include "friction_models/state_sizes.hpp"
 
 namespace dualdamp::friction {
+
+namespace {
+
+/// A creeping slider has stopped when the force that drives it is this part of the static friction.
+constexpr double stopped = 1e-12;
+/// A force that differs from its limit by this part of its terms is at its limit.
+constexpr double at_limit = 1e-10;
+
+}  // namespace
 
 const std::vector<Parameter>& ContactCompliance::parameters() {
   static const std::vector<Parameter> table = {
@@ -33,8 +43,13 @@ const std::vector<Parameter>& ContactCompliance::parameters() {
   return table;
 }
 
+int ContactCompliance::sliding_side(const Memory& memory) {
+  const int side = memory.mode > 0 ? 1 : -1;
+  return memory.mode == side * slipping || memory.mode == side * creeping ? side : 0;
+}
+
 Affine ContactCompliance::affine_force(const Memory& memory, const Instant& now, Direction) const {
-  if (std::abs(memory.mode) == slipping) return memory.mode * now.force_limit(kinetic_);
+  if (const int side = sliding_side(memory); side != 0) return side * now.force_limit(kinetic_);
   return {.constant = -stiffness_ * memory.state[0], .position = stiffness_, .velocity = damping_};
 }
 
@@ -43,10 +58,8 @@ Affine ContactCompliance::break_away(const Memory& memory, const Instant& now, i
 }
 
 ContactCompliance::Relaxation ContactCompliance::relaxation(const Memory& memory, const Instant& now) const {
-  const Affine level = memory.mode * now.force_limit(kinetic_);
-  const double rate = level.rate / stiffness_;
-  const double settled = (level.constant - damping_ * rate) / stiffness_;
-  return {settled, rate, memory.state[0] - settled, stiffness_ / damping_};
+  const double settled = sliding_side(memory) * now.force_limit(kinetic_).rate / stiffness_;
+  return {settled, memory.state[0] - settled, stiffness_ / damping_};
 }
 
 /// A damped slider, and a slider under a force limit that varies, stop at a guard of their own.
@@ -56,90 +69,114 @@ bool ContactCompliance::slider_stops_by_itself(const Instant& now) const {
 
 /// Speed of a slider that slips, positive in the direction of the force.
 Affine ContactCompliance::slider_speed(const Memory& memory, const Instant& now) const {
-  if (!is_damped()) return dragged_speed(now.force_limit(kinetic_), memory.mode, stiffness_);
-  const Relaxation u = relaxation(memory, now);
-  // The stretch is a difference of positions. A large decay multiplies its rounding error.
-  const double rounded = u.decay * (std::abs(now.x) + std::abs(memory.state[0]) + std::abs(u.settled));
-  return memory.mode * Affine{.constant = -u.rate,
-                              .velocity = 1.0,
-                              .transient = u.decay * u.relaxing,
-                              .decay = u.decay,
-                              .cancelled = rounded};
+  const int side = sliding_side(memory);
+  if (!is_damped()) return dragged_speed(now.force_limit(kinetic_), side, stiffness_);
+  const Relaxation q = relaxation(memory, now);
+  const double v = memory.mode == side * slipping ? 1.0 : 0.0;
+  return side * Affine{.constant = -q.settled, .velocity = v, .transient = -q.relaxing, .decay = q.decay};
 }
+
+/// The speed below which a slider that creeps has stopped.
+double ContactCompliance::slowest_creep(double static_level) const { return stopped * static_level / damping_; }
 
 void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, Direction direction,
                                       std::vector<Affine>& guards) const {
-  if (std::abs(memory.mode) != slipping) {
+  const int side = sliding_side(memory);
+  if (side == 0) {
     Affine force = affine_force(memory, now, direction);
     // The difference from a force limit of nearly the same slope over position is small; its rounding error is not.
     force.cancelled = std::abs(force.constant);
     guards.push_back(break_away(memory, now, 1) - force);
     guards.push_back(break_away(memory, now, -1) + force);
-  } else if (slider_stops_by_itself(now) || is_left_behind(memory.mode, direction)) {
+  } else if (slider_stops_by_itself(now) || is_left_behind(side, direction)) {
     guards.push_back(slider_speed(memory, now));
+    if (memory.mode == side * creeping) guards.back().constant -= slowest_creep(now.force_limit_now(static_));
   }
 }
 
-void ContactCompliance::slide(Memory& memory, const Instant& now, int side) const {
-  memory.mode = side * slipping;
+/// u' just after a break-away: u is continuous. The force is at its limit, and what is left of it beyond is
+/// rounding of x: divided by the damping it could be more than v. Only a step of the limits leaves the force well
+/// beyond.
+double ContactCompliance::stretching_at_break_away(const Memory& memory, const Instant& now, int side) const {
+  const double level = value(break_away(memory, now, side), now);
+  const double beyond = side * value(affine_force(memory, now, {}), now) - level;
+  const double parts =
+      stiffness_ * (std::abs(now.x) + std::abs(memory.state[0])) + damping_ * std::abs(now.v) + level;
+  const double force = level + (std::abs(beyond) > at_limit * parts ? beyond : 0.0);
+  return now.v - side * (force - now.force_limit_now(kinetic_)) / damping_;
+}
+
+void ContactCompliance::slide(Memory& memory, const Instant& now, int side, Direction direction) const {
   if (is_damped()) {
-    memory.state[0] = now.x - memory.state[0];
+    memory.state[0] = stretching_at_break_away(memory, now, side);
   } else {
     memory.state.clear();
   }
+  memory.mode = side * sliding_mode(direction);
 }
 
 void ContactCompliance::stop_slider(Memory& memory, const Instant& now, int next_mode) const {
-  const double u = is_damped() ? memory.state[0] : memory.mode * now.force_limit_now(kinetic_) / stiffness_;
+  const double damper = is_damped() ? damping_ * memory.state[0] : 0.0;
+  const double u = (sliding_side(memory) * now.force_limit_now(kinetic_) - damper) / stiffness_;
   memory.mode = next_mode;
   memory.state = {now.x - u};
 }
 
 void ContactCompliance::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
-  const bool slips = std::abs(memory.mode) == slipping;
+  const int side = sliding_side(memory);
   switch (trigger.cause) {
     case Trigger::direction_change:
-      if (!slips) {
+      if (side == 0) {
         memory.mode = stuck;
-      } else if (!slider_stops_by_itself(now) && sign(direction) != memory.mode) {
+      } else if (slider_stops_by_itself(now)) {
+        memory.mode = side * sliding_mode(direction);
+      } else if (sign(direction) != side) {
         stop_slider(memory, now, stuck);
       }
       return;
     case Trigger::limit_change:
-      // A damped spring relaxes to its new force limit without a halt. Where there was no force limit the contact
-      // starts unstretched.
+      // Where there was no force limit the contact starts unstretched.
       if (now.force_limit_now(static_) == 0.0) {
         memory = start(now);
-      } else if (slips && !is_damped()) {
-        stop_slider(memory, now, memory.mode * halted);
+      } else if (side != 0) {
+        stop_slider(memory, now, side * halted);
       }
       return;
     default:
-      if (slips) return stop_slider(memory, now, stuck);
-      slide(memory, now, trigger.cause == 0 ? 1 : -1);
+      if (side != 0) return stop_slider(memory, now, stuck);
+      slide(memory, now, trigger.cause == 0 ? 1 : -1, direction);
   }
 }
 
 void ContactCompliance::rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const {
   std::ranges::fill(rates, 0.0);
-  if (std::abs(memory.mode) == slipping && is_damped()) {
-    rates[0] = (memory.mode * now.force_limit_now(kinetic_) - stiffness_ * memory.state[0]) / damping_;
-  }
+  if (sliding_side(memory) == 0 || !is_damped()) return;
+  const Relaxation q = relaxation(memory, now);
+  rates[0] = -q.decay * q.relaxing;
+}
+
+void ContactCompliance::scales(const Memory& memory, std::span<double> scales) const {
+  if (memory.state.empty()) return;
+  const int side = sliding_side(memory);
+  scales[0] = side == 0                        ? static_ / stiffness_
+              : memory.mode == side * slipping ? size_of_velocity
+                                               : slowest_creep(static_);
 }
 
 double ContactCompliance::dissipation(const Memory& memory, const Instant& now, Direction) const {
-  if (std::abs(memory.mode) != slipping) return damping_ * now.v * now.v;
+  const int side = sliding_side(memory);
+  if (side == 0) return damping_ * now.v * now.v;
   const double speed = value(slider_speed(memory, now), now);
   const double slider = now.force_limit_now(kinetic_) * speed;
-  const double stretching = now.v - memory.mode * speed;
+  const double stretching = now.v - side * speed;
   return slider + damping_ * stretching * stretching;
 }
 
 void ContactCompliance::advance(Memory& memory, const Instant& begin, const Instant&, double duration,
                                 Direction) const {
-  if (std::abs(memory.mode) != slipping || !is_damped()) return;
-  const Relaxation u = relaxation(memory, begin);
-  memory.state[0] = u.settled + u.rate * duration + u.relaxing * std::exp(-u.decay * duration);
+  if (sliding_side(memory) == 0 || !is_damped()) return;
+  const Relaxation q = relaxation(memory, begin);
+  memory.state[0] = q.settled + q.relaxing * std::exp(-q.decay * duration);
 }
 
 LawEntry contact_compliance_entry() {

@@ -6,8 +6,13 @@
 ///   stuck      u = x - a, a held        f = contact_stiffness u + contact_damping v,   |f| < static      [N]
 ///   slipping   f = s kinetic, s = +-1
 ///     without damping   u = s kinetic/contact_stiffness; ends when v = 0
-///     with damping      u' = (s kinetic - contact_stiffness u)/contact_damping; ends when the slider's speed
-///                       v - u' is 0, not when v is
+///     with damping      u' = q, contact_damping q = s kinetic - contact_stiffness u; ends when the slider's speed
+///                       v - q is 0, not when v is
+///
+/// Beside a mass at rest the speed of a damped slider falls towards 0 and never gets there: the slider creeps. It
+/// has stopped when the spring pulls it with less than 1e-12 static beyond kinetic, that is at the speed 1e-12
+/// static/contact_damping. So the next release meets static friction, and the limit of no damping is the motion
+/// without damping.
 ///
 /// With static > kinetic the slider jumps at break-away: the force falls to kinetic, x and v do not change. The
 /// spring starts unstretched. Under force limits that vary with time or position the slip ends when the slider
@@ -41,27 +46,37 @@ class ContactCompliance {
   void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
   /// Of the slider and the damper.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction) const;
+  /// Of a: the stretch at break-away. Of q: that of v; of a slider that creeps, the speed at which it has stopped.
+  void scales(const Memory& memory, std::span<double> scales) const;
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration, Direction) const;
 
  private:
-  /// Modes; slipping and halted are multiplied by the direction of the force, +1 or -1. State: a when stuck or
-  /// halted; u when slipping with damping; none when slipping without.
-  enum : int { stuck = 0, slipping = 1, halted = 2 };
-  /// The stretch of the spring of a damped contact that slips, as a function of time s since the interval began:
-  /// settled + rate s + relaxing exp(-decay s).
+  /// Modes; all but stuck are multiplied by the direction of the force, +1 or -1. Creeping: the slider of a damped
+  /// contact slides beside a mass at rest. State: a when stuck or halted; q = u' when slipping with damping and
+  /// when creeping, because u would have to be known to the rounding of v times contact_damping/contact_stiffness;
+  /// none when slipping without damping.
+  enum : int { stuck = 0, slipping = 1, halted = 2, creeping = 3 };
+  /// The rate q [m/s] at which the spring of a damped contact that slips is stretched, as a function of time s
+  /// since the interval began: settled + relaxing exp(-decay s).
   struct Relaxation {
     double settled = 0.0;
-    double rate = 0.0;
     double relaxing = 0.0;
     double decay = 0.0;
   };
 
+  /// In which direction the slider slides, +1 or -1; 0: it does not.
+  [[nodiscard]] static int sliding_side(const Memory& memory);
+  [[nodiscard]] int sliding_mode(Direction direction) const {
+    return is_damped() && direction == Direction::none ? creeping : slipping;
+  }
   [[nodiscard]] bool is_damped() const { return damping_ > 0.0; }
   [[nodiscard]] bool slider_stops_by_itself(const Instant& now) const;
   [[nodiscard]] Affine break_away(const Memory& memory, const Instant& now, int side) const;
   [[nodiscard]] Relaxation relaxation(const Memory& memory, const Instant& now) const;
   [[nodiscard]] Affine slider_speed(const Memory& memory, const Instant& now) const;
-  void slide(Memory& memory, const Instant& now, int side) const;
+  [[nodiscard]] double slowest_creep(double static_level) const;
+  [[nodiscard]] double stretching_at_break_away(const Memory& memory, const Instant& now, int side) const;
+  void slide(Memory& memory, const Instant& now, int side, Direction direction) const;
   void stop_slider(Memory& memory, const Instant& now, int next_mode) const;
 
   double kinetic_;

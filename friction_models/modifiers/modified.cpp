@@ -238,9 +238,9 @@ void ModifiedLaw::change_by_schedule(OpenParts& parts, const Instant& now, Direc
 /// The force limits change by a step.
 void ModifiedLaw::step_to(ModifierCourse next, OpenParts& parts, const Instant& now, Direction direction) const {
   next.vanished = limits_.vanished(next, parts.power, now);
-  // Under a limit that falls, what slides goes on sliding.
+  // Under a limit that falls, what slides goes on sliding; states that move may hold for one limit only.
   const bool rises = limits_.fluctuation(next) > limits_.fluctuation(parts.course);
-  if (rises || next.vanished != parts.course.vanished) look_again(parts, now, direction);
+  if (rises || law_.advances() || next.vanished != parts.course.vanished) look_again(parts, now, direction);
   parts.course = next;
   if (!limits_.are_gone(next)) settle(parts, modify(parts, now, direction), direction);
 }

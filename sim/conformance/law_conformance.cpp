@@ -8,6 +8,7 @@
 
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
+#include "friction_models/state_sizes.hpp"
 #include "sim/conformance/law_host.hpp"
 #include "sim/conformance/parameter_conformance.hpp"
 
@@ -229,8 +230,10 @@ void examine_response(const LawHost& host, const LawCase& c, Faults& faults) {
     faults.add("a rate is not finite");
   std::vector<double> scales(rates.size());
   law.scales(memory, scales);
-  if (!std::ranges::all_of(scales, [](double scale) { return scale >= 0.0 && std::isfinite(scale); }))
-    faults.add("the scale of a state is negative or not finite");
+  const auto fits = [](double scale) {
+    return scale >= 0.0 && (std::isfinite(scale) || scale == friction::size_of_velocity);
+  };
+  if (!std::ranges::all_of(scales, fits)) faults.add("the scale of a state is negative or not finite");
   const double heat = law.dissipation(memory, host.now(), host.direction());
   const double power = values.back() * host.now().v;
   if (!std::isfinite(heat)) faults.add("the dissipation is not finite");

@@ -59,6 +59,7 @@ class ExactEngine final : public Engine {
     double by_position = 0.0;  ///< dg/dx
     double by_velocity = 0.0;  ///< dg/dv
     double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
+    bool is_speed = false;     ///< g is a positive multiple of the speed in a slip
   };
   /// All laws together, affine in the interval.
   struct Total {
@@ -90,7 +91,7 @@ class ExactEngine final : public Engine {
   core::Guard& new_guard(const Watch& watch);
   [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
   [[nodiscard]] bool rises_in_time(const core::Guard& guard, double tolerance) const;
-  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, const Ending& ending, double tolerance) const;
+  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, bool is_speed, double tolerance) const;
   bool find_violated();
   void drop_guard(std::size_t i);
   void settle() override;

@@ -180,7 +180,8 @@ void ExactEngine::lay_slip() {
   mode_->solve(forcing_, x_, v_, motion_);
   force_scale_ = force_scale();
   const double sign = friction::sign(direction_);
-  core::Guard& guard = new_guard({.ending = SlipEnd{}, .by_velocity = sign, .tolerance = velocity_rounding()});
+  core::Guard& guard =
+      new_guard({.ending = SlipEnd{}, .by_velocity = sign, .tolerance = velocity_rounding(), .is_speed = true});
   core::differentiate(basis, motion_, guard.value);
   if (sign < 0.0) core::assign(basis, -1.0, guard.value, guard.value);
   core::differentiate(basis, guard.value, guard.slope);
@@ -199,8 +200,10 @@ void ExactEngine::add_law_guards() {
                                       .tolerance = rounding * (std::abs(g.constant) + std::abs(g.position * x_) +
                                                                std::abs(g.velocity * v_) + g.cancelled)});
       if (direction_ != Direction::none) {
-        watches_[guard_count_ - 1].tolerance +=
-            velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
+        Watch& watch = watches_[guard_count_ - 1];
+        watch.tolerance += velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
+        watch.is_speed = g.velocity * friction::sign(direction_) > 0.0 && g.constant == 0.0 && g.rate == 0.0 &&
+                         g.position == 0.0 && g.transient == 0.0;
       }
       ModeForcing own{
           .constant = g.constant, .ramp = g.rate, .transients = std::vector<double>(mode_->decays().size())};
@@ -248,9 +251,10 @@ bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) cons
 }
 
 /// Two modes of a law may have the same zero by different formulas, each with its own rounding, and both could then
-/// send the law to the other one. The event is known to a time: what rises through zero within it begins at zero.
-core::Germ ExactEngine::start_germ(const core::Guard& guard, const Ending& ending, double tolerance) const {
-  if (is<SlipEnd>(ending) && v_ == 0.0) return slip_germ(guard, tolerance);
+/// send the law to the other one. The event is known to a time: what rises through zero within it begins at zero. A
+/// slider that lets go of a mass at rest has the speed of the mass, and cannot stop before it.
+core::Germ ExactEngine::start_germ(const core::Guard& guard, bool is_speed, double tolerance) const {
+  if (is_speed && v_ == 0.0) return slip_germ(guard, tolerance);
   const core::Germ germ = core::germ(mode_->basis(), guard, tolerance);
   if (germ.sign >= 0 || germ.zeros > 0 || !rises_in_time(guard, tolerance)) return germ;
   const core::Germ from_zero = core::germ(mode_->basis(), guard, tolerance, 1);
@@ -267,7 +271,7 @@ bool ExactEngine::find_violated() {
     const double tolerance =
         watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
     if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
-    const core::Germ germ = start_germ(guard, watch.ending, tolerance);
+    const core::Germ germ = start_germ(guard, watch.is_speed, tolerance);
     if (germ.sign < 0) {
       if (germ.zeros > 0) {
         keep_time_rounding(tolerance + std::abs(core::at_start(basis, guard.value)),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "friction_models/state_sizes.hpp"
+
 namespace dualdamp::sim {
 
 using friction::Direction;
@@ -54,7 +56,10 @@ void Flow::set_scales(double x, double v) {
   scales_.resize(size_);
   scales_[0] = x;
   scales_[1] = v;
-  for (std::size_t k = 2; k < size_; ++k) scales_[k] = own_scales_[k] > 0.0 ? own_scales_[k] : x;
+  for (std::size_t k = 2; k < size_; ++k) {
+    const double own = own_scales_[k];
+    scales_[k] = own == friction::size_of_velocity ? v : own > 0.0 ? own : x;
+  }
 }
 
 void Flow::gather(double x, double v, const std::vector<Memory>& memories, std::vector<double>& X) const {

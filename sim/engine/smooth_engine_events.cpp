@@ -20,6 +20,8 @@ namespace {
 constexpr double resolution = 1e-13;
 /// Crossings within this part of the longest step are at the start of the interval.
 constexpr double shortest_part = 1e-15;
+/// The part of the longest step by which a motion is followed first to see where a guard goes.
+constexpr double shortest_probe = 1e-20;
 /// Sums of forces within this part of their parts' sizes are equal.
 constexpr double equal = 1e-12;
 
@@ -107,9 +109,9 @@ double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, do
 }
 
 /// Whether a guard that is zero at the start of the interval goes negative: by where a step of the midpoint rule
-/// leads, a longer one where the first leaves it within rounding.
+/// leads, a longer one where the first leaves it within rounding. The first is shorter than any decay of a law.
 bool SmoothEngine::goes_negative(std::size_t watch) const {
-  for (const double part : {1e-6, 1e-4, 1e-2}) {
+  for (double part = shortest_probe; part < 0.1; part *= 100.0) {
     const double s = part * longest_step();
     flow_.evaluate(X_, local_time_, rates_);
     probe_ = X_;

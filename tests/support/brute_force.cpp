@@ -135,10 +135,11 @@ class Walk {
       c.relax(h);
       const double moving = c.decay() * (c.settled() - c.stretch);
       if (c.side != 0) {
+        const double stopped = at.direction == 0 ? c.stopped() : 0.0;
         guards.push_back({{.what = NextEvent::What::contact, .contact = i},
-                          c.side * (at.v - moving),
+                          c.side * (at.v - moving) - stopped,
                           c.side * (acceleration + c.decay() * moving),
-                          speed_ + c.decay() * length_});
+                          at.direction == 0 ? c.stopped() : speed_ + c.decay() * length_});
         continue;
       }
       for (const int side : {1, -1}) {

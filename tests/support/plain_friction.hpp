@@ -29,7 +29,7 @@ struct Spring {
 };
 
 /// Spring and damper side by side, on a slider. Stuck f = stiffness stretch + damping v, up to static_level;
-/// sliding f = +-kinetic, until the slider's speed v - stretch' is zero.
+/// sliding f = +-kinetic, until the slider's speed v - stretch' is zero, or beside a mass at rest is `stopped`.
 struct DampedContact {
   double stiffness = 0.0;     ///< N/m
   double damping = 0.0;       ///< N.s/m
@@ -41,6 +41,8 @@ struct DampedContact {
 
   [[nodiscard]] double settled() const { return side * kinetic / stiffness; }
   [[nodiscard]] double decay() const { return stiffness / damping; }
+  /// m/s
+  [[nodiscard]] double stopped() const { return 1e-12 * static_level / damping; }
   /// The slide goes on for s [s].
   void relax(double s);
   void break_away(int towards, double x);

@@ -163,6 +163,14 @@ void PlainInterval::add_spring_guard(int side) {
 
 void PlainInterval::add_contact_guards(std::size_t index) {
   const DampedContact& c = friction_.contacts[index];
+  if (c.side != 0 && from_.direction == 0) {
+    guards_.push_back({.event = {.what = NextEvent::What::contact, .contact = index},
+                       .constant = -c.stopped(),
+                       .transient = c.side * c.decay() * (c.stretch - c.settled()),
+                       .decay = c.decay(),
+                       .error = rounding * c.decay() * (std::abs(c.stretch) + std::abs(c.settled()))});
+    return;
+  }
   if (c.side != 0) {
     // side (v - stretch')
     const double relaxing = c.stretch - c.settled();
@@ -173,11 +181,8 @@ void PlainInterval::add_contact_guards(std::size_t index) {
                 .decay = c.decay(),
                 .error = rounding * (std::abs(from_.v) + parts)};
     const double speed = c.side * (from_.v + c.decay() * relaxing);
-    if (std::abs(speed) <= 4.0 * guard.error + start_velocity_error()) {
-      // Beside a mass at rest a slider without speed stands, called sliding or stuck.
-      if (from_.direction == 0) return;
+    if (std::abs(speed) <= 4.0 * guard.error + start_velocity_error())
       guard.zeros = std::max(1, guards_.front().zeros);
-    }
     guards_.push_back(guard);
     return;
   }

@@ -1,0 +1,241 @@
+/// Motions on contacts, damped or not, beside other friction: what a damped slider does beside a mass at rest, the
+/// limit of no damping, and both engines event by event.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/iwan.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace dualdamp;
+using friction::ContactCompliance;
+using friction::Coulomb;
+using friction::Law;
+using sim::Event;
+using sim::EventKind;
+using sim::SolverKind;
+
+/// A unit mass on 100 N/m pulled at 0.01 m/s, under Coulomb friction and a contact.
+sim::Model pulled(double contact_damping) {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = 0.01};
+  model.friction = {Law(Coulomb(1.0, 2.0)), Law(ContactCompliance(1.0, 2.0, 1e4, contact_damping))};
+  return model;
+}
+
+/// A slow base motion: the mass sticks twice a period.
+sim::Model slowly_driven(double contact_damping) {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.13};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.143};
+  model.friction = {Law(ContactCompliance(0.15, 0.23, 11.0, contact_damping)), Law(Coulomb(0.05, 0.06))};
+  return model;
+}
+
+/// Those of the mass, or else the mode changes of the laws, in the order of time. Grazings come and go by rounding.
+std::vector<Event> chosen(const std::vector<Event>& events, bool switching) {
+  std::vector<Event> result;
+  for (const Event& event : events) {
+    if (event.kind == EventKind::grazing) continue;
+    if ((event.kind == EventKind::switching) == switching) result.push_back(event);
+  }
+  return result;
+}
+
+/// What differs first, or nothing. A slider that stops where the mass does may do so before or after it: mode
+/// changes are compared apart from the rest.
+std::string difference(const std::vector<Event>& a, const std::vector<Event>& b, double time) {
+  for (const bool switching : {false, true}) {
+    const std::vector<Event> left = chosen(a, switching);
+    const std::vector<Event> right = chosen(b, switching);
+    for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+      if (i == right.size()) return fmt::format("{} at {:.17g} s is missing", name(left[i].kind), left[i].t);
+      if (i == left.size()) return fmt::format("{} at {:.17g} s too many", name(right[i].kind), right[i].t);
+      if (left[i].kind != right[i].kind || !(std::abs(left[i].t - right[i].t) <= time))
+        return fmt::format("{} at {:.17g} s, {} at {:.17g} s", name(left[i].kind), left[i].t, name(right[i].kind),
+                           right[i].t);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("A damped contact beside a mass at rest sticks again", "[contacts]") {
+  // First a release and a stop on the stuck contact; then, four times: release, break-away, the mass stops, the
+  // slider stops.
+  const sim::History history = sim::simulate(pulled(1.0), {.duration = 12.0});
+  REQUIRE(history.outcome.ok());
+  CHECK(history.events.size() == 18);
+  // At the later releases the contact holds with its kinetic friction, 1 N, and Coulomb friction with 2 N.
+  double x = 0.0;
+  for (const Event& event : chosen(history.events, false)) {
+    if (event.kind == EventKind::release && event.t > 5.0)
+      CHECK(100.0 * (0.01 * event.t - event.x) == Approx(3.0).epsilon(1e-11));
+    x = event.x;
+  }
+  CHECK(x > 0.0);
+}
+
+TEST_CASE("A contact tends to the undamped one as its damping vanishes", "[contacts]") {
+  const sim::History limit = sim::simulate(pulled(0.0), {.duration = 12.0});
+  const double peak = sim::steady_state(slowly_driven(0.0)).peak;
+  for (const SolverKind kind : {SolverKind::automatic, SolverKind::implicit_steps}) {
+    for (const double damping : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+      CAPTURE(damping, static_cast<int>(kind));
+      sim::Model ramp = pulled(damping);
+      ramp.solver.kind = kind;
+      const sim::History history = sim::simulate(ramp, {.duration = 12.0});
+      REQUIRE(history.outcome.ok());
+      const std::vector<Event> found = chosen(history.events, false);
+      const std::vector<Event> expected = chosen(limit.events, false);
+      CHECK(difference(expected, found, 1e-9 + 10.0 * damping) == "");
+      sim::Model driven = slowly_driven(damping);
+      driven.solver.kind = kind;
+      const sim::SteadyState state = sim::steady_state(driven);
+      REQUIRE(state.outcome.ok());
+      CHECK(std::abs(state.peak - peak) < 1e-9 + 10.0 * damping);
+    }
+  }
+}
+
+namespace {
+
+/// Laws in parallel drawn at random, among them at least one contact.
+class RandomContacts {
+ public:
+  RandomContacts(test::Random& random, sim::Model& model) : random_(random), model_(model) {
+    const sim::Oscillator& o = model.oscillator;
+    force_ = o.stiffness * model.excitation.amplitude;
+    time_ = 1.0 / sim::natural_frequency(o);
+  }
+
+  void add() {
+    contact();
+    const int more = random_.pick(3);
+    for (int i = 0; i < more; ++i) {
+      const int kind = random_.pick(4);
+      kind == 0 ? contact() : kind == 1 ? iwan() : coulomb();
+    }
+  }
+  /// To reproduce it.
+  [[nodiscard]] const std::string& words() const { return words_; }
+
+ private:
+  double kinetic() { return force_ * random_.logarithmic(1e-3, 1.0); }
+  double static_level(double kinetic) {
+    return random_.chance(0.4) ? kinetic : kinetic * random_.uniform(1.0, 3.0);
+  }
+
+  void coulomb() {
+    const double level = kinetic();
+    const double limit = static_level(level);
+    model_.friction.push_back(Law(Coulomb(level, limit)));
+    words_ += fmt::format("; coulomb {:.17g} {:.17g}", level, limit);
+  }
+  void contact() {
+    const double level = kinetic();
+    const double limit = static_level(level);
+    const double stiffness = model_.oscillator.stiffness * random_.logarithmic(1e-2, 1e6);
+    const double damping = random_.chance(0.3) ? 0.0 : stiffness * time_ * random_.logarithmic(1e-9, 1.0);
+    model_.friction.push_back(Law(ContactCompliance(level, limit, stiffness, damping)));
+    words_ += fmt::format("; contact {:.17g} {:.17g} {:.17g} {:.17g}", level, limit, stiffness, damping);
+  }
+  void iwan() {
+    const double stiffness = model_.oscillator.stiffness * random_.logarithmic(1e-1, 1e2);
+    const double limit = kinetic();
+    const int count = 1 + random_.pick(8);
+    model_.friction.push_back(Law(friction::Iwan(friction::Iwan::uniform(stiffness, limit, count))));
+    words_ += fmt::format("; iwan {:.17g} {:.17g} {}", stiffness, limit, count);
+  }
+
+  test::Random& random_;
+  sim::Model& model_;
+  double force_ = 0.0;  ///< N, of the drive
+  double time_ = 0.0;   ///< s, of the oscillator
+  std::string words_;
+};
+
+/// When the mass first slips by less than a part of 1e-7 of `length`: the accuracy of the smooth engine does not
+/// tell how long such slips last. Infinite: never.
+double first_short_slip(const std::vector<Event>& events, double length) {
+  const std::vector<Event> motion = chosen(events, false);
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    const bool slips = motion[i].kind != EventKind::release;
+    if (slips && std::abs(motion[i].x - motion[i - 1].x) < 1e-7 * length) return motion[i - 1].t;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Those before a time.
+std::vector<Event> before(std::vector<Event> events, double time) {
+  std::erase_if(events, [&](const Event& event) { return event.t >= time; });
+  return events;
+}
+
+sim::Model random_oscillator(test::Random& random) {
+  sim::Model model;
+  const double wn = random.logarithmic(1.0, 100.0);
+  const double mass = random.logarithmic(0.1, 10.0);
+  const double zeta = random.logarithmic(0.01, 1.0);
+  model.oscillator = {.mass = mass, .stiffness = mass * wn * wn, .damping = 2.0 * zeta * mass * wn};
+  const double amplitude = random.logarithmic(1e-3, 1.0);
+  const double frequency = wn * random.logarithmic(0.1, 3.0);
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = amplitude,
+                      .frequency = frequency,
+                      .phase = random.angle()};
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("Random contacts beside other friction move alike under both engines, event by event", "[contacts]") {
+  // DUALDAMP_CONTACT_CASES for a longer run, DUALDAMP_CONTACT_SEED for other motions: the number of the first.
+  const long cases = test::case_count("DUALDAMP_CONTACT_CASES", 60);
+  const long seed = test::case_count("DUALDAMP_CONTACT_SEED", 1);
+  long events = 0;
+  long cut_short = 0;
+  double worst = 0.0;
+  for (long i = 0; i < cases; ++i) {
+    test::Random random(static_cast<std::uint64_t>(seed + i));
+    sim::Model model = random_oscillator(random);
+    RandomContacts contacts(random, model);
+    contacts.add();
+    const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
+    const sim::History exact = sim::simulate(model, {.duration = 4.3 * period});
+    model.solver = {SolverKind::implicit_steps, 1e-13};
+    const sim::History smooth = sim::simulate(model, {.duration = 4.3 * period});
+    const sim::Oscillator& o = model.oscillator;
+    const sim::Excitation& e = model.excitation;
+    INFO(seed + i << ": m "
+                  << fmt::format("{:.17g}, k {:.17g}, c {:.17g}, Y {:.17g}, w {:.17g}, phase {:.17g}", o.mass,
+                                 o.stiffness, o.damping, e.amplitude, e.frequency, e.phase)
+                  << contacts.words() << "; " << smooth.outcome.reason << exact.outcome.reason);
+    CHECK(exact.outcome.ok());
+    CHECK(smooth.outcome.ok());
+    const double end = first_short_slip(exact.events, e.amplitude) - 1e-6 * period;
+    CHECK(difference(before(exact.events, end), before(smooth.events, end), 1e-7 * period) == "");
+    const double error = std::abs(exact.final.x - smooth.final.x) / e.amplitude;
+    CHECK(error < 1e-9);
+    worst = std::max(worst, error);
+    cut_short += std::isfinite(end) ? 1 : 0;
+    events += static_cast<long>(before(exact.events, end).size());
+  }
+  CHECK(5 * cut_short < cases);
+  WARN(fmt::format("{} motions, {} events compared, {} motions cut short; largest error {:.2g} of the drive", cases,
+                   events, cut_short, worst));
+}
