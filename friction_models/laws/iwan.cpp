@@ -176,6 +176,14 @@ void Iwan::jump(Memory& memory, Trigger trigger, const Instant& now, Direction d
   }
 }
 
+void Iwan::rates(const Memory&, const Instant&, Direction, std::span<double> rates) const {
+  std::ranges::fill(rates, 0.0);
+}
+
+void Iwan::scales(const Memory&, std::span<double> scales) const {
+  std::ranges::fill(scales, slip_distance_.front());
+}
+
 namespace {
 
 /// Limits that vary change the order in which the elements slide: each element is then a law of its own.

@@ -19,6 +19,7 @@
 /// for each element and stroke; the cost of an event grows with the number of open loops, not with that of
 /// elements.
 
+#include <span>
 #include <vector>
 
 #include "friction_models/law.hpp"
@@ -46,6 +47,9 @@ class Iwan {
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction) const;
   void affine_guards(const Memory& memory, const Instant& now, Direction, std::vector<Affine>& guards) const;
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
+  void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
+  /// Of positions that matter to the parts of the smallest slip distance.
+  void scales(const Memory& memory, std::span<double> scales) const;
 
  private:
   [[nodiscard]] int count() const { return static_cast<int>(slip_distance_.size()); }

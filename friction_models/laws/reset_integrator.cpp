@@ -1,5 +1,6 @@
 #include "friction_models/laws/reset_integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "friction_models/formulas/slider.hpp"
@@ -70,6 +71,14 @@ void ResetIntegrator::jump(Memory& memory, Trigger trigger, const Instant& now, 
       if (slips) return hold(memory, now);
       memory = {.mode = trigger.cause == 0 ? 1 : -1};
   }
+}
+
+void ResetIntegrator::rates(const Memory&, const Instant&, Direction, std::span<double> rates) const {
+  std::ranges::fill(rates, 0.0);
+}
+
+void ResetIntegrator::scales(const Memory&, std::span<double> scales) const {
+  std::ranges::fill(scales, kinetic_ / stiffness_);
 }
 
 LawEntry reset_integrator_entry() {

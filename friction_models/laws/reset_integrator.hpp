@@ -11,6 +11,7 @@
 ///
 /// Source: haessig1991 in `docs/refs.bib`. Exact engine. Cost: two events a stroke.
 
+#include <span>
 #include <vector>
 
 #include "friction_models/law.hpp"
@@ -30,6 +31,9 @@ class ResetIntegrator {
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction) const;
   void affine_guards(const Memory& memory, const Instant& now, Direction, std::vector<Affine>& guards) const;
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
+  void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
+  /// Of positions that matter to the parts of a bond's largest stretch.
+  void scales(const Memory& memory, std::span<double> scales) const;
 
  private:
   // Mode 0: stick; state: the position x - z of the other end of the bond. Mode +1 or -1: slip in that direction;

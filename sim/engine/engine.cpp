@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/cancellation.hpp"
+#include "core/numbers.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/validate.hpp"
@@ -12,6 +13,14 @@
 namespace dualdamp::sim {
 
 using friction::Direction;
+
+namespace {
+
+/// Largest ratio of a state to its size in a law: beyond, rounding of the position makes more than 1e-4 of the
+/// force.
+constexpr double most_digits = 1e12;
+
+}  // namespace
 
 Engine::Engine(const Model& model) : model_(valid(model)), drive_(model.oscillator, model.excitation) {
   for (const friction::Law& law : model_.friction) {
@@ -98,10 +107,33 @@ void Engine::change_direction(Direction direction) {
 }
 
 void Engine::jump(std::size_t law, friction::Trigger trigger) {
-  if (!tracking_) return model_.friction[law].jump(memories_[law], trigger, now(), direction_);
-  const friction::Memory before = memories_[law];
-  model_.friction[law].jump(memories_[law], trigger, now(), direction_);
-  jumped(law, before, trigger);
+  if (!tracking_) {
+    model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+  } else {
+    const friction::Memory before = memories_[law];
+    model_.friction[law].jump(memories_[law], trigger, now(), direction_);
+    jumped(law, before, trigger);
+  }
+  check_digits(law);
+}
+
+/// A position that is far larger than what matters of it to its law is not known well enough: a stiff spring is
+/// then stretched by the rounding of x. Ends the motion with an outcome.
+void Engine::check_digits(std::size_t law) {
+  const std::vector<double>& state = memories_[law].state;
+  if (state.empty() || !model_.friction[law].has_rates()) return;
+  sizes_.assign(state.size(), 0.0);
+  model_.friction[law].scales(memories_[law], sizes_);
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    const double excess = std::abs(state[k]) / (most_digits * sizes_[k]);
+    if (!(excess > 1.0) || !std::isfinite(excess)) continue;
+    const auto number = [](double value) { return core::format_number(value, 3); };
+    outcome_ = {core::OutcomeKind::not_finite,
+                "friction law " + std::to_string(law + 1) + " is too stiff for double precision at t = " +
+                    number(time()) + " s: it yields within " + number(sizes_[k]) + " m, at a position of " +
+                    number(std::abs(state[k])) + " m; a stiffness " + number(excess) + " times smaller would do"};
+    return;
+  }
 }
 
 EventKind Engine::act(const Ending& ending) {

@@ -16,6 +16,7 @@
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/standard_system.hpp"
 
 namespace {
 
@@ -238,4 +239,25 @@ TEST_CASE("Random contacts beside other friction move alike under both engines, 
   CHECK(5 * cut_short < cases);
   WARN(fmt::format("{} motions, {} events compared, {} motions cut short; largest error {:.2g} of the drive", cases,
                    events, cut_short, worst));
+}
+
+TEST_CASE("A contact too stiff for double precision is refused, with a stiffness that would do", "[contacts]") {
+  // Of the standard system: a spring of 1e17 N/m is stretched by 2e-17 m at 0.2 m.
+  const auto state = [](double stiffness, SolverKind kind) {
+    sim::Model model = test::standard_system(Law(ContactCompliance(2.0, 2.0, stiffness, 0.0)));
+    model.solver.kind = kind;
+    return sim::steady_state(model);
+  };
+  for (const SolverKind kind : {SolverKind::automatic, SolverKind::implicit_steps}) {
+    const sim::SteadyState refused = state(1e17, kind);
+    REQUIRE(!refused.outcome.ok());
+    CHECK(refused.outcome.reason.find("friction law 1 is too stiff for double precision") != std::string::npos);
+    CHECK(refused.outcome.reason.find("times smaller would do") != std::string::npos);
+  }
+  // The stiffest that is taken: above the peak of rigid friction by 0.02161 m (N/m)^(1/2)/sqrt(stiffness), a
+  // constant found at 1e10 and 1e12 N/m.
+  const sim::SteadyState taken = state(1e13, SolverKind::automatic);
+  REQUIRE(taken.outcome.ok());
+  CHECK(taken.peak - 0.18607809795678620 == Approx(0.02161 / std::sqrt(1e13)).epsilon(1e-3));
+  CHECK(std::abs(taken.multipliers[0]) < 0.3);
 }
