@@ -150,8 +150,10 @@ class RandomContacts {
   void contact() {
     const double level = kinetic();
     const double limit = static_level(level);
-    const double stiffness = model_.oscillator.stiffness * random_.logarithmic(1e-2, 1e6);
-    const double damping = random_.chance(0.3) ? 0.0 : stiffness * time_ * random_.logarithmic(1e-9, 1.0);
+    // The smooth engine knows a contact's force to its stiffness times 1e-13 of the motion.
+    const double stiffest = std::min(1e8, 3e4 * level / force_);
+    const double stiffness = model_.oscillator.stiffness * random_.logarithmic(1e-3, stiffest);
+    const double damping = random_.chance(0.3) ? 0.0 : stiffness * time_ * random_.logarithmic(1e-12, 10.0);
     model_.friction.push_back(Law(ContactCompliance(level, limit, stiffness, damping)));
     words_ += fmt::format("; contact {:.17g} {:.17g} {:.17g} {:.17g}", level, limit, stiffness, damping);
   }
@@ -194,11 +196,15 @@ sim::Model random_oscillator(test::Random& random) {
   const double zeta = random.logarithmic(0.01, 1.0);
   model.oscillator = {.mass = mass, .stiffness = mass * wn * wn, .damping = 2.0 * zeta * mass * wn};
   const double amplitude = random.logarithmic(1e-3, 1.0);
-  const double frequency = wn * random.logarithmic(0.1, 3.0);
+  const double frequency = wn * random.logarithmic(0.05, 5.0);
   model.excitation = {.type = sim::ExcitationType::base_harmonic,
                       .amplitude = amplitude,
                       .frequency = frequency,
                       .phase = random.angle()};
+  if (random.chance(0.2)) {
+    model.excitation.type = sim::ExcitationType::base_ramp;
+    model.excitation.slope = amplitude * frequency;
+  }
   return model;
 }
 
@@ -231,9 +237,12 @@ TEST_CASE("Random contacts beside other friction move alike under both engines, 
     const double end = first_short_slip(exact.events, e.amplitude) - 1e-6 * period;
     CHECK(difference(before(exact.events, end), before(smooth.events, end), 1e-7 * period) == "");
     const double error = std::abs(exact.final.x - smooth.final.x) / e.amplitude;
-    CHECK(error < 1e-9);
-    worst = std::max(worst, error);
-    cut_short += std::isfinite(end) ? 1 : 0;
+    if (std::isfinite(end)) {
+      ++cut_short;
+    } else {
+      CHECK(error < 1e-9);
+      worst = std::max(worst, error);
+    }
     events += static_cast<long>(before(exact.events, end).size());
   }
   CHECK(5 * cut_short < cases);
