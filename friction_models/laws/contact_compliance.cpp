@@ -17,7 +17,7 @@ namespace {
 /// A creeping slider has stopped when the force that drives it is this part of the static friction.
 constexpr double stopped = 1e-12;
 /// A force that differs from its limit by this part of its terms is at its limit.
-constexpr double at_limit = 1e-10;
+constexpr double at_limit = 1e-7;
 
 }  // namespace
 
