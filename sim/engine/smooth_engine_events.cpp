@@ -109,18 +109,29 @@ double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, do
 }
 
 /// Whether a guard that is zero at the start of the interval goes negative: by where a step of the midpoint rule
-/// leads, a longer one where the first leaves it within rounding. The first is shorter than any decay of a law.
+/// leads, a longer one where the first leaves it within rounding. The first is shorter than any decay of a law; one
+/// that is longer than a decay leads nowhere, which two steps of half the length show.
 bool SmoothEngine::goes_negative(std::size_t watch) const {
+  const auto value_after = [&](double length, int steps) {
+    const double s = length / steps;
+    std::vector<double> X = X_;
+    for (int i = 0; i < steps; ++i) {
+      const double t = local_time_ + i * s;
+      flow_.evaluate(X, t, rates_);
+      probe_ = X;
+      for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += 0.5 * s * rates_[k];
+      flow_.evaluate(probe_, t + 0.5 * s, rates_);
+      for (std::size_t k = 0; k < X.size(); ++k) X[k] += s * rates_[k];
+    }
+    evaluate_guards(X, local_time_ + length, guard_values_);
+    return guard_values_[watch];
+  };
   for (double part = shortest_probe; part < 0.1; part *= 100.0) {
-    const double s = part * longest_step();
-    flow_.evaluate(X_, local_time_, rates_);
-    probe_ = X_;
-    for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += 0.5 * s * rates_[k];
-    flow_.evaluate(probe_, local_time_ + 0.5 * s, rates_);
-    for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] = X_[k] + s * rates_[k];
-    evaluate_guards(probe_, local_time_ + s, guard_values_);
-    const double later = guard_values_[watch];
-    if (std::abs(later) > equal * watches_[watch].scale) return later < 0.0;
+    const double length = part * longest_step();
+    const double later = value_after(length, 1);
+    if (std::abs(later) <= equal * watches_[watch].scale) continue;
+    const double again = value_after(length, 2);
+    return again < 0.0 && std::abs(later - again) <= 0.5 * std::abs(again);
   }
   return false;
 }

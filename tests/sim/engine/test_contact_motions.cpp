@@ -57,7 +57,8 @@ std::vector<Event> chosen(const std::vector<Event>& events, bool switching) {
 }
 
 /// What differs first, or nothing. A slider that stops where the mass does may do so before or after it: mode
-/// changes are compared apart from the rest.
+/// changes are compared apart from the rest. They may differ by a hundred times as much: a contact at its limit
+/// where the mass is released without acceleration breaks away as soon as the cube of time exceeds rounding.
 std::string difference(const std::vector<Event>& a, const std::vector<Event>& b, double time) {
   for (const bool switching : {false, true}) {
     const std::vector<Event> left = chosen(a, switching);
@@ -65,7 +66,7 @@ std::string difference(const std::vector<Event>& a, const std::vector<Event>& b,
     for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
       if (i == right.size()) return fmt::format("{} at {:.17g} s is missing", name(left[i].kind), left[i].t);
       if (i == left.size()) return fmt::format("{} at {:.17g} s too many", name(right[i].kind), right[i].t);
-      if (left[i].kind != right[i].kind || !(std::abs(left[i].t - right[i].t) <= time))
+      if (left[i].kind != right[i].kind || !(std::abs(left[i].t - right[i].t) <= (switching ? 100.0 : 1.0) * time))
         return fmt::format("{} at {:.17g} s, {} at {:.17g} s", name(left[i].kind), left[i].t, name(right[i].kind),
                            right[i].t);
     }
@@ -248,6 +249,27 @@ TEST_CASE("Random contacts beside other friction move alike under both engines, 
   CHECK(5 * cut_short < cases);
   WARN(fmt::format("{} motions, {} events compared, {} motions cut short; largest error {:.2g} of the drive", cases,
                    events, cut_short, worst));
+}
+
+TEST_CASE("A contact at its limit where the mass is released lets go once, however small its damping",
+          "[contacts]") {
+  // The slider starts with the speed of the mass, 1e-13 m/s by rounding; steps longer than its decay told it to
+  // stop.
+  sim::Model model;
+  model.oscillator = {.mass = 1.282452635681383, .stiffness = 21.131695874858067, .damping = 0.37715124127075184};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.0039983627435413328,
+                      .frequency = 0.3603045063860365,
+                      .phase = 1.0799864916022299};
+  model.friction = {Law(ContactCompliance(0.00012915960799080197, 0.00012915960799080197, 180.49573081002723,
+                                          1.4743035489893026e-09)),
+                    Law(Coulomb(0.020362237583380665, 0.020362237583380665))};
+  const double duration = 6.0;
+  const sim::History exact = sim::simulate(model, {.duration = duration});
+  model.solver = {SolverKind::implicit_steps, 1e-13};
+  const sim::History smooth = sim::simulate(model, {.duration = duration});
+  REQUIRE(smooth.outcome.ok());
+  CHECK(difference(exact.events, smooth.events, 1e-6) == "");
 }
 
 TEST_CASE("A contact too stiff for double precision is refused, with a stiffness that would do", "[contacts]") {
