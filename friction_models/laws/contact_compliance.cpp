@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "friction_models/formulas/slider.hpp"
 #include "friction_models/law_entry.hpp"
@@ -16,8 +17,10 @@ namespace {
 
 /// A creeping slider has stopped when the force that drives it is this part of the static friction.
 constexpr double stopped = 1e-12;
-/// A force that differs from its limit by this part of its terms is at its limit.
-constexpr double at_limit = 1e-7;
+/// A force that differs from its limit by this part of the limit, and by this part of the terms that x and a make,
+/// is at its limit.
+constexpr double at_limit = 3e-10;
+constexpr double rounded = 1e-13;
 
 }  // namespace
 
@@ -100,9 +103,8 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
 double ContactCompliance::stretching_at_break_away(const Memory& memory, const Instant& now, int side) const {
   const double level = value(break_away(memory, now, side), now);
   const double beyond = side * value(affine_force(memory, now, {}), now) - level;
-  const double parts =
-      stiffness_ * (std::abs(now.x) + std::abs(memory.state[0])) + damping_ * std::abs(now.v) + level;
-  const double force = level + (std::abs(beyond) > at_limit * parts ? beyond : 0.0);
+  const double terms = stiffness_ * (std::abs(now.x) + std::abs(memory.state[0])) + damping_ * std::abs(now.v);
+  const double force = level + (std::abs(beyond) > at_limit * level + rounded * terms ? beyond : 0.0);
   return now.v - side * (force - now.force_limit_now(kinetic_)) / damping_;
 }
 
@@ -176,7 +178,9 @@ void ContactCompliance::advance(Memory& memory, const Instant& begin, const Inst
                                 Direction) const {
   if (sliding_side(memory) == 0 || !is_damped()) return;
   const Relaxation q = relaxation(memory, begin);
-  memory.state[0] = q.settled + q.relaxing * std::exp(-q.decay * duration);
+  const double left = q.relaxing * std::exp(-q.decay * duration);
+  // Subnormal numbers have fewer digits.
+  memory.state[0] = q.settled + (std::abs(left) < std::numeric_limits<double>::min() ? 0.0 : left);
 }
 
 LawEntry contact_compliance_entry() {

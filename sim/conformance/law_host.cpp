@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "friction_models/state_sizes.hpp"
 #include "sim/engine/stepper.hpp"
 
 namespace dualdamp::sim {
@@ -26,7 +27,9 @@ class StatesOnPath final : public VectorField {
   StatesOnPath(const friction::Law& law, Memory memory, Direction direction, const Path& path)
       : law_(law), memory_(std::move(memory)), direction_(direction), path_(path), scales_(memory_.state.size()) {
     law_.scales(memory_, scales_);
+    // Sizes that only a motion could tell.
     std::ranges::replace(scales_, 0.0, 1.0);
+    std::ranges::replace(scales_, friction::size_of_velocity, 1.0);
   }
 
   [[nodiscard]] std::size_t size() const override { return scales_.size() + 2; }

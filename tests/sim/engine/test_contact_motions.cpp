@@ -152,7 +152,7 @@ class RandomContacts {
     const double level = kinetic();
     const double limit = static_level(level);
     // The smooth engine knows a contact's force to its stiffness times 1e-13 of the motion.
-    const double stiffest = std::min(1e8, 3e4 * level / force_);
+    const double stiffest = std::min(1e8, 3e3 * level / force_);
     const double stiffness = model_.oscillator.stiffness * random_.logarithmic(1e-3, stiffest);
     const double damping = random_.chance(0.3) ? 0.0 : stiffness * time_ * random_.logarithmic(1e-12, 10.0);
     model_.friction.push_back(Law(ContactCompliance(level, limit, stiffness, damping)));
