@@ -20,6 +20,27 @@ namespace {
 /// force.
 constexpr double most_digits = 1e12;
 
+/// A position that is far larger than what matters of it to its law is not known well enough: a stiff spring is
+/// then stretched by the rounding of x. That ends the motion.
+core::Outcome check_digits(const friction::Law& law, const friction::Memory& memory, std::size_t index,
+                           double time) {
+  if (memory.state.empty() || !law.has_rates()) return {};
+  thread_local std::vector<double> sizes;
+  sizes.assign(memory.state.size(), 0.0);
+  law.scales(memory, sizes);
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    const double excess = std::abs(memory.state[k]) / (most_digits * sizes[k]);
+    if (!(excess > 1.0) || !std::isfinite(excess)) continue;
+    const auto number = [](double value) { return core::format_number(value, 3); };
+    return {core::OutcomeKind::not_finite, "friction law " + std::to_string(index + 1) +
+                                               " is too stiff for double precision at t = " + number(time) +
+                                               " s: it yields within " + number(sizes[k]) +
+                                               " m, at a position of " + number(std::abs(memory.state[k])) +
+                                               " m; a stiffness " + number(excess) + " times smaller would do"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Engine::Engine(const Model& model) : model_(valid(model)), drive_(model.oscillator, model.excitation) {
@@ -114,26 +135,8 @@ void Engine::jump(std::size_t law, friction::Trigger trigger) {
     model_.friction[law].jump(memories_[law], trigger, now(), direction_);
     jumped(law, before, trigger);
   }
-  check_digits(law);
-}
-
-/// A position that is far larger than what matters of it to its law is not known well enough: a stiff spring is
-/// then stretched by the rounding of x. Ends the motion with an outcome.
-void Engine::check_digits(std::size_t law) {
-  const std::vector<double>& state = memories_[law].state;
-  if (state.empty() || !model_.friction[law].has_rates()) return;
-  sizes_.assign(state.size(), 0.0);
-  model_.friction[law].scales(memories_[law], sizes_);
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    const double excess = std::abs(state[k]) / (most_digits * sizes_[k]);
-    if (!(excess > 1.0) || !std::isfinite(excess)) continue;
-    const auto number = [](double value) { return core::format_number(value, 3); };
-    outcome_ = {core::OutcomeKind::not_finite,
-                "friction law " + std::to_string(law + 1) + " is too stiff for double precision at t = " +
-                    number(time()) + " s: it yields within " + number(sizes_[k]) + " m, at a position of " +
-                    number(std::abs(state[k])) + " m; a stiffness " + number(excess) + " times smaller would do"};
-    return;
-  }
+  const core::Outcome digits = check_digits(model_.friction[law], memories_[law], law, time());
+  if (!digits.ok()) outcome_ = digits;
 }
 
 EventKind Engine::act(const Ending& ending) {

@@ -132,10 +132,8 @@ class Engine {
 
  private:
   void place();
-  void check_digits(std::size_t law);
 
   int repeats_ = 0;
-  std::vector<double> sizes_;  ///< scratch
 };
 
 /// The engine for this model: exact where every law is affine in every mode and the spring linear, else smooth.
