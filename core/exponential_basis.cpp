@@ -1,16 +1,16 @@
 #include "core/exponential_basis.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "core/divided_exponential.hpp"
+
 namespace dualdamp::core {
 
 namespace {
-
-constexpr int max_nodes = 6;
 
 /// Panel width times the fastest |z|: just over half a period, so that a resonant half period is one panel; the
 /// remainder of the quintic interpolant is then 2 % of the amplitude, small against the arch between two zeros.
@@ -18,79 +18,6 @@ constexpr double panel_angle = 3.2;
 
 /// Below this |z delta| ten Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
 constexpr double shift_limit = 0.1;
-
-/// exp(rate s). Far down a decay the rounding of the exponent would cost as many roundings of the result: it is
-/// given back.
-double real_exponential(double rate, double s) {
-  const double exponent = rate * s;
-  const double result = std::exp(exponent);
-  if (exponent > -8.0 || result == 0.0) return result;
-  return result * (1.0 + std::fma(rate, s, -exponent));
-}
-
-Complex exponential(Complex z, double s) {
-  const double size = z.real() == 0.0 ? 1.0 : real_exponential(z.real(), s);
-  return z.imag() == 0.0 ? Complex(size) : std::polar(size, z.imag() * s);
-}
-
-/// Nodes of one divided difference of z -> exp(z s).
-struct Nodes {
-  std::array<Complex, max_nodes> z;
-  int count = 0;
-};
-
-Nodes without(const Nodes& nodes, int removed) {
-  Nodes rest;
-  for (int i = 0; i < nodes.count; ++i) {
-    if (i != removed) rest.z[static_cast<std::size_t>(rest.count++)] = nodes.z[static_cast<std::size_t>(i)];
-  }
-  return rest;
-}
-
-/// Close nodes: Taylor series about the first one. With w_i = (z_i - z_0) s the divided difference is
-/// s^n exp(z_0 s) sum_k h_k(w)/(n + k)!, h_k the complete homogeneous symmetric polynomials, built up column by
-/// column of the bidiagonal matrix that has the nodes on its diagonal.
-Complex close_nodes(const Nodes& nodes, double s) {
-  const int n = nodes.count - 1;
-  const Complex first = nodes.z[0];
-  // power[i] = h_k of the first i + 1 nodes; starts as h_0 = 1.
-  std::array<Complex, max_nodes> power;
-  power.fill(1.0);
-  double factorial = 1.0;
-  for (int i = 1; i <= n; ++i) factorial *= i;
-  Complex sum = 0.0;
-  for (int k = 0; k < 26; ++k) {
-    sum += power[static_cast<std::size_t>(n)] / factorial;
-    factorial *= n + k + 1;
-    Complex before = 0.0;
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(n); ++i) {
-      before += (nodes.z[i] - first) * s * power[i];
-      power[i] = before;
-    }
-  }
-  return sum * exponential(first, s) * std::pow(s, n);
-}
-
-/// Divided difference of z -> exp(z s). The farthest pair is taken apart as long as that loses no digits.
-Complex divided_exponential(const Nodes& nodes, double s) {
-  if (nodes.count == 1) return exponential(nodes.z[0], s);
-  int far_a = 0;
-  int far_b = 1;
-  double spread = -1.0;
-  for (int a = 0; a < nodes.count; ++a) {
-    for (int b = a + 1; b < nodes.count; ++b) {
-      const double distance = std::abs(nodes.z[static_cast<std::size_t>(a)] - nodes.z[static_cast<std::size_t>(b)]);
-      if (distance > spread) {
-        spread = distance;
-        far_a = a;
-        far_b = b;
-      }
-    }
-  }
-  if (spread * s <= 1.0) return close_nodes(nodes, s);
-  const Complex gap = nodes.z[static_cast<std::size_t>(far_a)] - nodes.z[static_cast<std::size_t>(far_b)];
-  return (divided_exponential(without(nodes, far_b), s) - divided_exponential(without(nodes, far_a), s)) / gap;
-}
 
 /// exp(w) - 1 for |w| < shift_limit; odd and even powers apart, which wait less for each other.
 Complex small_exponential(Complex w, double size) {
@@ -109,22 +36,27 @@ Complex small_exponential(Complex w, double size) {
 }  // namespace
 
 int ExponentialBasis::add(Complex exponent, int parent) {
-  if (size_ >= capacity || parent >= size_)
-    throw std::length_error("one mode holds at most " + std::to_string(capacity) + " exponentials");
-  const std::size_t k = index(size_);
-  re_[k] = exponent.real();
-  im_[k] = exponent.imag();
-  parent_[k] = parent;
-  square_[k] = std::norm(exponent);
+  int nodes = 1;
+  for (int i = parent; i != no_parent; i = parent_[index(i)]) ++nodes;
+  if (nodes > static_cast<int>(max_nodes))
+    throw std::length_error("a divided difference takes at most " + std::to_string(max_nodes) + " exponents");
+  re_.push_back(exponent.real());
+  im_.push_back(exponent.imag());
+  parent_.push_back(parent);
+  square_.push_back(std::norm(exponent));
   fastest_ = std::max(fastest_, modulus_bound(exponent.real(), exponent.imag()));
   turning_ = std::max({turning_, exponent.real(), std::abs(exponent.imag())});
   has_chains_ = has_chains_ || parent != no_parent;
+  grows_ = grows_ || exponent.real() > 0.0;
   return size_++;
 }
 
 void ExponentialBasis::finish(double expected) {
   panel_ = fastest_ > 0.0 ? panel_angle / fastest_ : 1.0;
   if (!has_chains_) evaluate(panel_, rotor_);
+  relative_square_.clear();
+  for (int k = 0; k < size_; ++k)
+    relative_square_.push_back(fastest_ > 0.0 ? std::norm(exponent(k) / fastest_) : 0.0);
   even_ = !has_chains_;
   for (int k = 0; k < size_; ++k) {
     const double rate = modulus_bound(re_[index(k)], im_[index(k)]);
@@ -136,15 +68,22 @@ void ExponentialBasis::finish(double expected) {
 }
 
 Complex ExponentialBasis::chain_value(int k, double s) const {
-  Nodes nodes;
-  for (int i = k; i != no_parent; i = parent(i)) {
-    assert(nodes.count < max_nodes);
-    nodes.z[static_cast<std::size_t>(nodes.count++)] = exponent(i);
+  std::array<Complex, max_nodes> nodes;
+  std::size_t count = 0;
+  for (int i = k; i != no_parent; i = parent(i)) nodes[count++] = exponent(i);
+  return divided_exponential({nodes.data(), count}, s);
+}
+
+void ExponentialBasis::start(Values& values) const {
+  values.fit(index(size_));
+  for (std::size_t k = 0; k < index(size_); ++k) {
+    values.re[k] = parent_[k] == no_parent ? 1.0 : 0.0;
+    values.im[k] = 0.0;
   }
-  return divided_exponential(nodes, s);
 }
 
 void ExponentialBasis::evaluate(double s, Values& values) const {
+  values.fit(index(size_));
   for (std::size_t k = 0; k < index(size_); ++k) {
     if (parent_[k] != no_parent) {
       const Complex value = chain_value(static_cast<int>(k), s);
@@ -173,6 +112,7 @@ bool ExponentialBasis::shift(double delta, Values& values) const {
 }
 
 void ExponentialBasis::step_panel(const Values& from, Values& to) const {
+  to.fit(index(size_));
   for (std::size_t k = 0; k < index(size_); ++k) {
     to.re[k] = from.re[k] * rotor_.re[k] - from.im[k] * rotor_.im[k];
     to.im[k] = from.re[k] * rotor_.im[k] + from.im[k] * rotor_.re[k];
@@ -193,7 +133,8 @@ double chain_bound(const ExponentialBasis& basis, int k, double at_begin, double
     slowest = std::max(slowest, basis.exponent(p).real());
     power *= (begin + width) / ++n;
   }
-  const double by_nodes = power * std::exp(slowest * (slowest > 0.0 ? begin + width : begin));
+  const double largest = slowest == 0.0 ? 1.0 : std::exp(slowest * (slowest > 0.0 ? begin + width : begin));
+  const double by_nodes = power * largest;
   const double decay = -basis.exponent(k).real();
   const double gain = decay < 0.0 ? std::exp(-decay * width) : 1.0;
   const double memory = decay * width > 1.0 ? 1.0 / decay : width;
@@ -202,23 +143,43 @@ double chain_bound(const ExponentialBasis& basis, int k, double at_begin, double
 
 }  // namespace
 
-double bound(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values,
-             double begin, double width) {
-  std::array<double, ExponentialBasis::capacity> element;
+double evaluate_with_growth(const ExponentialBasis& basis, const ModeFunction& f,
+                            const ExponentialBasis::Values& values) {
   double sum = 0.0;
-  for (int k = 0; k < basis.size(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    element[i] = modulus_bound(values.re[i], values.im[i]);
-    if (basis.parent(k) != ExponentialBasis::no_parent) {
-      const double parent_bound = element[static_cast<std::size_t>(basis.parent(k))];
-      element[i] = chain_bound(basis, k, element[i], parent_bound, begin, width);
-    } else if (basis.growth(k) > 0.0) {
-      element[i] *= std::exp(basis.growth(k) * width);
-    }
-    const double size = modulus_bound(f.re[i], f.im[i]);
-    if (size > 0.0) sum += size * element[i];
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    if (takes_part(f, k)) sum += f.re[k] * values.re[k] - f.im[k] * values.im[k];
   }
   return sum;
+}
+
+void bound_elements(const ExponentialBasis& basis, const ExponentialBasis::Values& values, double begin,
+                    double width, ElementNumbers& bounds) {
+  bounds.fit(static_cast<std::size_t>(basis.size()));
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double modulus = modulus_bound(values.re[i], values.im[i]);
+    if (basis.parent(k) != ExponentialBasis::no_parent) {
+      const double parent_bound = bounds.re[static_cast<std::size_t>(basis.parent(k))];
+      bounds.re[i] = chain_bound(basis, k, modulus, parent_bound, begin, width);
+    } else {
+      bounds.re[i] = basis.growth(k) > 0.0 ? modulus * std::exp(basis.growth(k) * width) : modulus;
+    }
+  }
+}
+
+double bound(const ExponentialBasis& basis, const ModeFunction& f, const ElementNumbers& bounds) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
+    if (takes_part(f, k)) sum += modulus_bound(f.re[k], f.im[k]) * bounds.re[k];
+  }
+  return sum;
+}
+
+double bound(const ExponentialBasis& basis, const ModeFunction& f, const ExponentialBasis::Values& values,
+             double begin, double width) {
+  ElementNumbers bounds;
+  bound_elements(basis, values, begin, width, bounds);
+  return bound(basis, f, bounds);
 }
 
 }  // namespace dualdamp::core

@@ -14,11 +14,17 @@
 /// exponentials are never subtracted (opitz1964; mccurdy1984 for the evaluation).
 /// The set is closed under addition, scaling and differentiation.
 ///
-/// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. No allocation.
+/// Any number of elements. Where some of them grow, one that has left the range of double precision has no part in
+/// a sum unless its coefficient differs from zero.
+///
+/// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. No allocation for functions
+/// on up to 40 elements (`core/element_numbers.hpp`).
 
-#include <array>
 #include <cmath>
 #include <complex>
+#include <vector>
+
+#include "core/element_numbers.hpp"
 
 namespace dualdamp::core {
 
@@ -26,24 +32,24 @@ using Complex = std::complex<double>;
 
 class ExponentialBasis {
  public:
-  /// Elements a basis can hold: constant, ramp, own motion, drive and eight harmonics, each perhaps with a chain.
-  static constexpr int capacity = 40;
   static constexpr int no_parent = -1;
 
   /// One complex number for each element.
-  struct Values {
-    std::array<double, capacity> re;
-    std::array<double, capacity> im;
-  };
+  struct Values : ElementNumbers {};
 
-  /// Appends exp(exponent s), or a divided difference on top of `parent`; returns its index.
+  /// Appends exp(exponent s), or a divided difference on top of `parent`; returns its index. Throws
+  /// std::length_error where a chain becomes too long.
   int add(Complex exponent, int parent = no_parent);
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] Complex exponent(int k) const { return {re_[index(k)], im_[index(k)]}; }
   [[nodiscard]] int parent(int k) const { return parent_[index(k)]; }
   [[nodiscard]] bool has_chains() const { return has_chains_; }
+  /// Whether an element has an exponent with a positive real part.
+  [[nodiscard]] bool grows() const { return grows_; }
 
+  /// E_k(0) for all k.
+  void start(Values& values) const;
   /// E_k(s) for all k; s >= 0.
   void evaluate(double s, Values& values) const;
 
@@ -75,6 +81,8 @@ class ExponentialBasis {
 
   /// |z_k|^2, for derivative bounds.
   [[nodiscard]] double square(int k) const { return square_[index(k)]; }
+  /// |z_k/fastest()|^2: powers of it stay in range.
+  [[nodiscard]] double relative_square(int k) const { return relative_square_[index(k)]; }
   /// max(0, Re z_k): how fast the element can grow [1/s].
   [[nodiscard]] double growth(int k) const { return re_[index(k)] > 0.0 ? re_[index(k)] : 0.0; }
 
@@ -82,29 +90,29 @@ class ExponentialBasis {
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
   [[nodiscard]] Complex chain_value(int k, double s) const;
 
-  std::array<double, capacity> re_{};
-  std::array<double, capacity> im_{};
-  std::array<int, capacity> parent_{};
-  std::array<double, capacity> square_{};
-  Values rotor_{};
-  Values expected_values_{};
+  std::vector<double> re_;
+  std::vector<double> im_;
+  std::vector<int> parent_;
+  std::vector<double> square_;
+  std::vector<double> relative_square_;
+  Values rotor_;
+  Values expected_values_;
   double panel_ = 0.0;
   double expected_ = 0.0;
   double fastest_ = 0.0;
   double turning_ = 0.0;
   int size_ = 0;
   bool has_chains_ = false;
+  bool grows_ = false;
   bool even_ = false;
 };
 
 /// Coefficients of one quantity on a basis; the first size() entries count.
-struct ModeFunction {
-  std::array<double, ExponentialBasis::capacity> re;
-  std::array<double, ExponentialBasis::capacity> im;
-};
+struct ModeFunction : ElementNumbers {};
 
 /// f = factor g.
 inline void assign(const ExponentialBasis& basis, double factor, const ModeFunction& g, ModeFunction& f) {
+  f.fit(static_cast<std::size_t>(basis.size()));
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     f.re[i] = factor * g.re[i];
@@ -123,6 +131,7 @@ inline void accumulate(const ExponentialBasis& basis, double factor, const ModeF
 
 /// f = 0.
 inline void clear(const ExponentialBasis& basis, ModeFunction& f) {
+  f.fit(static_cast<std::size_t>(basis.size()));
   for (int k = 0; k < basis.size(); ++k)
     f.re[static_cast<std::size_t>(k)] = f.im[static_cast<std::size_t>(k)] = 0.0;
 }
@@ -130,6 +139,7 @@ inline void clear(const ExponentialBasis& basis, ModeFunction& f) {
 /// Copies the entries that count.
 inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from,
                  ExponentialBasis::Values& to) {
+  to.fit(static_cast<std::size_t>(basis.size()));
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     to.re[i] = from.re[i];
@@ -140,6 +150,7 @@ inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& 
 /// df/ds on the same basis; not in place. E_k' holds one E_parent, so a parent's coefficient gains its child's;
 /// parents stand before their children.
 inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFunction& derivative) {
+  derivative.fit(static_cast<std::size_t>(basis.size()));
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Complex z = basis.exponent(k);
@@ -153,9 +164,20 @@ inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, 
   }
 }
 
+/// Whether element k has a part in f.
+[[nodiscard]] inline bool takes_part(const ModeFunction& f, std::size_t k) {
+  return f.re[k] != 0.0 || f.im[k] != 0.0;
+}
+
+/// The sum of `evaluate` without elements that take no part.
+[[nodiscard]] double evaluate_with_growth(const ExponentialBasis& basis, const ModeFunction& f,
+                                          const ExponentialBasis::Values& values);
+
 /// Re sum c_k E_k for values of the elements.
 [[nodiscard]] inline double evaluate(const ExponentialBasis& basis, const ModeFunction& f,
                                      const ExponentialBasis::Values& values) {
+  if (basis.grows()) [[unlikely]]
+    return evaluate_with_growth(basis, f, values);
   double sum = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -177,8 +199,15 @@ inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, 
 /// too, but costs more than the rest of a bound.
 [[nodiscard]] inline double modulus_bound(double re, double im) {
   const double square = re * re + im * im;
-  return square > 1e-290 ? std::sqrt(square) : std::abs(re) + std::abs(im);
+  return square > 1e-290 && square < 1e300 ? std::sqrt(square) : std::abs(re) + std::abs(im);
 }
+
+/// Bounds of max |E_k| over [begin, begin + width] in `bounds.re`; `values` = E_k(begin).
+void bound_elements(const ExponentialBasis& basis, const ExponentialBasis::Values& values, double begin,
+                    double width, ElementNumbers& bounds);
+
+/// sum |c_k| bounds_k.
+[[nodiscard]] double bound(const ExponentialBasis& basis, const ModeFunction& f, const ElementNumbers& bounds);
 
 /// sum |c_k| max |E_k| over [begin, begin + width], a bound of |f| there; `values` = E_k(begin).
 [[nodiscard]] double bound(const ExponentialBasis& basis, const ModeFunction& f,

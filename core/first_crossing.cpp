@@ -12,28 +12,32 @@ namespace dualdamp::core {
 
 namespace {
 
-void start_values(const ExponentialBasis& basis, ExponentialBasis::Values& values) {
-  for (int k = 0; k < basis.size(); ++k) {
-    values.re[static_cast<std::size_t>(k)] = basis.parent(k) == ExponentialBasis::no_parent ? 1.0 : 0.0;
-    values.im[static_cast<std::size_t>(k)] = 0.0;
-  }
-}
-
-/// Panels may widen where the fast elements have died out: the remainder stays below 1e-3 of the amplitude.
+/// Panels widen where the fast elements have died out: the remainder stays below 1e-3 of the amplitudes at a.
+/// Without chains and growth the bound of the sixth derivative does not depend on the width, which so follows at
+/// once.
 double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
-                   const ExponentialBasis::Values& values, double a) {
-  double width = basis.panel();
-  if (basis.even()) return basis.fastest() > 0.0 ? width : std::numeric_limits<double>::infinity();
-  for (int doubling = 0; doubling < 60; ++doubling) {
-    const double wider = 2.0 * width;
-    const double wider2 = wider * wider;
-    for (const Guard& guard : guards) {
-      const double remainder = bound(basis, guard.sixth, values, a, wider) * wider2 * wider2 * wider2 / 14400.0;
-      if (remainder > 1e-3 * guard.amplitude) return width;
+                   const ExponentialBasis::Values& values, double a, double longest) {
+  if (basis.even()) return basis.fastest() > 0.0 ? basis.panel() : std::numeric_limits<double>::infinity();
+  ElementNumbers here;
+  bound_elements(basis, values, a, 0.0, here);
+  const bool varies = basis.has_chains() || basis.grows();
+  ElementNumbers ahead;
+  if (varies) bound_elements(basis, values, a, longest, ahead);
+  const ElementNumbers* bounds = varies ? &ahead : &here;
+  double width = longest;
+  for (const Guard& guard : guards) {
+    const double allowed = 14.4 * bound(basis, guard.value, here);
+    // The width allowed by the bound over the present one; narrower panels have smaller bounds.
+    const auto allows = [&] {
+      return std::cbrt(std::sqrt(allowed / bound(basis, guard.sixth, *bounds))) / basis.fastest();
+    };
+    for (double widest = allows(); width > basis.panel() && width > widest; widest = allows()) {
+      width = std::max({widest, 0.125 * width, basis.panel()});
+      if (!varies) break;
+      bound_elements(basis, values, a, width, ahead);
     }
-    width = wider;
   }
-  return width;
+  return std::max(width, basis.panel());
 }
 
 /// Panels meet where every guard is decided beyond rounding; moves an undecided inner end b and evaluates there.
@@ -56,8 +60,8 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
 
 /// Tries a lone guard that starts at zero where the basis expects its next crossing: one panel from the start to
 /// the root, no transcendental function.
-bool crosses_as_expected(const ExponentialBasis& basis, const Guard& guard, double horizon, Crossing& crossing,
-                         SearchGrazings& grazings, SearchCount& count) {
+inline bool crosses_as_expected(const ExponentialBasis& basis, const Guard& guard, double horizon,
+                                Crossing& crossing, SearchGrazings& grazings, SearchCount& count) {
   if (basis.expected() == 0.0 || basis.expected() >= horizon || guard.known_zeros == 0) return false;
   PanelSearch search(basis, guard, 0, grazings, count);
   const double root = search.expected_root(horizon);
@@ -82,7 +86,7 @@ struct Panel {
 /// The panel that begins at a; `room` takes the values at its end where the basis has none ready.
 Panel next_panel(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double horizon,
                  const ExponentialBasis::Values& at_a, ExponentialBasis::Values& room) {
-  const double width = panel_width(basis, guards, at_a, a);
+  const double width = panel_width(basis, guards, at_a, a, horizon - a);
   Panel panel{.a = a, .b = std::min(a + width, horizon), .at_a = &at_a, .at_b = &room};
   if (!(width == basis.panel() && panel.b < horizon) || basis.has_chains()) {
     basis.evaluate(panel.b, room);
@@ -147,45 +151,73 @@ void drop_unfinished(const ExponentialBasis& basis, std::span<const Guard> guard
   }
 }
 
-/// The motion runs away: nothing can be certified, and the values must not look like those of a motion.
-void give_up(double horizon, Crossing& crossing) {
-  crossing.found = false;
-  crossing.s = horizon;
-  crossing.values.re.fill(std::numeric_limits<double>::infinity());
-  crossing.values.im.fill(0.0);
+/// Beyond these a guard is searched multiplied by a power of two.
+constexpr double smallest_amplitude = 0x1p-200;
+constexpr double largest_amplitude = 0x1p200;
+
+bool needs_scaling(const Guard& guard) {
+  return (guard.amplitude > largest_amplitude && std::isfinite(guard.amplitude)) ||
+         (guard.amplitude < smallest_amplitude && guard.amplitude > 0.0);
 }
 
-}  // namespace
+/// The guards with amplitudes near 1 where they need it: their zeros are the same.
+[[gnu::noinline]] std::vector<Guard> scaled(const ExponentialBasis& basis, std::span<const Guard> guards) {
+  std::vector<Guard> list(guards.begin(), guards.end());
+  for (Guard& guard : list) {
+    if (!needs_scaling(guard)) continue;
+    // In two steps: the factor for a denormal amplitude is out of range itself.
+    const int half = -std::ilogb(guard.amplitude) / 2;
+    assign(basis, std::ldexp(1.0, half), guard.value, guard.value);
+    assign(basis, std::ldexp(1.0, half), guard.value, guard.value);
+    prepare(basis, guard);
+  }
+  return list;
+}
 
-void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon,
-                    Crossing& crossing, std::vector<Grazing>& all_grazings, SearchCount& count) {
-  ++count.searches;
-  crossing.found = false;
-  crossing.guard = -1;
-  crossing.s = horizon;
-  SearchGrazings grazings(all_grazings);
-  if (guards.size() == 1 && crosses_as_expected(basis, guards[0], horizon, crossing, grazings, count)) return;
+[[gnu::noinline]] SearchEnd search_panels(const ExponentialBasis& basis, std::span<const Guard> guards,
+                                          double horizon, Crossing& crossing, SearchGrazings& grazings,
+                                          SearchCount& count) {
   std::array<ExponentialBasis::Values, 2> ends;
-  if (!basis.even()) start_values(basis, ends[0]);
+  if (!basis.even()) basis.start(ends[0]);
   const ExponentialBasis::Values* left = &ends[0];
   double a = 0.0;
   while (a < horizon) {
     const Panel panel = next_panel(basis, guards, a, horizon, *left, ends[left == &ends[0] ? 1 : 0]);
     const PanelResult result = search_panel(basis, guards, panel, crossing, grazings, count);
-    if (result == PanelResult::not_finite) return give_up(horizon, crossing);
+    if (result == PanelResult::not_finite) return SearchEnd::left_range;
     if (result == PanelResult::crossing) {
       drop_unfinished(basis, guards, crossing, grazings);
-      return grazings.finish(count);
+      grazings.finish(count);
+      return SearchEnd::crossing;
     }
     left = panel.at_b;
     a = panel.b;
   }
   if (a == 0.0) {
-    start_values(basis, crossing.values);
+    basis.start(crossing.values);
   } else {
     copy(basis, *left, crossing.values);
   }
   grazings.finish(count);
+  return SearchEnd::horizon;
+}
+
+}  // namespace
+
+SearchEnd first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon,
+                         Crossing& crossing, std::vector<Grazing>& all_grazings, SearchCount& count) {
+  for (const Guard& guard : guards) {
+    if (needs_scaling(guard)) [[unlikely]]
+      return first_crossing(basis, scaled(basis, guards), horizon, crossing, all_grazings, count);
+  }
+  ++count.searches;
+  crossing.found = false;
+  crossing.guard = -1;
+  crossing.s = horizon;
+  SearchGrazings grazings(all_grazings);
+  if (guards.size() == 1 && crosses_as_expected(basis, guards[0], horizon, crossing, grazings, count))
+    return SearchEnd::crossing;
+  return search_panels(basis, guards, horizon, crossing, grazings, count);
 }
 
 }  // namespace dualdamp::core

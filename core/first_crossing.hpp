@@ -17,12 +17,11 @@
 ///   not a crossing. A deeper dip is two crossings, of which the first is returned. Where g stays within that
 ///   rounding for a while there is one grazing; where that while ends with a crossing there is none
 ///   (`core/grazing.hpp`).
-/// Range. A guard that leaves the range of double precision ends the search: nothing found, values infinite. A
-/// guard
-///   whose amplitudes have decayed below 1e-280 has no zeros any more.
+/// Range. A guard that leaves the range of double precision ends the search with SearchEnd::left_range. Elements
+///   that are not in a guard have no part in that. A guard with amplitudes beyond 1e60 or below 1e-60 is searched
+///   multiplied by a power of two; one whose amplitudes have decayed by 1e-220 has no zeros any more.
 /// Why nothing can be missed (`core/panel_search.hpp`). The interval is covered by panels. On a panel of width h
-/// the
-///   quintic Hermite interpolant H of (g, g', g'') at both ends obeys
+///   the quintic Hermite interpolant H of (g, g', g'') at both ends obeys
 ///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,
 ///   M6 from the amplitudes, since every element's modulus is known. In Bernstein form of degree six that remainder
 ///   changes one coefficient only: L = H - remainder. All coefficients of L positive: no zero on the panel. Where a
@@ -48,7 +47,7 @@ namespace dualdamp::core {
 
 /// First crossing of any of `guards` (each prepared) in (0, horizon); grazings before it are appended to
 /// `grazings`. The horizon must be finite and >= 0.
-void first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon,
-                    Crossing& crossing, std::vector<Grazing>& grazings, SearchCount& count);
+SearchEnd first_crossing(const ExponentialBasis& basis, std::span<const Guard> guards, double horizon,
+                         Crossing& crossing, std::vector<Grazing>& grazings, SearchCount& count);
 
 }  // namespace dualdamp::core

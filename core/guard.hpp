@@ -15,10 +15,10 @@ struct Guard {
   // Filled by prepare().
   ModeFunction slope;
   ModeFunction curvature;
-  ModeFunction sixth;            ///< sixth derivative; unused on an even basis
+  ModeFunction sixth;            ///< sixth derivative by fastest() s; unused on an even basis
   double amplitude = 0.0;        ///< sum of |c_k|
   double curvature_bound = 0.0;  ///< of |g''|, on an even basis for all s
-  double sixth_bound = 0.0;      ///< of |g^(6)|, likewise
+  double sixth_bound = 0.0;      ///< of that sixth derivative, likewise
 };
 
 /// Fills the derived members of `guard` from `value`.

@@ -10,6 +10,13 @@ double GuardJets::rounding(double s) const {
   return slack(s, bound(basis_, guard_.value, values, there, 0.0));
 }
 
+/// Elements that have left the range of double precision count only where the guard has them.
+void GuardJets::take_with_growth(const ExponentialBasis::Values& values, Jet& j) {
+  j.value = evaluate(basis_, guard_.value, values);
+  j.slope = evaluate(basis_, guard_.slope, values);
+  j.curvature = evaluate(basis_, guard_.curvature, values);
+}
+
 void GuardJets::take_from_taylor_series(Jet& j) {
   if (!has_taylor_) {
     has_taylor_ = true;

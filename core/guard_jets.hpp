@@ -66,6 +66,7 @@ class GuardJets {
   static constexpr int taylor_terms = 18;
 
   void take_from_taylor_series(Jet& j);
+  void take_with_growth(const ExponentialBasis::Values& values, Jet& j);
 
   const ExponentialBasis& basis_;
   const Guard& guard_;
@@ -77,6 +78,7 @@ inline void GuardJets::take(double s, const ExponentialBasis::Values& values, Je
   j.s = s;
   j.zeros = 0;
   if (near_start(s)) return take_from_taylor_series(j);
+  if (basis_.grows()) return take_with_growth(values, j);
   double value = 0.0;
   double slope = 0.0;
   double curvature = 0.0;

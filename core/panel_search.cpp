@@ -12,8 +12,31 @@ constexpr int max_depth = 60;
 /// How far beside the expected crossing Halley's method is worth a trial: it then takes two steps.
 constexpr double beside = 0.05;
 
+/// Squares of a slope between these are neither lost nor infinite.
+constexpr double small_square = 1e-200;
+constexpr double large_square = 1e200;
+
+double halley_by_ratios(const Jet& j) {
+  if (j.slope == 0.0) return 0.0;
+  const double newton = j.value / j.slope;
+  return newton / (1.0 - 0.5 * newton * (j.curvature / j.slope));
+}
+
 /// Halley's step to a root of the guard [s].
-double halley(const Jet& j) { return 2.0 * j.value * j.slope / (2.0 * j.slope * j.slope - j.value * j.curvature); }
+inline double halley(const Jet& j) {
+  const double square = j.slope * j.slope;
+  if (square > small_square && square < large_square) [[likely]]
+    return 2.0 * j.value * j.slope / (2.0 * square - j.value * j.curvature);
+  return halley_by_ratios(j);
+}
+
+/// Whether slope^2 > 4 error curvature: a function that is known to `error` is monotone as far as that reaches.
+bool is_steep(double slope, double error, double curvature) {
+  const double square = slope * slope;
+  if (square > small_square && square < large_square) [[likely]]
+    return square > 4.0 * error * curvature;
+  return std::abs(slope) > 4.0 * error * (curvature / std::abs(slope));
+}
 
 /// Quintic Hermite interpolant of a panel on t in [0, 1], in Bernstein form of degree six.
 struct Bernstein {
@@ -103,18 +126,20 @@ void PanelSearch::bound_locally(double a, double h, const ExponentialBasis::Valu
       const auto i = static_cast<std::size_t>(k);
       const double modulus =
           modulus_bound(guard_.value.re[i], guard_.value.im[i]) * modulus_bound(values.re[i], values.im[i]);
-      const double square = basis_.square(k);
+      const double square = basis_.relative_square(k);
       amplitude_ += modulus;
-      curvature_ += modulus * square;
+      curvature_ += modulus * basis_.square(k);
       sixth_ += modulus * square * square * square;
     }
     return;
   }
-  sixth_ = bound(basis_, guard_.sixth, values, a, h);
-  curvature_ = bound(basis_, guard_.curvature, values, a, h);
+  ElementNumbers bounds;
+  bound_elements(basis_, values, a, h, bounds);
+  sixth_ = bound(basis_, guard_.sixth, bounds);
+  curvature_ = bound(basis_, guard_.curvature, bounds);
   // Beside a known zero amplitudes count as far as its scale reaches: chains have not grown yet at s = 0.
   const double reach = jets_.near_start(a) && basis_.fastest() > 0.0 ? 1.0 / basis_.fastest() - a : 0.0;
-  amplitude_ = bound(basis_, guard_.value, values, a, std::max(h, reach));
+  amplitude_ = reach > h ? bound(basis_, guard_.value, values, a, reach) : bound(basis_, guard_.value, bounds);
 }
 
 /// Halley's iteration from a good guess; the basis is evaluated once and then shifted. Leaves the elements' values
@@ -162,7 +187,7 @@ bool PanelSearch::is_first_crossing(const Jet& a, Jet& root) const {
   if (polished_ != root.s || !(root.s > a.s) || !(root.slope < 0.0)) return false;
   // Monotone as far as rounding of the value reaches: g does change its sign there.
   const double reach = slack(root.s);
-  if (!(std::abs(root.value) <= reach) || !(root.slope * root.slope > 4.0 * reach * curvature_)) return false;
+  if (!(std::abs(root.value) <= reach) || !is_steep(root.slope, reach, curvature_)) return false;
   root.zeros = 1;
   return positive_between(a, root);
 }

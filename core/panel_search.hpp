@@ -63,7 +63,8 @@ class PanelSearch {
   [[nodiscard]] double slack(double s) const { return jets_.slack(s, amplitude_); }
   /// What the remainder takes from the middle coefficient of L on a panel of width h.
   [[nodiscard]] double remainder(double h) const {
-    const double cube = h * h * h;
+    const double angle = h * basis_.fastest();
+    const double cube = angle * angle * angle;
     return sixth_ * cube * cube / 14400.0;
   }
   /// Rounding of the coefficients of L.
@@ -91,7 +92,7 @@ class PanelSearch {
   GuardJets jets_;
   SearchGrazings& grazings_;
   SearchCount& count_;
-  double sixth_ = 0.0;  ///< bounds on the panel: of |g^(6)|, of |g''|, and the sum of amplitudes
+  double sixth_ = 0.0;  ///< bounds on the panel: of |g^(6)| by fastest() s, of |g''|, and the sum of amplitudes
   double curvature_ = 0.0;
   double amplitude_ = 0.0;
   double polished_ = -1.0;  ///< where Halley's iteration has converged; root_values_ belong to it

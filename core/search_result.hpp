@@ -5,11 +5,18 @@
 
 namespace dualdamp::core {
 
+/// How a search ended. Whoever ignores it takes a motion that has run away for one without events.
+enum class [[nodiscard]] SearchEnd {
+  crossing,
+  horizon,     ///< no guard crosses before it
+  left_range,  ///< a guard has left the range of double precision before either: there are no values
+};
+
 struct Crossing {
   bool found = false;
   int guard = -1;                   ///< index of the guard that crossed
   double s = 0.0;                   ///< where [s]
-  ExponentialBasis::Values values;  ///< E_k at s, or at the horizon when nothing was found
+  ExponentialBasis::Values values;  ///< E_k at s, or at the horizon when nothing was found; none after left_range
 };
 
 /// A guard touches zero and does not cross.

@@ -8,6 +8,7 @@
 #include "friction_models/law_fault.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/expectations.hpp"
+#include "scenarios/results/completeness.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -95,6 +96,8 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   core::Provenance provenance = provenance_of(scenario);
   const auto start = std::chrono::steady_clock::now();
   Answer answer = answer_of(scenario, options);
+  if (const std::string missing = missing_number(answer); !missing.empty())
+    answer = failed(missing + " left the range of double precision");
   if (!is_first) return {};
   provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunResult result = result_of(scenario, std::move(answer));

@@ -29,7 +29,8 @@ Answer FreeDecayQuestion::run(const RunContext& context) const {
   answer.tables.push_back({.name = "peaks",
                            .columns = {column("t", "s", decay.peaks, &sim::Extreme::t),
                                        column("x", "m", decay.peaks, &sim::Extreme::x)},
-                           .key = "peaks"});
+                           .key = "peaks",
+                           .is_complete = true});
   return answer;
 }
 

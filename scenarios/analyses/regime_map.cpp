@@ -74,7 +74,8 @@ Table map_table(const sim::Curve& map, const std::string& unit) {
                           point_column("stops", "", map, CellKind::count, &CurvePoint::stops),
                           point_column("sticks", "", map, CellKind::count, &CurvePoint::sticks)},
               .is_long = true,
-              .key = "points"};
+              .key = "points",
+              .is_complete = true};
   add_reasons(table, map);
   return table;
 }

@@ -4,7 +4,6 @@
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/work_checks.hpp"
-#include "scenarios/results/cells.hpp"
 #include "scenarios/results/motion.hpp"
 #include "sim/motion/simulate.hpp"
 
@@ -46,7 +45,8 @@ Table event_table(const std::vector<sim::Event>& events) {
           .columns = {column("t", "s", events, &sim::Event::t),
                       text_column("kind", events, [](const sim::Event& event) { return sim::name(event.kind); }),
                       column("x", "m", events, &sim::Event::x), column("v", "m/s", events, &sim::Event::v)},
-          .key = "events"};
+          .key = "events",
+          .is_complete = true};
 }
 
 }  // namespace
@@ -61,8 +61,7 @@ Answer SimulateQuestion::run(const RunContext& context) const {
   if (!history.outcome.ok()) return failed(history.outcome.reason);
   Answer answer;
   answer.result["events"] = nullptr;
-  answer.result["final"] = {
-      {"t", finite(history.final.t)}, {"x", finite(history.final.x)}, {"v", finite(history.final.v)}};
+  answer.result["final"] = {{"t", history.final.t}, {"x", history.final.x}, {"v", history.final.v}};
   answer.result["energy"] = energy_json(history.energy);
   answer.result["certificate"] = certificate_json(history.certificate);
   answer.tables.push_back(event_table(history.events));

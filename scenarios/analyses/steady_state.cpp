@@ -1,6 +1,5 @@
 #include "scenarios/analyses/steady_state.hpp"
 
-#include "scenarios/results/cells.hpp"
 #include "scenarios/results/motion.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
@@ -37,29 +36,29 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   Answer answer;
   answer.warnings = state.warnings;
   Json& result = answer.result;
-  result["peak"] = finite(state.peak);
-  result["trough"] = finite(state.trough);
-  result["amplitude"] = finite(state.amplitude);
-  result["phase"] = finite(state.phase);
-  result["period"] = finite(state.period);
-  result["max_speed"] = finite(state.max_speed);
+  result["peak"] = state.peak;
+  result["trough"] = state.trough;
+  result["amplitude"] = state.amplitude;
+  result["phase"] = state.phase;
+  result["period"] = state.period;
+  result["max_speed"] = state.max_speed;
   result["stops_per_cycle"] = state.stops_per_cycle;
   result["sticks"] = Json::array();
   for (const sim::Stick& stick : state.sticks)
-    result["sticks"].push_back({{"start", finite(stick.start)},
-                                {"duration", finite(stick.duration)},
-                                {"position", finite(stick.position)}});
+    result["sticks"].push_back(
+        {{"start", stick.start}, {"duration", stick.duration}, {"position", stick.position}});
   result["multipliers"] = Json::array();
   for (const std::complex<double>& multiplier : state.multipliers)
-    result["multipliers"].push_back({finite(multiplier.real()), finite(multiplier.imag())});
+    result["multipliers"].push_back({multiplier.real(), multiplier.imag()});
   result["stable"] = state.stable();
   result["energy"] = energy_json(state.energy);
   result["certificate"] = certificate_json(state.certificate);
   if (!state.sticks.empty())
-    answer.tables.push_back({"sticks",
-                             {column("start", "s", state.sticks, &sim::Stick::start),
-                              column("duration", "s", state.sticks, &sim::Stick::duration),
-                              column("position", "m", state.sticks, &sim::Stick::position)}});
+    answer.tables.push_back({.name = "sticks",
+                             .columns = {column("start", "s", state.sticks, &sim::Stick::start),
+                                         column("duration", "s", state.sticks, &sim::Stick::duration),
+                                         column("position", "m", state.sticks, &sim::Stick::position)},
+                             .is_complete = true});
   answer.tables.push_back(history_table("orbit", sim::one_period(model, state, samples), model.excitation));
   return answer;
 }

@@ -12,15 +12,18 @@ Json certificate_json(const core::SearchCount& count) {
 }
 
 Json energy_json(const sim::Energy& energy) {
-  return {{"input", finite(energy.input)},
-          {"friction", finite(energy.friction)},
-          {"viscous", finite(energy.viscous)},
-          {"stored", finite(energy.stored)},
-          {"defect", finite(energy.defect)}};
+  return {{"input", energy.input},
+          {"friction", energy.friction},
+          {"viscous", energy.viscous},
+          {"stored", energy.stored},
+          {"defect", energy.defect}};
 }
 
 Table history_table(std::string name, const std::vector<sim::Sample>& samples, const sim::Excitation& excitation) {
-  Table table{std::move(name), {column("t", "s", samples, &sim::Sample::t)}, true};
+  Table table{.name = std::move(name),
+              .columns = {column("t", "s", samples, &sim::Sample::t)},
+              .is_long = true,
+              .is_complete = true};
   if (excitation.moves_base()) table.columns.push_back(column("y", "m", samples, &sim::Sample::y));
   table.columns.push_back(column("x", "m", samples, &sim::Sample::x));
   table.columns.push_back(column("v", "m/s", samples, &sim::Sample::v));

@@ -60,6 +60,8 @@ struct Table {
   bool is_long = false;  ///< not for a terminal
   bool is_file = true;   ///< false: only for a terminal
   std::string key = {};  ///< of the list in the result that the rows are; empty: they are only a file
+  /// Every row has all its numbers, or a `reason`: a result that lacks one is refused.
+  bool is_complete = false;
 
   [[nodiscard]] std::size_t size() const { return columns.empty() ? 0 : columns.front().size(); }
 };

@@ -1,7 +1,10 @@
 #include "sim/engine/closed_form.hpp"
 
-#include <cassert>
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "core/divided_exponential.hpp"
 
 namespace dualdamp::sim {
 
@@ -30,16 +33,67 @@ Complex integral(Complex z, Complex end, double duration) {
   return duration * sum;
 }
 
+/// Exponents of an element: one, or those of a chain of two.
+struct Nodes {
+  Complex first;
+  Complex second;
+  bool is_pair = false;
+
+  [[nodiscard]] bool is_real() const { return first.imag() == 0.0 && second.imag() == 0.0; }
+};
+
+Nodes nodes_of(const core::ExponentialBasis& basis, int k, bool conjugate) {
+  Nodes nodes{.first = basis.exponent(k)};
+  if (basis.parent(k) != core::ExponentialBasis::no_parent) {
+    nodes.is_pair = true;
+    nodes.second = basis.exponent(basis.parent(k));
+  }
+  if (conjugate) nodes = {std::conj(nodes.first), std::conj(nodes.second), nodes.is_pair};
+  return nodes;
+}
+
+/// int_0^T E F ds of elements one of which is a divided difference. With g(z) = int_0^T exp(z s) ds, a divided
+/// difference of exp over zero and z, it is that of g(x + y) over the nodes of both.
+Complex integral_with_chain(const Nodes& e, const Nodes& f, double duration) {
+  const auto over = [&](Complex a, Complex b, Complex c) {
+    const std::array<Complex, 4> nodes = {0.0, a, b, c};
+    return core::divided_exponential(nodes, duration);
+  };
+  if (e.is_pair && f.is_pair) {
+    const Complex low = e.first + f.first;
+    const Complex high = e.second + f.second;
+    return over(low, e.second + f.first, high) + over(low, e.first + f.second, high);
+  }
+  const Nodes& pair = e.is_pair ? e : f;
+  const Complex plain = e.is_pair ? f.first : e.first;
+  const std::array<Complex, 3> nodes = {0.0, pair.first + plain, pair.second + plain};
+  return core::divided_exponential(nodes, duration);
+}
+
 Complex coefficient(const ModeFunction& f, std::size_t k) { return {f.re[k], f.im[k]}; }
 
 }  // namespace
 
+bool ClosedForm::covers(const core::ExponentialBasis& basis) {
+  if (static_cast<std::size_t>(basis.size()) > largest) return false;
+  for (int k = 0; basis.has_chains() && k < basis.size(); ++k) {
+    const int parent = basis.parent(k);
+    if (parent != core::ExponentialBasis::no_parent && basis.parent(parent) != core::ExponentialBasis::no_parent)
+      return false;
+  }
+  return true;
+}
+
 ClosedIntegrals::ClosedIntegrals(const ClosedForm& form)
     : form_(form), size_(static_cast<std::size_t>(form.basis->size())) {
-  assert(ClosedForm::covers(*form.basis));
+  if (!ClosedForm::covers(*form.basis)) throw std::length_error("too many exponentials for a closed form");
   for (std::size_t j = 0; j < size_; ++j) {
-    const Complex first = form.basis->exponent(static_cast<int>(j));
     for (std::size_t k = j; k < size_; ++k) {
+      if (form.basis->has_chains() && (is_chain(j) || is_chain(k))) {
+        set_with_chain(j, k);
+        continue;
+      }
+      const Complex first = form.basis->exponent(static_cast<int>(j));
       const Complex second = form.basis->exponent(static_cast<int>(k));
       plain_[pair(j, k)] = integral(first + second, end(j) * end(k), form.duration);
       conjugate_[pair(j, k)] = integral(first + std::conj(second), end(j) * std::conj(end(k)), form.duration);
@@ -47,7 +101,24 @@ ClosedIntegrals::ClosedIntegrals(const ClosedForm& form)
   }
 }
 
+/// int E_j E_k and int E_j conj(E_k), of which one follows from the other where an element is real.
+void ClosedIntegrals::set_with_chain(std::size_t j, std::size_t k) {
+  const Nodes first = nodes_of(*form_.basis, static_cast<int>(j), false);
+  const Nodes second = nodes_of(*form_.basis, static_cast<int>(k), false);
+  const Complex plain = integral_with_chain(first, second, form_.duration);
+  plain_[pair(j, k)] = plain;
+  if (second.is_real()) {
+    conjugate_[pair(j, k)] = plain;
+  } else if (first.is_real()) {
+    conjugate_[pair(j, k)] = std::conj(plain);
+  } else {
+    conjugate_[pair(j, k)] =
+        integral_with_chain(first, nodes_of(*form_.basis, static_cast<int>(k), true), form_.duration);
+  }
+}
+
 double ClosedIntegrals::product(const ModeFunction& f, const ModeFunction& g) const {
+  if (form_.basis->grows()) return product_with_growth(f, g);
   double sum = 0.0;
   for (std::size_t j = 0; j < size_; ++j) {
     const Complex fj = coefficient(f, j);
@@ -64,6 +135,21 @@ double ClosedIntegrals::product(const ModeFunction& f, const ModeFunction& g) co
   return 0.5 * sum;
 }
 
+/// Elements that have left the range of double precision count only where a function has them.
+double ClosedIntegrals::product_with_growth(const ModeFunction& f, const ModeFunction& g) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < size_; ++j) {
+    for (std::size_t k = 0; k < size_; ++k) {
+      if (!core::takes_part(f, j) || !core::takes_part(g, k)) continue;
+      const Complex gk = coefficient(g, k);
+      const std::size_t at = pair(std::min(j, k), std::max(j, k));
+      const Complex conjugate = j <= k ? conjugate_[at] : std::conj(conjugate_[at]);
+      sum += (coefficient(f, j) * (gk * plain_[at] + std::conj(gk) * conjugate)).real();
+    }
+  }
+  return 0.5 * sum;
+}
+
 Complex integral_against_turn(const ClosedForm& form, const ModeFunction& f, double omega) {
   const Complex shift(0.0, omega);
   const Complex turn = std::polar(1.0, -omega * form.duration);
@@ -72,10 +158,16 @@ Complex integral_against_turn(const ClosedForm& form, const ModeFunction& f, dou
     const auto k = static_cast<std::size_t>(element);
     const Complex c = coefficient(f, k);
     if (c == 0.0) continue;
-    const Complex z = form.basis->exponent(element);
+    const Nodes nodes = nodes_of(*form.basis, element, false);
+    if (nodes.is_pair) {
+      const Nodes mirrored = nodes_of(*form.basis, element, true);
+      sum += c * integral_with_chain(nodes, {.first = -shift}, form.duration) +
+             std::conj(c) * integral_with_chain(mirrored, {.first = -shift}, form.duration);
+      continue;
+    }
     const Complex end(form.end.re[k], form.end.im[k]);
-    sum += c * integral(z - shift, end * turn, form.duration) +
-           std::conj(c) * integral(std::conj(z) - shift, std::conj(end) * turn, form.duration);
+    sum += c * integral(nodes.first - shift, end * turn, form.duration) +
+           std::conj(c) * integral(std::conj(nodes.first) - shift, std::conj(end) * turn, form.duration);
   }
   return 0.5 * sum;
 }

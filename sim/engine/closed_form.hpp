@@ -6,9 +6,12 @@
 ///     int_0^T f g ds = 1/2 Re sum_jk [ c_j d_k I(z_j + z_k) + c_j conj(d_k) I(z_j + conj(z_k)) ],   I(z) = (e^{zT}
 ///     - 1)/z,
 ///
-/// where e^{zT} are products of the elements at the end, which are known. Relative to the product of the
+/// where e^{zT} are products of the elements at the end, which are known. A chain of two exponents is covered too:
+/// its integrals are divided differences of exp with a node at zero. Relative to the product of the
 /// amplitudes' sums the result is exact to a few roundings. Cost: some ten flops for a pair of elements, no
 /// exponential function.
+
+#include <array>
 
 #include "core/exponential_basis.hpp"
 
@@ -18,7 +21,7 @@ struct ClosedForm {
   /// Elements a basis may have here; larger ones cost more than a quadrature.
   static constexpr std::size_t largest = 12;
 
-  const core::ExponentialBasis* basis = nullptr;  ///< without chains
+  const core::ExponentialBasis* basis = nullptr;  ///< chains of two at most
   double duration = 0.0;                          ///< s
   core::ExponentialBasis::Values end;             ///< elements at the end of the interval
   core::ModeFunction x;                           ///< m
@@ -29,9 +32,7 @@ struct ClosedForm {
   core::ModeFunction force;                       ///< of friction [N]; at rest it does no work and is left at 0
   core::ModeFunction external;                    ///< N
 
-  [[nodiscard]] static bool covers(const core::ExponentialBasis& basis) {
-    return !basis.has_chains() && static_cast<std::size_t>(basis.size()) <= largest;
-  }
+  [[nodiscard]] static bool covers(const core::ExponentialBasis& basis);
   [[nodiscard]] double at_end(const core::ModeFunction& f) const { return core::evaluate(*basis, f, end); }
 };
 
@@ -47,8 +48,15 @@ class ClosedIntegrals {
   [[nodiscard]] double product(const core::ModeFunction& f, const core::ModeFunction& g) const;
 
  private:
+  [[nodiscard]] double product_with_growth(const core::ModeFunction& f, const core::ModeFunction& g) const;
+
   static std::size_t pair(std::size_t j, std::size_t k) { return j * ClosedForm::largest + k; }
   [[nodiscard]] core::Complex end(std::size_t k) const { return {form_.end.re[k], form_.end.im[k]}; }
+
+  [[nodiscard]] bool is_chain(std::size_t k) const {
+    return form_.basis->parent(static_cast<int>(k)) != core::ExponentialBasis::no_parent;
+  }
+  void set_with_chain(std::size_t j, std::size_t k);
 
   const ClosedForm& form_;
   std::size_t size_;

@@ -76,7 +76,8 @@ class ExactEngine::ExactInterval final : public Interval {
   }
 
   [[nodiscard]] const ClosedForm* closed_form() const override {
-    if (!ClosedForm::covers(engine_.mode_->basis())) return nullptr;
+    // A ramp of the drive is not in the form.
+    if (engine_.mode_->ramped() || !ClosedForm::covers(engine_.mode_->basis())) return nullptr;
     if (!formed_) form();
     formed_ = true;
     return &form_;
@@ -284,6 +285,17 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
   sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);
 }
 
+core::SearchEnd ExactEngine::search(double horizon) {
+  const core::SearchEnd end =
+      core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, horizon, crossing_, grazings_, count_);
+  if (end == core::SearchEnd::left_range) leave_range();
+  return end;
+}
+
+void ExactEngine::leave_range() {
+  outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+}
+
 const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (!outcome_.ok() || !(left > 0.0)) return nullptr;
   const friction::Instant begin = now();
@@ -292,11 +304,13 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (by_schedule) left = std::max(0.0, due - begin.t);
   lay_interval();
   grazings_.clear();
+  if (!std::isfinite(force_scale_)) {
+    leave_range();
+    return nullptr;
+  }
   const bool at_once = find_violated();
   if (tracking_) track_begin(begin, at_once);
-  if (!at_once) {
-    core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, left, crossing_, grazings_, count_);
-  }
+  if (!at_once && search(left) == core::SearchEnd::left_range) return nullptr;
   const core::Crossing& end = crossing_;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
   if (!comes_to_an_end(at_once || left == 0.0)) return nullptr;
@@ -306,7 +320,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   advance(end.s, to_period_end && !ends);
   if (tracking_) track_states(begin, end.s, ends);
   if (!std::isfinite(x_) || !std::isfinite(v_)) {
-    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+    leave_range();
     return nullptr;
   }
   if (end.found) {

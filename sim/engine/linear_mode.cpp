@@ -85,18 +85,33 @@ void LinearMode::lay_own_motion() {
   }
 }
 
-bool LinearMode::close_to_own(Complex z, double slow) const {
-  const Complex own = modulus(z - first_) <= modulus(z - second_) ? first_ : second_;
+bool LinearMode::close(Complex z, Complex own, double slow) const {
   const double distance = modulus(z - own);
   return distance <= closeness * std::max(modulus(z), modulus(own)) ||
          distance <= slow_beside_drive * fastest_drive_ || distance <= slow * modulus(second_);
 }
 
-/// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z.
+LinearMode::Near LinearMode::near_own(Complex z, double slow) const {
+  const bool first = close(z, first_, slow);
+  const bool second = close(z, second_, slow);
+  if ((first && second) || ((first || second) && own_form_ == OwnForm::chain)) return Near::both;
+  return first ? Near::first : second ? Near::second : Near::none;
+}
+
+/// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z. With one own exponent w close
+/// to z and the other one u apart it is the divided difference over z and w by m (z - u).
 LinearMode::Driven LinearMode::drive(Complex z, int source, double slow) {
-  if (!close_to_own(z, slow)) return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_))};
-  const int target = basis_.add(second_, basis_.add(first_, source));
-  return {source, target, 1.0 / mass_};
+  const Near near = near_own(z, slow);
+  switch (near) {
+    case Near::none:
+      return {source, source, 1.0 / (mass_ * (z - first_) * (z - second_)), near};
+    case Near::first:
+      return {source, basis_.add(first_, source), 1.0 / (mass_ * (z - second_)), near};
+    case Near::second:
+      return {source, basis_.add(second_, source), 1.0 / (mass_ * (z - first_)), near};
+    default:
+      return {source, basis_.add(second_, basis_.add(first_, source)), 1.0 / mass_, near};
+  }
 }
 
 void LinearMode::represent(const ModeForcing& forcing, ModeFunction& f) const {
@@ -109,29 +124,36 @@ void LinearMode::represent(const ModeForcing& forcing, ModeFunction& f) const {
 
 void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFunction& x) const {
   core::clear(basis_, x);
-  // Value and slope at s = 0 of the particular solution: elements on a chain start from zero, and the slope of
-  // the top of a chain of three starts from zero too.
+  // Value and slope at s = 0 of the particular solution: elements on a chain start from zero, that of two nodes
+  // with slope 1, longer ones with slope 0.
   double start = 0.0;
   double slope = 0.0;
   const auto apply = [&](const Driven& driven, Complex amplitude) {
     const Complex coefficient = amplitude * driven.gain;
     add(x, driven.target, coefficient);
-    if (driven.target != driven.source) return;
-    start += coefficient.real();
-    slope += (coefficient * basis_.exponent(driven.source)).real();
+    if (driven.near == Near::none) {
+      start += coefficient.real();
+      slope += (coefficient * basis_.exponent(driven.source)).real();
+    } else if (driven.near != Near::both) {
+      slope += coefficient.real();
+    }
   };
-  apply(constant_, forcing.constant);
+  double constant = forcing.constant;
   if (ramped_) {
     const double coefficient = forcing.ramp * ramp_.gain.real();
     add(x, ramp_.target, coefficient);
-    if (ramp_.target == ramp_.source) {
+    if (ramp_.near == Near::none) {
       // s/K lags behind by C/K^2: K (s/K - C/K^2) + C/K = s.
       const double lag = coefficient * damping_ * ramp_.gain.real();
       add(x, constant_.source, -lag);
       start -= lag;
       slope += coefficient;
+    } else if (ramp_.near == Near::first) {
+      // Of the other own exponent u the ramp's element leaves the force -1/u.
+      constant += forcing.ramp / second_.real();
     }
   }
+  apply(constant_, constant);
   for (std::size_t j = 0; j < forcing.phasors.size(); ++j) apply(harmonics_[j], forcing.phasors[j]);
   for (std::size_t j = 0; j < forcing.transients.size(); ++j) apply(transients_[j], forcing.transients[j]);
 

@@ -5,7 +5,8 @@
 /// C [N.s/m] and K [N/m] of any sign, zero included. A basis of exponentials is laid out once for (m, C, K, w);
 /// each interval then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's
 /// own (resonance with little damping, vanishing stiffness), or those two lie close to each other (critical
-/// damping), the solution is written on divided differences, so that nothing cancels.
+/// damping), the solution is written on divided differences of these, so that nothing cancels. Exponents that are
+/// far from each other are never on one chain: there derivatives would cancel, and their bounds be useless.
 
 #include <Eigen/Core>
 #include <span>
@@ -48,11 +49,15 @@ class LinearMode {
   [[nodiscard]] Eigen::Vector2d response(std::size_t source, const core::ExponentialBasis::Values& values) const;
 
  private:
+  /// Own exponents that one of the forcing lies close to.
+  enum class Near { none, first, second, both };
+
   /// How a forcing exp(z s) enters the particular solution: gain on one element.
   struct Driven {
     int source = 0;  ///< the element exp(z s) (or s) itself
-    int target = 0;  ///< element of the particular solution
+    int target = 0;  ///< element of the particular solution: source, or a divided difference with those of `near`
     core::Complex gain;
+    Near near = Near::none;
   };
 
   /// The own motion on two elements.
@@ -64,7 +69,8 @@ class LinearMode {
 
   void lay_own_motion();
   [[nodiscard]] double expected_reversal(std::span<const double> frequencies) const;
-  [[nodiscard]] bool close_to_own(core::Complex z, double slow) const;
+  [[nodiscard]] bool close(core::Complex z, core::Complex own, double slow) const;
+  [[nodiscard]] Near near_own(core::Complex z, double slow) const;
   Driven drive(core::Complex z, int source, double slow);
 
   core::ExponentialBasis basis_;

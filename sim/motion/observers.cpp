@@ -94,15 +94,14 @@ void turn_by(const core::ExponentialBasis& basis, const core::ExponentialBasis::
   }
 }
 
-/// The same on the closed form: from cell to cell by one product for each element.
+/// The same on the closed form: from cell to cell by one product for each element, where there are no chains.
 double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
   const core::ExponentialBasis& basis = *form.basis;
   core::ModeFunction jerk;
   core::differentiate(basis, form.a, jerk);
   core::ExponentialBasis::Values here;
   core::ExponentialBasis::Values turn;
-  std::fill_n(here.re.begin(), basis.size(), 1.0);
-  std::fill_n(here.im.begin(), basis.size(), 0.0);
+  basis.start(here);
   double turned = 0.0;
   double largest = 0.0;
   double left_a = core::at_start(basis, form.a);
@@ -111,7 +110,11 @@ double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
     if (step != turned) basis.evaluate(step, turn);
     turned = step;
     for (int cell = 0; cell < cells; ++cell) {
-      turn_by(basis, turn, here);
+      if (basis.has_chains()) {
+        basis.evaluate(from + step * (cell + 1), here);
+      } else {
+        turn_by(basis, turn, here);
+      }
       const double right_a = core::evaluate(basis, form.a, here);
       if (left_a * right_a < 0.0) {
         const double crossing = from + step * (cell + left_a / (left_a - right_a));

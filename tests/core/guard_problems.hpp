@@ -72,6 +72,7 @@ class Problem {
 };
 
 struct Result {
+  SearchEnd end = SearchEnd::horizon;
   Crossing crossing;
   std::vector<Grazing> grazings;
   SearchCount count;
@@ -79,7 +80,9 @@ struct Result {
 
 inline Result search(const Problem& problem, double horizon) {
   Result result;
-  first_crossing(problem.basis(), problem.guards(), horizon, result.crossing, result.grazings, result.count);
+  result.end =
+      first_crossing(problem.basis(), problem.guards(), horizon, result.crossing, result.grazings, result.count);
+  CHECK(result.crossing.found == (result.end == SearchEnd::crossing));
   return result;
 }
 

@@ -71,6 +71,7 @@ core::ExponentialBasis basis_of(const GuardCase& c, double expected) {
 }
 
 struct Findings {
+  core::SearchEnd end = core::SearchEnd::horizon;
   core::Crossing crossing;
   std::vector<core::Grazing> grazings;
   core::SearchCount count;
@@ -81,6 +82,7 @@ Findings find(const GuardCase& c, double expected) {
   std::vector<core::Guard> guards;
   for (const GuardCase::Row& row : c.guards) {
     core::Guard& guard = guards.emplace_back();
+    core::clear(basis, guard.value);
     for (std::size_t k = 0; k < row.coefficients.size(); ++k) {
       guard.value.re[k] = row.coefficients[k].real();
       guard.value.im[k] = row.coefficients[k].imag();
@@ -89,7 +91,8 @@ Findings find(const GuardCase& c, double expected) {
     core::prepare(basis, guard);
   }
   Findings findings;
-  core::first_crossing(basis, guards, c.horizon, findings.crossing, findings.grazings, findings.count);
+  findings.end =
+      core::first_crossing(basis, guards, c.horizon, findings.crossing, findings.grazings, findings.count);
   return findings;
 }
 
@@ -273,6 +276,7 @@ TEST_CASE("Random guards: nothing missed, nothing invented, every tangency repor
       const double expected = drawn_expectation(c, expectations);
       const Findings findings = find(c, expected);
       ++tally.searches;
+      CHECK(findings.end != core::SearchEnd::left_range);  // no guard grows beyond e^300
       tally.crossings += findings.crossing.found ? 1 : 0;
       tally.grazings += static_cast<long>(findings.grazings.size());
       tally.as_expected += matters && findings.crossing.found &&

@@ -87,7 +87,8 @@ Complex random_exponent(Random& random, double s, double angle_size) {
 }
 
 ModeFunction random_function(const ExponentialBasis& basis, Random& random) {
-  ModeFunction f{};
+  ModeFunction f;
+  clear(basis, f);
   for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
     f.re[k] = random.sign() * random.logarithmic(1e-3, 1.0);
     f.im[k] = random.sign() * random.logarithmic(1e-3, 1.0);
@@ -247,7 +248,7 @@ TEST_CASE("Elements obey E' = z E + E_parent and differentiate() follows") {
   for (int i = 0; i < 100; ++i) {
     const ExponentialBasis basis = random_basis(random, true);
     const ModeFunction f = random_function(basis, random);
-    ModeFunction slope{};
+    ModeFunction slope;
     differentiate(basis, f, slope);
     const double s = random.logarithmic(0.1, 10.0);
     for (int k = 0; k < basis.size(); ++k) {

@@ -42,7 +42,8 @@ TEST_CASE("Grazings of an earlier search stay in the list") {
   const Problem problem({{constant(1.0), cosine(1.0, 1.0)}, polynomial({7.0, -1.0})});
   Result result;
   result.grazings.push_back({5, 1e6});
-  first_crossing(problem.basis(), problem.guards(), 100.0, result.crossing, result.grazings, result.count);
+  result.end =
+      first_crossing(problem.basis(), problem.guards(), 100.0, result.crossing, result.grazings, result.count);
   CHECK(result.crossing.found);
   REQUIRE(result.grazings.size() == 2);
   CHECK(result.grazings[0].guard == 5);

@@ -25,22 +25,46 @@ class BasisDraw {
     own_motion();
     const int constant = add(0.0);
     const bool floating = c_.kind == OwnMotion::free_mass;
-    if (floating) add(second_, add(first_, constant));
+    const bool both = floating && random_.chance(0.5);
+    if (floating) meet(constant, both);
     if (random_.chance(0.2)) {
       const int ramp = add(0.0, constant);
-      if (floating) add(second_, add(first_, ramp));
+      if (floating) meet(ramp, both);
     }
     harmonics();
-    if (random_.chance(0.3)) {
-      // Damped contacts: their own decays are much faster than the oscillator.
-      for (int i = 1 + random_.pick(2); i > 0; --i) add(-c_.rate * random_.logarithmic(1e2, 1e6));
-    }
+    if (random_.chance(0.3)) decays();
   }
 
  private:
   int add(Complex exponent, int parent = ExponentialSum::no_parent) {
     c_.elements.push_back({exponent, parent});
     return static_cast<int>(c_.elements.size()) - 1;
+  }
+
+  /// The source of a force beside one of the oscillator's own exponents, or both.
+  void meet(int source, bool both) {
+    const int first = add(first_, source);
+    if (both) add(second_, first);
+  }
+
+  /// Damped contacts: their own decays are mostly much faster than the oscillator, and may meet it or each other.
+  void decays() {
+    const double fastest = random_.logarithmic(1.0, 1e6);
+    for (int i = 1 + random_.pick(random_.chance(0.5) ? 2 : 12); i > 0; --i) {
+      switch (random_.pick(4)) {
+        case 0:
+          add(-c_.rate * fastest * (1.0 + random_.logarithmic(1e-6, 1.0)));
+          break;
+        case 1:
+          if (first_.imag() == 0.0 && first_.real() < 0.0) {
+            meet(add(first_ * (1.0 + random_.sign() * random_.logarithmic(1e-16, 1e-2))), false);
+            break;
+          }
+          [[fallthrough]];
+        default:
+          add(-c_.rate * random_.logarithmic(1e2, 1e6));
+      }
+    }
   }
 
   void own_motion() {
@@ -50,7 +74,7 @@ class BasisDraw {
       case OwnMotion::underdamped:
       case OwnMotion::negative_damping: {
         const double ratio = random_.logarithmic(1e-6, 0.99);
-        const double decay = c_.kind == OwnMotion::underdamped ? -ratio * w : 0.3 * ratio * w;
+        const double decay = c_.kind == OwnMotion::underdamped ? -ratio * w : std::min(ratio, 0.9) * w;
         first_ = {decay, std::sqrt((w - decay) * (w + decay))};
         second_ = std::conj(first_);
         add(first_);
@@ -97,7 +121,7 @@ class BasisDraw {
     for (int order = 1; order <= orders; ++order) {
       if (order != meets && random_.chance(0.3)) continue;
       const int source = add({0.0, order * drive});
-      if (resonant && order == meets) add(second_, add(first_, source));
+      if (resonant && order == meets) meet(source, random_.chance(0.3));
     }
   }
 
@@ -125,6 +149,10 @@ class Imposing {
       Real value = 0;
       const std::vector<LongComplex> columns = f.columns(static_cast<Real>(condition.s), condition.order);
       for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (c.elements[k].unused) {
+          line.insert(line.end(), 2, Real(0));
+          continue;
+        }
         line.push_back(columns[k].real());
         line.push_back(c.elements[k].exponent.imag() == 0.0 ? Real(0) : -columns[k].imag());
         value += (LongComplex(row.coefficients[k]) * columns[k]).real();
@@ -218,7 +246,7 @@ class GuardDraw {
     GuardCase::Row row;
     for (const GuardCase::Element& e : c_.elements) {
       Complex coefficient = random_.phasor(1e-3, 1.0);
-      if (random_.chance(0.3)) coefficient = 0.0;
+      if (random_.chance(0.3) || e.unused) coefficient = 0.0;
       if (e.exponent.imag() == 0.0) coefficient = coefficient.real();
       // Elements of a chain grow like powers of time.
       for (int p = e.parent; p >= 0; p = c_.elements[static_cast<std::size_t>(p)].parent) {
@@ -262,6 +290,24 @@ class GuardDraw {
   const GuardCase& c_;
 };
 
+/// How fast the fastest element grows that a guard may have.
+double growth(const GuardCase& c) {
+  double fastest = 0.0;
+  for (const GuardCase::Element& e : c.elements) {
+    if (!e.unused) fastest = std::max(fastest, e.exponent.real());
+  }
+  return fastest;
+}
+
+/// A sticking mass: its own motion has no part in the guards, and may run away.
+void leave_own_motion_unused(GuardCase& c) {
+  for (GuardCase::Element& e : c.elements) {
+    const bool own =
+        e.exponent.real() > 0.0 || (e.parent >= 0 && c.elements[static_cast<std::size_t>(e.parent)].unused);
+    e.unused = e.unused || own;
+  }
+}
+
 double turning(const GuardCase& c) {
   double fastest = c.rate;
   for (const GuardCase::Element& e : c.elements) fastest = std::max(fastest, std::abs(e.exponent.imag()));
@@ -282,7 +328,10 @@ GuardCase random_guards(Random& random) {
   c.kind = static_cast<OwnMotion>(random.pick(static_cast<int>(OwnMotion::count)));
   c.rate = random.logarithmic(1e-3, 1e3);
   BasisDraw(random, c).run();
-  c.horizon = random.logarithmic(0.3, 60.0) / turning(c);
+  const bool grows = growth(c) > 0.0;
+  if (grows && random.chance(0.3)) leave_own_motion_unused(c);
+  const bool unused = grows && growth(c) == 0.0;
+  c.horizon = random.logarithmic(0.3, unused ? 3000.0 : grows ? 300.0 : 60.0) / turning(c);
   // Where something is planted; twice in a while at the start, or beside the horizon.
   double special = c.horizon * random.uniform(0.05, 0.95);
   if (random.chance(0.2)) special = c.horizon * random.logarithmic(1e-9, 1.0);

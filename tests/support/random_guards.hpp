@@ -31,6 +31,7 @@ struct GuardCase {
   struct Element {
     std::complex<double> exponent;
     int parent = oracle::ExponentialSum::no_parent;
+    bool unused = false;  ///< in no guard; may leave the range of double precision before the horizon
   };
   struct Row {
     std::vector<std::complex<double>> coefficients;

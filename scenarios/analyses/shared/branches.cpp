@@ -27,7 +27,8 @@ Table branch_table(const std::vector<sim::BranchPoint>& points, const std::strin
                       typed(state("stops", "", &SteadyState::stops_per_cycle), CellKind::count),
                       typed(state("sticks", "", sticks), CellKind::count),
                       typed(state("stable", "", &SteadyState::stable), CellKind::truth)},
-          .key = "points"};
+          .key = "points",
+          .is_complete = true};
 }
 
 Table change_table(const std::vector<sim::BranchChange>& changes, const std::string& name,
@@ -39,7 +40,8 @@ Table change_table(const std::vector<sim::BranchChange>& changes, const std::str
                       column("x", "m", changes, &BranchChange::amplitude),
                       typed(column("stops_before", "", changes, &BranchChange::stops_before), CellKind::count),
                       typed(column("stops_after", "", changes, &BranchChange::stops_after), CellKind::count)},
-          .key = "changes"};
+          .key = "changes",
+          .is_complete = true};
 }
 
 }  // namespace

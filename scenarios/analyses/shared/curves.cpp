@@ -12,7 +12,7 @@ namespace {
 
 Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase) {
   using sim::CurvePoint;
-  Table table{.name = "curve", .key = "points"};
+  Table table{.name = "curve", .key = "points", .is_complete = true};
   std::vector<Column>& columns = table.columns;
   columns.push_back(column(axis.name, axis.unit, curve.points, axis.value));
   columns.push_back(point_column("x", "m", curve, CellKind::number, &CurvePoint::x));

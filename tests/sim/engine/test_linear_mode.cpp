@@ -280,6 +280,65 @@ TEST_CASE("Transients whose decay meets the oscillator's own") {
   }
 }
 
+TEST_CASE("Own exponents far from each other, with forces beside the slow and beside the fast one") {
+  Random random(18);
+  for (double ratio = 1e2; ratio < 1e10; ratio *= 10.0) {
+    for (int i = 0; i < 20; ++i) {
+      Case c{random_start(random)};
+      LinearProblem& p = c.problem;
+      // Own exponents near -ratio and -1/ratio.
+      p.stiffness = (random.chance(0.9) ? 1.0 : -1.0) * p.mass;
+      p.damping = p.mass * ratio;
+      if (random.chance(0.5)) p.ramp = random.uniform(-1.0, 1.0) * p.mass;
+      if (random.chance(0.7)) p.harmonics.push_back({random.logarithmic(1e-2, 10.0), random.phasor(0.1, 1.0)});
+      const double beside = 1.0 + random.sign() * random.logarithmic(1e-16, 1e-2);
+      p.transients.push_back({ratio * beside, random.uniform(-1.0, 1.0)});
+      p.transients.push_back({beside / ratio, random.uniform(-1.0, 1.0)});
+      check(c, random.logarithmic(1e-2, 1e3) / ratio);
+      check(c, random.logarithmic(1e-2, 10.0));
+    }
+  }
+}
+
+TEST_CASE("Thirty transients beside an own exponent, with eight harmonics") {
+  Random random(19);
+  Case c{random_start(random)};
+  LinearProblem& p = c.problem;
+  p.stiffness = 4.0 * p.mass;
+  p.damping = 5.0 * p.mass;
+  for (int i = 0; i < 30; ++i) p.transients.push_back({1.0 + 3e-4 * i * i, random.uniform(-1.0, 1.0)});
+  for (int n = 1; n <= 8; ++n) p.harmonics.push_back({0.5 * n, std::polar(1.0 / n, random.angle())});
+  CHECK(c.mode().basis().size() > 40);
+  for (const double s : {0.01, 0.3, 2.0, 6.0}) check(c, s);
+}
+
+TEST_CASE("No chain joins exponents that are far from each other") {
+  Random random(20);
+  for (int i = 0; i < 2000; ++i) {
+    Case c{random_start(random)};
+    LinearProblem& p = c.problem;
+    p.stiffness = (random.chance(0.8) ? 1.0 : -1.0) * p.mass * random.logarithmic(1e-9, 1e9);
+    p.damping = random.sign() * p.mass * random.logarithmic(1e-9, 1e9);
+    p.ramp = random.chance(0.5) ? 1.0 : 0.0;
+    if (random.chance(0.7)) p.harmonics.push_back({random.logarithmic(1e-3, 1e3), 1.0});
+    if (random.chance(0.7)) p.transients.push_back({random.logarithmic(1e-9, 1e9), 1.0});
+    const LinearMode mode = c.mode();
+    const core::ExponentialBasis& basis = mode.basis();
+    const double drive = p.harmonics.empty() ? 0.0 : p.harmonics.front().frequency;
+    const double half = p.damping / (2.0 * p.mass);
+    const double fast = std::abs(half) + std::sqrt(std::max(0.0, half * half - p.stiffness / p.mass));
+    for (int k = 0; k < basis.size(); ++k) {
+      for (int j = basis.parent(k); j >= 0; j = basis.parent(j)) {
+        // Close as the header of the mode means it: three of them may be two steps apart.
+        const double distance = std::abs(basis.exponent(k) - basis.exponent(j));
+        const double size = std::max(std::abs(basis.exponent(k)), std::abs(basis.exponent(j)));
+        INFO(describe(p, 0.0));
+        CHECK(distance <= 0.04 * size + 0.04 * drive + 1e-4 * fast);
+      }
+    }
+  }
+}
+
 TEST_CASE("Nine harmonics at once") {
   Random random(16);
   for (const double damping : {0.0, 0.1, 2.0, 50.0}) {

@@ -199,3 +199,56 @@ TEST_CASE("The largest speed and the fundamental of a linear response are those 
     CHECK(std::abs(account.fundamental.coefficient() - response) < 1e-14 * std::abs(response));
   }
 }
+
+TEST_CASE("Integrals of products with chains of two exponents, equal, close and far apart") {
+  for (const double apart : {0.0, 1e-14, 1e-7, 1e-2, 0.7, 400.0}) {
+    for (const double duration : {1e-6, 0.3, 5.0}) {
+      ExponentialBasis basis;
+      const int constant = basis.add(0.0);
+      const int slow = basis.add(-apart, constant);
+      const int turning = basis.add(Complex(-0.2, 3.0));
+      const int resonant = basis.add(Complex(-0.2 - 0.5 * apart, 3.0 + 1e-3 * apart), turning);
+      basis.finish();
+      REQUIRE(ClosedForm::covers(basis));
+      ClosedForm form;
+      form.basis = &basis;
+      form.duration = duration;
+      basis.evaluate(duration, form.end);
+      const ClosedIntegrals integrals(form);
+      const auto element = [&](int k) {
+        dualdamp::core::ModeFunction f;
+        dualdamp::core::clear(basis, f);
+        f.re[static_cast<std::size_t>(k)] = 0.6;
+        f.im[static_cast<std::size_t>(k)] = k > slow ? -0.8 : 0.0;
+        return f;
+      };
+      const auto simpson = [&](const auto& g) {
+        constexpr int parts = 20000;
+        double sum = 0.0;
+        for (int i = 0; i <= parts; ++i) {
+          ExponentialBasis::Values values;
+          basis.evaluate(duration * i / parts, values);
+          sum += g(values, duration * i / parts) * (i == 0 || i == parts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0);
+        }
+        return sum * duration / (3.0 * parts);
+      };
+      for (const int j : {constant, slow, turning, resonant}) {
+        const auto f = element(j);
+        for (const int k : {slow, resonant}) {
+          const auto g = element(k);
+          const double scale = std::sqrt(integrals.product(f, f) * integrals.product(g, g));
+          const double expected = simpson([&](const auto& values, double) {
+            return dualdamp::core::evaluate(basis, f, values) * dualdamp::core::evaluate(basis, g, values);
+          });
+          CAPTURE(apart, duration, j, k);
+          CHECK(std::abs(integrals.product(f, g) - expected) < 2e-9 * scale);
+        }
+        const Complex against = integral_against_turn(form, f, 2.0);
+        const double real = simpson([&](const auto& values, double s) {
+          return dualdamp::core::evaluate(basis, f, values) * std::cos(2.0 * s);
+        });
+        CHECK(std::abs(against.real() - real) < 2e-9 * std::sqrt(integrals.product(f, f) * duration));
+      }
+    }
+  }
+}

@@ -1,0 +1,47 @@
+#include "scenarios/results/completeness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+std::string missing_in(const Json& json, const std::string& path) {
+  if (json.is_number_float()) return std::isfinite(json.get<double>()) ? "" : path;
+  if (!json.is_structured()) return "";
+  std::size_t index = 0;
+  for (const auto& [key, value] : json.items()) {
+    const std::string place = json.is_array() ? path + "[" + std::to_string(index++) + "]"
+                              : path.empty()  ? key
+                                              : path + "." + key;
+    if (std::string missing = missing_in(value, place); !missing.empty()) return missing;
+  }
+  return "";
+}
+
+std::string missing_in(const Table& table) {
+  const auto reason = std::ranges::find(table.columns, "reason", &Column::name);
+  const bool has_reasons = reason != table.columns.end();
+  for (const Column& column : table.columns) {
+    if (column.kind == CellKind::text) continue;
+    for (std::size_t row = 0; row < column.numbers.size(); ++row) {
+      if (std::isfinite(column.numbers[row]) || (has_reasons && !reason->text(row).empty())) continue;
+      return (table.key.empty() ? table.name : table.key) + "[" + std::to_string(row) + "]." + column.name;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string missing_number(const Answer& answer) {
+  if (std::string missing = missing_in(answer.result, ""); !missing.empty()) return missing;
+  for (const Table& table : answer.tables) {
+    if (!table.is_complete) continue;
+    if (std::string missing = missing_in(table); !missing.empty()) return missing;
+  }
+  return "";
+}
+
+}  // namespace dualdamp::scenarios
