@@ -94,7 +94,8 @@ Complex divided(const Nodes& nodes, double s) {
   double spread = -1.0;
   for (int a = 0; a < nodes.count; ++a) {
     for (int b = a + 1; b < nodes.count; ++b) {
-      const double distance = std::abs(nodes.z[static_cast<std::size_t>(a)] - nodes.z[static_cast<std::size_t>(b)]);
+      const double distance =
+          std::norm(nodes.z[static_cast<std::size_t>(a)] - nodes.z[static_cast<std::size_t>(b)]);
       if (distance > spread) {
         spread = distance;
         far_a = a;
@@ -102,7 +103,7 @@ Complex divided(const Nodes& nodes, double s) {
       }
     }
   }
-  if (spread * s <= 1.0) return close_nodes(nodes, s);
+  if (spread * s * s <= 1.0) return close_nodes(nodes, s);
   const Complex gap = nodes.z[static_cast<std::size_t>(far_a)] - nodes.z[static_cast<std::size_t>(far_b)];
   return (divided(without(nodes, far_b), s) - divided(without(nodes, far_a), s)) / gap;
 }
