@@ -79,10 +79,9 @@ Complex exponential_less_one(Complex w) {
 Complex divided_pair(Complex a, Complex b, double s) {
   if (a.real() < b.real()) std::swap(a, b);
   const Complex gap = b - a;
-  const Complex difference = exponential_less_one(gap * s);
-  // So close that the gap times s is lost: the limit.
-  if (difference == 0.0) return exponential(a, s) * s;
-  return exponential(a, s) * (difference / gap);
+  // So close that the gap is lost beside 1: the limit.
+  if (std::norm(gap * s) < 1e-34) return exponential(a, s) * s;
+  return exponential(a, s) * (exponential_less_one(gap * s) / gap);
 }
 
 /// The farthest pair is taken apart as long as that loses no digits.
