@@ -11,7 +11,8 @@ namespace {
 ResultFields fields() {
   return {{"peaks[].t", "s", "time of the extreme"},
           {"peaks[].x", "m", "its position, signed"},
-          {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"}};
+          {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"},
+          {"creeps", "", "fewer because the motion does not turn any more within 100 natural periods"}};
 }
 
 std::unique_ptr<const Question> ask(CheckedValues&& values) {
@@ -26,6 +27,10 @@ Answer FreeDecayQuestion::run(const RunContext& context) const {
   Answer answer;
   answer.result["peaks"] = nullptr;
   answer.result["came_to_rest"] = decay.came_to_rest;
+  answer.result["creeps"] = decay.creeps;
+  if (decay.creeps)
+    answer.warnings.push_back("only " + std::to_string(decay.peaks.size()) + " of " + std::to_string(peaks_) +
+                              " extremes: the motion does not turn any more within 100 natural periods");
   answer.tables.push_back({.name = "peaks",
                            .columns = {column("t", "s", decay.peaks, &sim::Extreme::t),
                                        column("x", "m", decay.peaks, &sim::Extreme::x)},

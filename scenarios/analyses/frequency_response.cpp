@@ -16,7 +16,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
 
 Answer FrequencyResponseQuestion::run(const RunContext& context) const {
   const sim::Curve curve = sim::frequency_response(context.model, frequencies_, context.steady_states());
-  return answer_of_curve(curve, {"omega", &sim::CurvePoint::omega, "rad/s"}, true);
+  return answer_of_curve(curve, context.model, {"omega", &sim::CurvePoint::omega, "rad/s"}, true);
 }
 
 const Analysis& frequency_response_analysis() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "core/numbers.hpp"
 #include "scenarios/analyses/shared/curves.hpp"
@@ -23,25 +24,31 @@ Section keys() {
 }
 
 ResultFields fields() {
-  return joined({{"points[].omega", "rad/s", "forcing frequency"},
-                 {"points[].Y", "m or N", "input amplitude"},
-                 {"points[].x", "m", "output amplitude (peak - trough)/2"},
-                 {"points[].stops", "1", "stops in a period"},
-                 {"points[].sticks", "1", "sticks in a period; 1 without a stop: the mass never moves"},
-                 {"points[].reason", "", "for a point without numbers: the reason"},
-                 {"regimes[].stops", "1", "stops in a period"},
-                 {"regimes[].sticks", "1", "sticks in a period"},
-                 {"regimes[].points", "1", "points of the map in this regime"},
-                 {"regimes[].omega_from", "rad/s", "their lowest frequency"},
-                 {"regimes[].omega_to", "rad/s", "their highest frequency"},
-                 {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
-                 {"regimes[].Y_to", "m or N", "their largest input amplitude"},
-                 {"boundary[].omega", "rad/s", "forcing frequency"},
-                 {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
-                 {"boundary[].x", "m", "output amplitude there"},
-                 {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
-                 {"boundary[].reason", "", "where no boundary was found: the reason"}},
-                certificate_fields());
+  return joined(
+      {{"points[].omega", "rad/s", "forcing frequency"},
+       {"points[].Y", "m or N", "input amplitude"},
+       {"points[].x", "m", "output amplitude (peak - trough)/2"},
+       {"points[].stops", "1", "stops in a period"},
+       {"points[].regime", "",
+        "never moves, rests (in a period, as often as it sticks), slides through, no steady state"},
+       {"points[].sticks", "1",
+        "sticks in a period; under laws that do not hold the mass: times longer than 2 % of a period at a "
+        "speed below 1e-3 of the largest"},
+       {"points[].reason", "", "for a point without numbers: the reason"},
+       {"regimes[].regime", "", "as above"},
+       {"regimes[].stops", "1", "stops in a period"},
+       {"regimes[].sticks", "1", "sticks in a period"},
+       {"regimes[].points", "1", "points of the map in this regime"},
+       {"regimes[].omega_from", "rad/s", "their lowest frequency"},
+       {"regimes[].omega_to", "rad/s", "their highest frequency"},
+       {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
+       {"regimes[].Y_to", "m or N", "their largest input amplitude"},
+       {"boundary[].omega", "rad/s", "forcing frequency"},
+       {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
+       {"boundary[].x", "m", "output amplitude there"},
+       {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
+       {"boundary[].reason", "", "where no boundary was found: the reason"}},
+      certificate_fields());
 }
 
 void check(CheckedFile& file) {
@@ -65,23 +72,36 @@ std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view l
   return number_of_points(file, list);
 }
 
+/// The names are few: each point has the number of its own.
+Column regime_column(const sim::Curve& map) {
+  Column column{.name = "regime", .kind = CellKind::text};
+  for (const sim::Regime regime :
+       {sim::Regime::no_steady_state, sim::Regime::never_moves, sim::Regime::rests, sim::Regime::slides_through})
+    column.texts.emplace_back(sim::name(regime));
+  for (const sim::CurvePoint& point : map.points)
+    column.choices.push_back(static_cast<std::uint32_t>(point.regime()));
+  return column;
+}
+
 Table map_table(const sim::Curve& map, const std::string& unit) {
   using sim::CurvePoint;
-  Table table{.name = "map",
-              .columns = {column("omega", "rad/s", map.points, &CurvePoint::omega),
-                          column("Y", unit, map.points, &CurvePoint::Y),
-                          point_column("x", "m", map, CellKind::number, &CurvePoint::x),
-                          point_column("stops", "", map, CellKind::count, &CurvePoint::stops),
-                          point_column("sticks", "", map, CellKind::count, &CurvePoint::sticks)},
-              .is_long = true,
-              .key = "points",
-              .is_complete = true};
+  Table table{
+      .name = "map",
+      .columns = {column("omega", "rad/s", map.points, &CurvePoint::omega),
+                  column("Y", unit, map.points, &CurvePoint::Y),
+                  point_column("x", "m", map, CellKind::number, &CurvePoint::x),
+                  point_column("stops", "", map, CellKind::count, &CurvePoint::stops),
+                  point_column("sticks", "", map, CellKind::count, &CurvePoint::sticks), regime_column(map)},
+      .is_long = true,
+      .key = "points",
+      .is_complete = true};
   add_reasons(table, map);
   return table;
 }
 
 /// The points of a map with as many stops and sticks in a period.
 struct Regime {
+  sim::Regime kind = sim::Regime::no_steady_state;
   std::size_t points = 0;
   double omega_from = std::numeric_limits<double>::infinity();
   double omega_to = 0.0;
@@ -90,6 +110,7 @@ struct Regime {
 
   void add(const sim::CurvePoint& point) {
     ++points;
+    kind = point.regime();
     omega_from = std::min(omega_from, point.omega);
     omega_to = std::max(omega_to, point.omega);
     Y_from = std::min(Y_from, point.Y);
@@ -99,10 +120,13 @@ struct Regime {
 
 /// What a map shows, in a few rows.
 Table regime_table(const sim::Curve& map, const std::string& unit) {
-  std::map<std::pair<int, int>, Regime> found;  // by stops and sticks
-  for (const sim::CurvePoint& point : map.points)
-    if (point.ok()) found[{point.stops, point.sticks}].add(point);
-  const std::vector<std::pair<std::pair<int, int>, Regime>> rows(found.begin(), found.end());
+  // By stops and sticks, then those without a steady state.
+  std::map<std::tuple<bool, int, int>, Regime> found;
+  for (const sim::CurvePoint& point : map.points) found[{!point.ok(), point.stops, point.sticks}].add(point);
+  const std::vector<std::pair<std::tuple<bool, int, int>, Regime>> rows(found.begin(), found.end());
+  const auto number_of = [](const auto& row, int number) {
+    return row.second.kind == sim::Regime::no_steady_state ? none : static_cast<double>(number);
+  };
   const auto regime = [&](std::string name, std::string column_unit, double Regime::* value) {
     return column(std::move(name), std::move(column_unit), rows,
                   [value](const auto& row) { return row.second.*value; });
@@ -113,8 +137,9 @@ Table regime_table(const sim::Curve& map, const std::string& unit) {
     return result;
   };
   return {.name = "regimes",
-          .columns = {count("stops", [](const auto& row) { return row.first.first; }),
-                      count("sticks", [](const auto& row) { return row.first.second; }),
+          .columns = {text_column("regime", rows, [](const auto& row) { return sim::name(row.second.kind); }),
+                      count("stops", [&](const auto& row) { return number_of(row, std::get<1>(row.first)); }),
+                      count("sticks", [&](const auto& row) { return number_of(row, std::get<2>(row.first)); }),
                       count("points", [](const auto& row) { return static_cast<double>(row.second.points); }),
                       regime("omega_from", "rad/s", &Regime::omega_from),
                       regime("omega_to", "rad/s", &Regime::omega_to), regime("Y_from", unit, &Regime::Y_from),
@@ -147,8 +172,8 @@ Answer RegimeMapQuestion::run(const RunContext& context) const {
   const sim::Model& model = context.model;
   const std::string unit = amplitude_unit(model.excitation);
   const sim::Curve map = sim::regime_map(model, frequencies_, amplitudes_, context.steady_states());
-  Answer answer =
-      answer_of_points(map, "map", {{"omega", &sim::CurvePoint::omega, "rad/s"}, {"Y", &sim::CurvePoint::Y, unit}});
+  Answer answer = answer_of_points(map, model, "map",
+                                   {{"omega", &sim::CurvePoint::omega, "rad/s"}, {"Y", &sim::CurvePoint::Y, unit}});
   if (answer.result.is_null()) return answer;
   answer.result["regimes"] = nullptr;
   answer.tables.push_back(map_table(map, unit));

@@ -1,17 +1,20 @@
-// Where in the plane of frequency and amplitude the mass stops how often.
+// Where in the plane of frequency and amplitude the mass never moves, rests how often, slides through or has no steady state.
 
 function mapView() {
   const { map, boundary } = tables;
   if (!map) return [];
-  const [omega, Y, stops] = ["omega", "Y", "stops"].map((name) => map.get(name).values);
+  const [omega, Y, stops, sticks] = ["omega", "Y", "stops", "sticks"].map((name) => map.get(name).values);
   const lines = { x: distinct(omega), y: distinct(Y) };
-  const found = distinct(stops.filter((n) => n !== null));
+  // Numbers in the order of the legend; a mass that never moves sticks once and does not stop.
+  const kind = (stops, sticks) => (sticks === null ? 1e6 : sticks === 1 && stops === 0 ? 1e5 : sticks);
+  const label = (n) => (n === 1e6 ? "no steady state" : n === 1e5 ? "never moves" : n === 0 ? "slides through" : n === 1 ? "rests once" : `rests ${n} times`);
+  const found = distinct(stops.map((n, i) => kind(n, sticks[i])));
   const log = { x: isGeometric(omega), y: isGeometric(Y) };
   const inside = (Y) => Y !== null && Y >= lines.y[0] && Y <= lines.y[lines.y.length - 1];
   return [chart({
-    title: "Stops in a period", wide: true, note: "over forcing frequency and input amplitude",
+    title: "Rests in a period", wide: true, note: "over forcing frequency and input amplitude",
     x: { ...axis("map", "omega", "frequency"), log: log.x }, y: { ...axis("map", "Y", "input amplitude Y"), log: log.y },
-    series: [...found.map((n, i) => part("map", "omega", "Y", (get) => get("stops") === n, { label: n === 0 ? "no stop" : `${n} stops`, kind: "cells", lines, colour: i })),
+    series: [...found.map((n, i) => part("map", "omega", "Y", (get) => kind(get("stops") ?? null, get("sticks") ?? null) === n, { label: label(n), kind: "cells", lines, colour: i })),
       ...(boundary ? [{ label: "never sticks above", x: values("boundary", "omega"), y: values("boundary", "Y").map((Y) => (inside(Y) ? Y : null)), width: 2.5, colour: "--ink" }] : [])],
   })];
 }

@@ -63,7 +63,7 @@ Answer SimulateQuestion::run(const RunContext& context) const {
   answer.result["events"] = nullptr;
   answer.result["final"] = {{"t", history.final.t}, {"x", history.final.x}, {"v", history.final.v}};
   answer.result["energy"] = energy_json(history.energy);
-  answer.result["certificate"] = certificate_json(history.certificate);
+  add_certificate(answer.result, context.model, history.certificate);
   answer.tables.push_back(event_table(history.events));
   if (!history.samples.empty())
     answer.tables.push_back(history_table("history", history.samples, context.model.excitation));

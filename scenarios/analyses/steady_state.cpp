@@ -13,14 +13,18 @@ ResultFields fields() {
                  {"trough", "m", "min x"},
                  {"amplitude", "m", "(peak - trough)/2"},
                  {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi)"},
-                 {"period", "s", "forcing period"},
+                 {"period", "s", "period of the motion"},
+                 {"period_ratio", "1", "forcing periods in it; above 1: subharmonic"},
                  {"max_speed", "m/s", "max |v|"},
                  {"stops_per_cycle", "1", "stops in a period"},
                  {"sticks[].start", "s", "start of a stick, modulo one period"},
                  {"sticks[].duration", "s", "its duration"},
                  {"sticks[].position", "m", "its position"},
-                 {"multipliers[][]", "1", "Floquet multipliers of the full period, [re, im]"},
-                 {"stable", "", "all Floquet multipliers inside the unit circle"}},
+                 {"multipliers[][]", "1", "Floquet multipliers over one period, [re, im]"},
+                 {"stable", "", "all Floquet multipliers inside the unit circle"},
+                 {"others[].peak", "m", "of another steady state, where one is known: max x"},
+                 {"others[].trough", "m", "its min x"},
+                 {"others[].period_ratio", "1", "forcing periods in its period"}},
                 joined(energy_fields(), certificate_fields()));
 }
 
@@ -41,6 +45,7 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   result["amplitude"] = state.amplitude;
   result["phase"] = state.phase;
   result["period"] = state.period;
+  result["period_ratio"] = state.period_ratio;
   result["max_speed"] = state.max_speed;
   result["stops_per_cycle"] = state.stops_per_cycle;
   result["sticks"] = Json::array();
@@ -51,8 +56,12 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   for (const std::complex<double>& multiplier : state.multipliers)
     result["multipliers"].push_back({multiplier.real(), multiplier.imag()});
   result["stable"] = state.stable();
+  result["others"] = Json::array();
+  for (const sim::OtherState& other : state.others)
+    result["others"].push_back(
+        {{"peak", other.peak}, {"trough", other.trough}, {"period_ratio", other.period_ratio}});
   result["energy"] = energy_json(state.energy);
-  result["certificate"] = certificate_json(state.certificate);
+  add_certificate(result, model, state.certificate);
   if (!state.sticks.empty())
     answer.tables.push_back({.name = "sticks",
                              .columns = {column("start", "s", state.sticks, &sim::Stick::start),

@@ -16,7 +16,8 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
 
 Answer XyCurveQuestion::run(const RunContext& context) const {
   const sim::Curve curve = sim::xy_curve(context.model, amplitudes_, context.steady_states());
-  return answer_of_curve(curve, {"Y", &sim::CurvePoint::Y, amplitude_unit(context.model.excitation)}, false);
+  return answer_of_curve(curve, context.model, {"Y", &sim::CurvePoint::Y, amplitude_unit(context.model.excitation)},
+                         false);
 }
 
 const Analysis& xy_curve_analysis() {

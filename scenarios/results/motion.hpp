@@ -21,8 +21,8 @@ using ResultFields = std::vector<ResultField>;
 [[nodiscard]] Json energy_json(const sim::Energy& energy);
 [[nodiscard]] ResultFields energy_fields();
 
-/// How the search for events was certified.
-[[nodiscard]] Json certificate_json(const core::SearchCount& count);
+/// How the search for events was certified: nothing where the smooth engine ran.
+void add_certificate(Json& result, const sim::Model& model, const core::SearchCount& count);
 [[nodiscard]] ResultFields certificate_fields();
 
 /// Samples of a motion, with the column of the drive that it has.

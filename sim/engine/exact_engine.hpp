@@ -64,9 +64,10 @@ class ExactEngine final : public Engine {
   /// All laws together, affine in the interval.
   struct Total {
     friction::Affine force;  ///< without its transient
-    friction::Affine limit;  ///< of static friction, while the mass sticks
-    bool lasting = false;    ///< need not be asked for again
-    bool ramped = false;     ///< something grows with time: modes without that element are cheaper
+    friction::Affine
+        limit;             ///< of static friction, while the mass sticks; its constant is that where it sticks now
+    bool lasting = false;  ///< need not be asked for again
+    bool ramped = false;   ///< something grows with time: modes without that element are cheaper
     std::vector<double> transients;
     std::vector<double> decays;
   };

@@ -59,6 +59,7 @@ void ExactEngine::add_force(const Affine& part) {
 void ExactEngine::add_limit(const Affine& part) {
   assert(part.transient == 0.0);
   total_->limit.constant += part.constant + part.position * x_;
+  total_->limit.position += part.position;
   total_->limit.rate += part.rate;
   total_->ramped = total_->ramped || part.rate != 0.0;
 }
@@ -156,8 +157,9 @@ void ExactEngine::lay_stick() {
   const double stiffness = model_.oscillator.stiffness + total_->force.position;
   for (const Direction release : {Direction::forward, Direction::backward}) {
     const double direction = friction::sign(release);
-    core::Guard& guard = new_guard(
-        {.ending = StickEnd{release}, .by_position = direction * stiffness, .tolerance = rounding * force_scale_});
+    core::Guard& guard = new_guard({.ending = StickEnd{release},
+                                    .by_position = direction * stiffness + total_->limit.position,
+                                    .tolerance = rounding * force_scale_});
     limit_guard(pull, direction, guard.value);
     core::prepare(basis, guard);
   }

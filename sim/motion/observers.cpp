@@ -69,17 +69,23 @@ double largest_inner_speed(const Interval& interval) {
   return largest;
 }
 
-/// |v| where the acceleration vanishes near s: Newton's method. An error of s enters the speed by its square.
-double speed_near(const ClosedForm& form, const core::ModeFunction& jerk, double s) {
+/// |v| where the acceleration, of the sign of `left_a` at `low`, vanishes between there and `high`: Newton's method
+/// from `s` on, kept between both. An error of s enters the speed by its square.
+double speed_between(const ClosedForm& form, const core::ModeFunction& jerk, double low, double high, double s,
+                     double left_a) {
   const core::ExponentialBasis& basis = *form.basis;
   core::ExponentialBasis::Values values;
   basis.evaluate(s, values);
-  for (int i = 0; i < 4; ++i) {
-    const double step = -core::evaluate(basis, form.a, values) / core::evaluate(basis, jerk, values);
-    if (!(std::abs(step) * basis.fastest() < 1.0)) break;
+  for (int i = 0; i < 60; ++i) {
+    const double a = core::evaluate(basis, form.a, values);
+    (a * left_a > 0.0 ? low : high) = s;
+    const double newton = -a / core::evaluate(basis, jerk, values);
+    const bool last = std::abs(newton) * basis.fastest() < 1e-6;
+    const bool inside = s + newton > low && s + newton < high;
+    const double step = last || inside ? newton : 0.5 * (low + high) - s;
     s += step;
     if (!basis.shift(step, values)) basis.evaluate(s, values);
-    if (std::abs(step) * basis.fastest() < 1e-6) break;
+    if (last) break;
   }
   return std::abs(core::evaluate(basis, form.v, values));
 }
@@ -117,8 +123,9 @@ double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
       }
       const double right_a = core::evaluate(basis, form.a, here);
       if (left_a * right_a < 0.0) {
-        const double crossing = from + step * (cell + left_a / (left_a - right_a));
-        largest = std::max(largest, speed_near(form, jerk, crossing));
+        const double low = from + step * cell;
+        const double crossing = low + step * (left_a / (left_a - right_a));
+        largest = std::max(largest, speed_between(form, jerk, low, low + step, crossing, left_a));
       }
       left_a = right_a;
     }

@@ -58,7 +58,10 @@ FreeDecay free_decay(const Model& model, int peaks) {
       break;
     }
     const Interval* interval = engine.next(deadline);
-    if (interval == nullptr) break;
+    if (interval == nullptr) {
+      decay.creeps = engine.outcome().ok();
+      break;
+    }
     if (!interval->ending) continue;
     deadline = interval->end() + patience;
     if (interval->ending == EventKind::reversal || interval->ending == EventKind::stop) {

@@ -45,6 +45,7 @@ struct FreeDecay {
   core::Outcome outcome;
   std::vector<Extreme> peaks;  ///< the initial position first when released from rest
   bool came_to_rest = false;   ///< fewer than the requested peaks because the mass stuck
+  bool creeps = false;         ///< fewer because the motion turns no more within 100 natural periods
 };
 
 /// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.

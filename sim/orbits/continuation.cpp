@@ -1,28 +1,25 @@
 #include "sim/orbits/continuation.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
+#include <utility>
 
+#include "sim/orbits/continuation_steps.hpp"
 #include "sim/orbits/orbit_account.hpp"
-#include "sim/orbits/period_map.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
 
-constexpr int max_corrections = 12;
-/// Periods integrated to enter the mode that a predicted state belongs to.
-constexpr int settling_periods = 4;
-/// Of the parameter, for the difference that stands for the derivative by it.
-constexpr double nudge = 1e-7;
+/// Of the sequence, between two points of a branch.
+constexpr int most_changes = 64;
 
 /// b is a, perhaps begun elsewhere in the forcing period.
 bool same_sequence(const std::vector<EventKind>& a, const std::vector<EventKind>& b) {
@@ -32,212 +29,33 @@ bool same_sequence(const std::vector<EventKind>& a, const std::vector<EventKind>
   return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
 }
 
-/// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips stays where it is.
-MatrixXd closing(const ForcingPeriod& period, const VectorXd& by_parameter) {
-  const Index n = period.monodromy.cols();
-  MatrixXd system(n, n + 1);
-  system.leftCols(n) = period.monodromy - MatrixXd::Identity(n, n);
-  system.col(n) = by_parameter;
-  for (Index row = 2; row < n; ++row) {
-    if (period.holds(row)) system(row, row) = 1.0;
+ChangeKind kind_of(const SteadyState& before, const SteadyState& after) {
+  if (before.sticks.empty() != after.sticks.empty()) return ChangeKind::sticking;
+  return before.stops_per_cycle != after.stops_per_cycle ? ChangeKind::stops : ChangeKind::sequence;
+}
+
+/// How orbits cease to attract, or begin to: by the Floquet multiplier nearest to the unit circle on the side that
+/// attracts.
+ChangeKind crossing_of(const SteadyState& a, const SteadyState& b) {
+  const SteadyState& attracting = a.stable() ? a : b;
+  std::complex<double> nearest = 0.0;
+  for (const std::complex<double>& value : attracting.multipliers) {
+    if (std::abs(value) > std::abs(nearest)) nearest = value;
   }
-  return system;
+  constexpr double on_circle = 1e-3;
+  if (std::abs(nearest) < 1.0 - on_circle) return ChangeKind::stability;
+  if (std::abs(nearest.imag()) > on_circle) return ChangeKind::neimark_sacker;
+  return nearest.real() < 0.0 ? ChangeKind::flip : ChangeKind::stability;
 }
 
-/// A point with what the next step needs.
-struct Node {
-  double parameter = 0.0;
-  ForcingPeriod period;
-  VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
-};
-
-/// A period map whose searches count for a branch.
-class CountedMap : public PeriodMap {
- public:
-  CountedMap(const Model& model, core::SearchCount& total) : PeriodMap(model), total_(total) {}
-  ~CountedMap() { total_ += engine().count(); }
-  CountedMap(const CountedMap&) = delete;
-  CountedMap& operator=(const CountedMap&) = delete;
-
- private:
-  core::SearchCount& total_;
-};
-
-class Continuation {
- public:
-  Continuation(const Model& model, BranchParameter parameter, double from, double to, const BranchOptions& options)
-      : model_(model),
-        quantity_(parameter == BranchParameter::amplitude ? &Excitation::amplitude : &Excitation::frequency),
-        options_(options),
-        from_(from),
-        to_(to),
-        range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {}
-
-  Branch run();
-  [[nodiscard]] const core::SearchCount& count() const { return count_; }
-
- private:
-  [[nodiscard]] Model at(double parameter) const;
-  [[nodiscard]] ForcingPeriod period(double parameter, const State& start) const;
-  [[nodiscard]] double omega(double parameter) const;
-  [[nodiscard]] VectorXd scale(const Node& node) const;
-  [[nodiscard]] std::optional<VectorXd> by_parameter(const Node& node) const;
-  [[nodiscard]] std::optional<VectorXd> tangent(const Node& node, const VectorXd& along) const;
-  [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess) const;
-  [[nodiscard]] std::optional<Node> correct(const Node& from, double step) const;
-  [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step) const;
-  [[nodiscard]] std::optional<Node> advance(const Node& from, double& step) const;
-  [[nodiscard]] BranchPoint describe(const Node& node) const;
-  [[nodiscard]] bool inside(double parameter) const;
-  void record(const Node& before, const Node& after);
-  void locate_sequences(const Node& before, const BranchPoint& last);
-  void locate_fold(const Node& before, const Node& after);
-  void add_change(ChangeKind kind, const BranchPoint& before, const BranchPoint& after);
-
-  Model model_;
-  double Excitation::* quantity_;
-  BranchOptions options_;
-  double from_;
-  double to_;
-  double range_;
-  Branch branch_;
-  mutable core::SearchCount count_;  ///< of all maps, those of attempts included
-};
-
-Model Continuation::at(double parameter) const {
-  Model model = model_;
-  model.excitation.*quantity_ = parameter;
-  return model;
-}
-
-double Continuation::omega(double parameter) const { return at(parameter).excitation.frequency; }
-
-ForcingPeriod Continuation::period(double parameter, const State& start) const {
-  CountedMap map(at(parameter), count_);
-  return map.from(start, Monodromy::with);
-}
-
-/// Sizes of the coordinates and of the parameter.
-VectorXd Continuation::scale(const Node& node) const {
-  const VectorXd z = coordinates(node.period.begin);
-  const double size = std::max(node.period.size, std::abs(z[1]) / omega(node.parameter));
-  VectorXd result = VectorXd::Constant(z.size() + 1, size);
-  result[1] = size * omega(node.parameter);
-  result[z.size()] = range_;
-  return result;
-}
-
-/// d(end)/d(parameter), by a difference; none where the nudge meets another mode.
-std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
-  for (const double step : {nudge * node.parameter, -nudge * node.parameter}) {
-    CountedMap map(at(node.parameter + step), count_);
-    const ForcingPeriod moved = map.from(node.period.begin, Monodromy::without);
-    if (map.outcome().ok() && same_mode(moved.end, node.period.end))
-      return (coordinates(moved.end) - coordinates(node.period.end)) / step;
-  }
-  return std::nullopt;
-}
-
-/// Unit tangent, scaled, on the side of `along`.
-std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& along) const {
-  const std::optional<VectorXd> slope = by_parameter(node);
-  const Index n = node.period.monodromy.cols();
-  if (!slope || along.size() != n + 1) return std::nullopt;
-  const VectorXd size = scale(node);
-  MatrixXd system(n + 1, n + 1);
-  system.topRows(n) = closing(node.period, *slope) * size.asDiagonal();
-  system.row(n) = along.transpose();
-  const Eigen::FullPivLU<MatrixXd> lu(system);
-  if (!lu.isInvertible()) return std::nullopt;
-  const VectorXd direction = lu.solve(VectorXd::Unit(n + 1, n));
-  return VectorXd(direction.normalized());
-}
-
-/// The orbit at a fixed parameter nearest to `guess`.
-std::optional<Node> Continuation::orbit(double parameter, const State& guess) const {
-  CountedMap map(at(parameter), count_);
-  ForcingPeriod trial = map.from(guess, Monodromy::with);
-  for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
-    if (trial.closure(omega(parameter)) <= options_.tolerance) return Node{parameter, std::move(trial), {}};
-    const VectorXd step = newton_step(trial);
-    trial = map.from(step.size() > 0 ? displaced(trial.begin, step) : trial.end, Monodromy::with);
-  }
-  return std::nullopt;
-}
-
-/// Predictor and corrector: (orbit closes, step along the tangent is `step`).
-std::optional<Node> Continuation::correct(const Node& from, double step) const {
-  const VectorXd size = scale(from);
-  const Index n = size.size() - 1;
-  const VectorXd predicted = step * from.tangent.cwiseProduct(size);
-  Node node{from.parameter + predicted[n], {}, {}};
-  State start = displaced(from.period.begin, predicted.head(n));
-  for (int i = 0; i < max_corrections; ++i) {
-    if (!(node.parameter > 0.0)) return std::nullopt;
-    node.period = period(node.parameter, start);
-    if (!same_mode(node.period.begin, node.period.end)) return std::nullopt;
-    const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
-    if (node.period.closure(omega(node.parameter)) <= options_.tolerance) return node;
-    const std::optional<VectorXd> slope = by_parameter(node);
-    if (!slope) return std::nullopt;
-    VectorXd distance(n + 1);
-    distance.head(n) = coordinates(start) - coordinates(from.period.begin);
-    distance[n] = node.parameter - from.parameter;
-    MatrixXd system(n + 1, n + 1);
-    system.topRows(n) = closing(node.period, *slope);
-    system.row(n) = from.tangent.cwiseQuotient(size).transpose();
-    VectorXd right(n + 1);
-    right.head(n) = -gap;
-    right[n] = step - from.tangent.dot(distance.cwiseQuotient(size));
-    const VectorXd change = Eigen::FullPivLU<MatrixXd>(system).solve(right);
-    if (!change.allFinite()) return std::nullopt;
-    start = displaced(start, change.head(n));
-    node.parameter += change[n];
-  }
-  return std::nullopt;
-}
-
-/// The same where the predicted state lies in another mode than the orbit: the motion itself finds the mode.
-std::optional<Node> Continuation::cross_modes(const Node& from, double step) const {
-  const VectorXd size = scale(from);
-  const Index n = size.size() - 1;
-  const VectorXd predicted = step * from.tangent.cwiseProduct(size);
-  const double parameter = from.parameter + predicted[n];
-  if (!(parameter > 0.0)) return std::nullopt;
-  CountedMap map(at(parameter), count_);
-  ForcingPeriod trial = map.from(displaced(from.period.begin, predicted.head(n)), Monodromy::without);
-  for (int i = 1; i < settling_periods && map.outcome().ok(); ++i) trial = map.next(Monodromy::without);
-  std::optional<Node> node = map.outcome().ok() ? orbit(parameter, trial.end) : std::nullopt;
-  // Another branch is not a continuation of this one.
-  if (node && std::abs(node->period.size - from.period.size) > 10.0 * step * from.period.size) return std::nullopt;
-  return node;
-}
-
-/// The next point, with its tangent; shortens `step` as needed. None: the branch ends.
-std::optional<Node> Continuation::advance(const Node& from, double& step) const {
-  for (; step >= options_.smallest_step; step *= 0.5) {
-    std::optional<Node> node = correct(from, step);
-    if (!node) node = cross_modes(from, step);
-    if (!node) continue;
-    const Index n = node->period.monodromy.cols();
-    // Across modes of different size the old tangent says only which way the parameter went.
-    const double sense = from.tangent[from.tangent.size() - 1] < 0.0 ? -1.0 : 1.0;
-    const bool alike = same_mode(from.period.begin, node->period.begin);
-    const VectorXd along = alike ? from.tangent : VectorXd(sense * VectorXd::Unit(n + 1, n));
-    const std::optional<VectorXd> next = tangent(*node, along);
-    if (!next) continue;
-    if (alike && next->dot(from.tangent) < 0.5 && step > 16.0 * options_.smallest_step) continue;
-    node->tangent = *next;
-    return node;
-  }
-  return std::nullopt;
-}
+}  // namespace
 
 BranchPoint Continuation::describe(const Node& node) const {
   BranchPoint point{node.parameter, {}};
   const Model model = at(node.parameter);
-  CountedMap map(model, count_);
-  point.state.period = 2.0 * std::numbers::pi / model.excitation.frequency;
+  CountedMap map(model, ratio_, count_);
+  point.state.period_ratio = ratio_;
+  point.state.period = ratio_ * 2.0 * std::numbers::pi / model.excitation.frequency;
   point.state.start = node.period.begin;
   point.state.multipliers = node.period.multipliers();
   account_for_orbit(model, map, false, point.state);
@@ -254,34 +72,64 @@ void Continuation::add_change(ChangeKind kind, const BranchPoint& before, const 
                    std::abs(branch_.changes.back().parameter - after.parameter) <= near;
   if (one) {  // two steps of one change, both halves of the forcing period
     branch_.changes.back().stops_after = after.state.stops_per_cycle;
+    branch_.changes.back().stable_after = after.state.stable();
     return;
   }
   branch_.changes.push_back({kind, 0.5 * (before.parameter + after.parameter), after.state.amplitude,
-                             before.state.stops_per_cycle, after.state.stops_per_cycle});
+                             before.state.stops_per_cycle, after.state.stops_per_cycle, before.state.stable(),
+                             after.state.stable()});
 }
 
-ChangeKind kind_of(const SteadyState& before, const SteadyState& after) {
-  if (before.sticks.empty() != after.sticks.empty()) return ChangeKind::sticking;
-  return before.stops_per_cycle != after.stops_per_cycle ? ChangeKind::stops : ChangeKind::sequence;
+/// Brings `low` and `high` together in the parameter to where `changed` tells a point from `low`.
+template <class Changed>
+void Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const {
+  const double scale = std::max(std::abs(from_), std::abs(to_));
+  while (std::abs(high.parameter - low.parameter) > options_.location * scale) {
+    const double middle = 0.5 * (low.parameter + high.parameter);
+    std::optional<Node> node = orbit(middle, low.state.start);
+    if (!node) node = orbit(middle, guess);
+    if (!node) return;
+    BranchPoint point = describe(*node);
+    (changed(point) ? high : low) = std::move(point);
+  }
 }
 
-/// Every place between a point and the newest one where the sequence changes, by bisection in the parameter.
+/// Every place between a point and the newest one where the sequence changes.
 void Continuation::locate_sequences(const Node& before, const BranchPoint& last) {
   BranchPoint low = branch_.points.back();
-  for (int changes = 0; changes < 64 && !same_sequence(low.state.sequence, last.state.sequence); ++changes) {
-    BranchPoint high = last;
-    const double scale = std::max(std::abs(from_), std::abs(to_));
-    while (std::abs(high.parameter - low.parameter) > options_.location * scale) {
-      const double middle = 0.5 * (low.parameter + high.parameter);
-      std::optional<Node> node = orbit(middle, low.state.start);
-      if (!node) node = orbit(middle, before.period.begin);
-      if (!node) break;
-      BranchPoint point = describe(*node);
-      (same_sequence(point.state.sequence, low.state.sequence) ? low : high) = std::move(point);
+  for (int changes = 0; !same_sequence(low.state.sequence, last.state.sequence); ++changes) {
+    if (changes == most_changes) {
+      branch_.warnings.push_back("more than " + std::to_string(most_changes) +
+                                 " changes of the sequence between two points: some are not listed");
+      return;
     }
+    BranchPoint high = last;
+    const std::vector<EventKind> sequence = low.state.sequence;
+    bisect(low, high, before.period.begin,
+           [&](const BranchPoint& point) { return !same_sequence(point.state.sequence, sequence); });
     add_change(kind_of(low.state, high.state), low, high);
     low = high;
   }
+}
+
+/// Where orbits begin or cease to attract between a point and the newest one; nothing where the sequence changes
+/// just there, for that is listed.
+void Continuation::locate_stability(const Node& before, const BranchPoint& last) {
+  BranchPoint low = branch_.points.back();
+  BranchPoint high = last;
+  const bool stable = low.state.stable();
+  bisect(low, high, before.period.begin, [&](const BranchPoint& point) { return point.state.stable() != stable; });
+  const ChangeKind kind = crossing_of(low.state, high.state);
+  const bool jumps = !same_sequence(low.state.sequence, high.state.sequence);
+  if (!jumps || kind != ChangeKind::stability) return add_change(kind, low, high);
+  const double near = 4.0 * options_.location * std::max(std::abs(from_), std::abs(to_));
+  for (BranchChange& change : branch_.changes) {
+    if (std::abs(change.parameter - high.parameter) > near) continue;
+    change.stable_before = stable;
+    change.stable_after = !stable;
+    return;
+  }
+  add_change(kind, low, high);
 }
 
 /// The tangent has no part along the parameter at a fold: bisection along the branch.
@@ -291,7 +139,9 @@ void Continuation::locate_fold(const Node& before, const Node& after) {
   double step = (coordinates(after.period.begin) - coordinates(before.period.begin)).norm() > 0.0
                     ? options_.largest_step
                     : options_.smallest_step;
-  for (int i = 0; i < 60 && std::abs(high.parameter - low.parameter) > options_.location * range_; ++i) {
+  // Near a fold the parameter is a parabola of the way along the branch: equal parameters do not tell how near.
+  const double near = std::sqrt(options_.location);
+  while (step > near) {
     step *= 0.5;
     double shorter = step;
     const std::optional<Node> node = advance(low, shorter);
@@ -308,10 +158,35 @@ void Continuation::record(const Node& before, const Node& after) {
   const BranchPoint& last = branch_.points.back();
   const bool turned = same_mode(before.period.begin, after.period.begin) &&
                       before.tangent.tail<1>()[0] * after.tangent.tail<1>()[0] < 0.0;
-  if (turned) locate_fold(before, after);
-  if (!turned) locate_sequences(before, point);
-  if (last.state.stable() != point.state.stable()) add_change(ChangeKind::stability, last, point);
+  if (turned) {
+    locate_fold(before, after);
+    branch_.changes.back().stable_before = last.state.stable();
+    branch_.changes.back().stable_after = point.state.stable();
+  } else {
+    locate_sequences(before, point);
+    if (last.state.stable() != point.state.stable()) locate_stability(before, point);
+  }
   branch_.points.push_back(std::move(point));
+}
+
+/// A point on a part of the branch that was passed before: between two of its points.
+bool Continuation::was_passed(const Node& node) const {
+  constexpr double on_it = 0.05;  // of the distance of the two points
+  const auto place = [&](double parameter, const State& state) {
+    const VectorXd size = scale(node);
+    return Eigen::Vector3d(state.x / size[0], state.v / size[1], parameter / range_);
+  };
+  const Eigen::Vector3d here = place(node.parameter, node.period.begin);
+  for (std::size_t i = 1; i + 1 < branch_.points.size(); ++i) {
+    const BranchPoint& a = branch_.points[i - 1];
+    const BranchPoint& b = branch_.points[i];
+    if ((a.parameter - node.parameter) * (b.parameter - node.parameter) > 0.0) continue;
+    const Eigen::Vector3d from = place(a.parameter, a.state.start);
+    const Eigen::Vector3d way = place(b.parameter, b.state.start) - from;
+    const double part = (here - from).dot(way) / way.squaredNorm();
+    if (part >= 0.0 && part <= 1.0 && (here - from - part * way).norm() <= on_it * way.norm()) return true;
+  }
+  return false;
 }
 
 Branch Continuation::run() {
@@ -320,6 +195,7 @@ Branch Continuation::run() {
   branch_.outcome = start.outcome;
   count_ += start.certificate;
   if (!start.outcome.ok()) return std::move(branch_);
+  ratio_ = start.period_ratio;
   Node node{from_, period(from_, start.start), {}};
   branch_.points.push_back(describe(node));
   const Index n = node.period.monodromy.cols();
@@ -330,26 +206,36 @@ Branch Continuation::run() {
     std::optional<Node> next = advance(node, step);
     if (!next) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
-      break;
+      return ended(BranchEnd::orbit, "the branch ends inside the range: no orbit continues it");
+    }
+    if (was_passed(*next)) {
+      add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
+      return ended(BranchEnd::orbit, "the branch ends inside the range: it would go back over its own orbits");
     }
     const bool left = !inside(next->parameter);
     if (left) {
       // The last point lies exactly on the end of the range.
       const double edge = std::abs(next->parameter - from_) < std::abs(next->parameter - to_) ? from_ : to_;
       std::optional<Node> last = orbit(edge, node.period.begin);
-      if (!last) break;
+      if (!last)
+        return ended(BranchEnd::edge, "the branch ends short of the end of the range: no orbit found there");
       last->tangent = node.tangent;
       next = std::move(last);
     }
     record(node, *next);
-    if (left) break;
+    if (left) return std::move(branch_);
     node = std::move(*next);
     step = std::min(1.5 * step, options_.largest_step);
   }
-  return std::move(branch_);
+  return ended(BranchEnd::points,
+               "the branch is not complete: it stops after " + std::to_string(options_.max_points) + " points");
 }
 
-}  // namespace
+Branch Continuation::ended(BranchEnd end, const std::string& warning) {
+  branch_.end = end;
+  branch_.warnings.push_back(warning);
+  return std::move(branch_);
+}
 
 std::string_view name(ChangeKind kind) {
   switch (kind) {
@@ -361,10 +247,28 @@ std::string_view name(ChangeKind kind) {
       return "stops";
     case ChangeKind::fold:
       return "fold";
+    case ChangeKind::flip:
+      return "flip";
+    case ChangeKind::neimark_sacker:
+      return "neimark_sacker";
     case ChangeKind::stability:
       return "stability";
     case ChangeKind::end:
       return "end";
+  }
+  return "";
+}
+
+std::string_view name(BranchEnd end) {
+  switch (end) {
+    case BranchEnd::range:
+      return "range";
+    case BranchEnd::orbit:
+      return "orbit";
+    case BranchEnd::points:
+      return "points";
+    case BranchEnd::edge:
+      return "edge";
   }
   return "";
 }

@@ -9,6 +9,7 @@
 /// A branch of a non-smooth system may end: at a place where one of the orbit's own intervals disappears and no
 /// orbit continues the branch (static friction above kinetic). That too is a change, `end`.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,15 +23,18 @@ namespace dualdamp::sim {
 enum class BranchParameter { amplitude, frequency };
 
 enum class ChangeKind {
-  sequence,   ///< other events in one period
-  sticking,   ///< the first stick appears, or the last one goes
-  stops,      ///< more or fewer stops in a period
-  fold,       ///< the branch turns back
-  stability,  ///< a Floquet multiplier crosses the unit circle
+  sequence,        ///< other events in one period
+  sticking,        ///< the first stick appears, or the last one goes
+  stops,           ///< more or fewer stops in a period
+  fold,            ///< the branch turns back; a Floquet multiplier passes 1 there, which is no change of its own
+  flip,            ///< a Floquet multiplier passes -1: a motion of twice the period begins
+  neimark_sacker,  ///< a complex pair leaves or enters the unit circle: a motion with a second frequency begins
+  stability,  ///< orbits begin or cease to attract otherwise: a Floquet multiplier passes 1 where nothing turns, or
+              ///< jumps
   end,        ///< no orbit continues the branch
 };
 
-/// "sequence", "sticking", "stops", "fold", "stability", "end".
+/// "sequence", "sticking", "stops", "fold", "flip", "neimark_sacker", "stability", "end".
 [[nodiscard]] std::string_view name(ChangeKind kind);
 
 struct BranchPoint {
@@ -44,10 +48,25 @@ struct BranchChange {
   double amplitude = 0.0;  ///< of x there [m]
   int stops_before = 0;    ///< per forcing period
   int stops_after = 0;
+  bool stable_before = false;
+  bool stable_after = false;
 };
 
+/// Why a branch has no more points.
+enum class BranchEnd {
+  range,   ///< it left the range of the parameter: complete
+  orbit,   ///< no orbit continues it
+  points,  ///< it has as many points as it may have
+  edge,    ///< it left the range, but its orbit just on the end of the range was not found
+};
+
+/// "range", "orbit", "points", "edge".
+[[nodiscard]] std::string_view name(BranchEnd end);
+
 struct Branch {
-  core::Outcome outcome;              ///< not ok(): there is no orbit at the first value
+  core::Outcome outcome;  ///< not ok(): there is no orbit at the first value
+  BranchEnd end = BranchEnd::range;
+  std::vector<std::string> warnings;  ///< what is missing
   std::vector<BranchPoint> points;    ///< in order along the branch
   std::vector<BranchChange> changes;  ///< likewise
   core::SearchCount certificate;      ///< of all searches for events on the way along the branch

@@ -80,7 +80,7 @@ class Chunk {
       point.x = state.amplitude;
       point.phase = state.phase;
       point.stops = state.stops_per_cycle;
-      point.sticks = static_cast<int>(state.sticks.size());
+      point.sticks = state.rests;
       point.stable = state.stable();
     } else {
       point.reason = number_of(state.outcome.reason);
@@ -140,7 +140,26 @@ SteadyStateOptions brief(SteadyStateOptions options) {
   return options;
 }
 
+SteadyStateOptions judging_rests(SteadyStateOptions options) {
+  options.judge_rests = true;
+  return options;
+}
+
 }  // namespace
+
+std::string_view name(Regime regime) {
+  switch (regime) {
+    case Regime::no_steady_state:
+      return "no steady state";
+    case Regime::never_moves:
+      return "never moves";
+    case Regime::rests:
+      return "rests";
+    case Regime::slides_through:
+      return "slides through";
+  }
+  return "";
+}
 
 Curve xy_curve(const Model& model, const std::vector<double>& amplitudes, const SteadyStateOptions& options,
                const BatchOptions& batch) {
@@ -167,7 +186,7 @@ Curve regime_map(const Model& model, const std::vector<double>& frequencies, con
   points.reserve(frequencies.size() * amplitudes.size());
   for (const double omega : frequencies)
     for (const double Y : amplitudes) points.push_back({.omega = omega, .Y = Y});
-  return computed(model, std::move(points), brief(options), batch);
+  return computed(model, std::move(points), judging_rests(brief(options)), batch);
 }
 
 }  // namespace dualdamp::sim

@@ -9,12 +9,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/batch/batch.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {
+
+/// What the mass does in a steady state.
+enum class Regime {
+  no_steady_state,
+  never_moves,
+  rests,           ///< once or several times in a period
+  slides_through,  ///< it never rests
+};
+
+/// "no steady state", "never moves", "rests", "slides through".
+[[nodiscard]] std::string_view name(Regime regime);
 
 /// One steady state. Where there is none only `omega` and `Y` mean something.
 struct CurvePoint {
@@ -23,11 +35,16 @@ struct CurvePoint {
   double x = 0.0;      ///< output amplitude (peak - trough)/2 [m]
   double phase = 0.0;  ///< lag of x's fundamental [rad], in [0, 2 pi); of a frequency response only
   int stops = 0;       ///< stops per forcing period
-  int sticks = 0;      ///< sticks per forcing period
+  int sticks = 0;      ///< sticks in a period; in a regime map also rests judged by speed (`SteadyState::rests`)
   bool stable = false;
   std::uint32_t reason = 0;  ///< 0: there is a steady state; else why not, an index into `Curve::reasons`
 
   [[nodiscard]] bool ok() const { return reason == 0; }
+  [[nodiscard]] Regime regime() const {
+    if (!ok()) return Regime::no_steady_state;
+    if (sticks == 0) return Regime::slides_through;
+    return stops == 0 && sticks == 1 && x == 0.0 ? Regime::never_moves : Regime::rests;
+  }
 };
 
 /// What was said about some of the points.

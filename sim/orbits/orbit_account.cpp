@@ -9,11 +9,21 @@ namespace dualdamp::sim {
 
 using friction::Direction;
 
-OrbitAccount::OrbitAccount(const Model& model, bool full)
+namespace {
+
+/// Of the speed, in a forcing period.
+constexpr int samples = 1000;
+
+}  // namespace
+
+OrbitAccount::OrbitAccount(const Model& model, bool full, bool judge_rests)
     : full_(full),
       drive_phase_(model.excitation.phase),
       energy_(model.oscillator),
-      fundamental_(model.excitation.frequency) {}
+      fundamental_(model.excitation.frequency),
+      judges_speed_(judge_rests && !model.friction.empty() &&
+                    std::ranges::none_of(model.friction, &friction::Law::holds_mass)),
+      spacing_(2.0 * std::numbers::pi / model.excitation.frequency / samples) {}
 
 void OrbitAccount::begin(const State& start) {
   peak_ = trough_ = start.x;
@@ -29,11 +39,38 @@ void OrbitAccount::observe(const Interval& interval, double x) {
     energy_.observe(interval);
     fundamental_.observe(interval);
   }
+  if (judges_speed_) collect_speeds(interval);
   const bool sticks = interval.direction == Direction::none;
   if (sticks) collect_stick(interval, x);
   sticking_ = sticks;
   if (interval.ending == EventKind::stop) ++stops_;
   if (interval.ending) sequence_.push_back(*interval.ending);
+}
+
+void OrbitAccount::collect_speeds(const Interval& interval) {
+  for (;;) {
+    const double t = static_cast<double>(speeds_.size()) * spacing_;
+    if (t >= interval.end()) return;
+    speeds_.push_back(std::abs(interval.state_at(std::max(t, interval.begin)).v));
+  }
+}
+
+/// Times longer than `shortest_rest` of a forcing period at a speed below `rest_speed` times the largest; the
+/// period closes.
+int OrbitAccount::slow_spans(double period) const {
+  if (speeds_.empty()) return 0;
+  const double slow = rest_speed * *std::ranges::max_element(speeds_);
+  const auto fast = std::ranges::find_if(speeds_, [=](double speed) { return speed > slow; });
+  if (fast == speeds_.end()) return 1;
+  const auto begin = static_cast<std::size_t>(fast - speeds_.begin());
+  int spans = 0;
+  double length = 0.0;
+  for (std::size_t i = 0; i <= speeds_.size(); ++i) {
+    const bool is_slow = speeds_[(begin + i) % speeds_.size()] <= slow;
+    if (!is_slow && length > shortest_rest * period) ++spans;
+    length = is_slow ? length + spacing_ : 0.0;
+  }
+  return spans;
 }
 
 /// Merges intervals of sticking into sticks.
@@ -59,6 +96,7 @@ void OrbitAccount::write(SteadyState& result) {
   result.amplitude = 0.5 * (peak_ - trough_);
   result.stops_per_cycle = stops_;
   result.sticks = std::move(sticks_);
+  result.rests = judges_speed_ ? slow_spans(samples * spacing_) : static_cast<int>(result.sticks.size());
   result.sequence = std::move(sequence_);
   if (result.sticks.size() == 1 && stops_ == 0) {
     result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
@@ -67,14 +105,14 @@ void OrbitAccount::write(SteadyState& result) {
   result.max_speed = extremes_.max_speed();
   result.energy = energy_.account();
   result.mean_square_speed = energy_.square_speed() / result.period;
-  result.fundamental = std::abs(fundamental_.coefficient());
+  result.fundamental = std::abs(fundamental_.coefficient()) / result.period_ratio;
   const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
   constexpr double turn = 2.0 * std::numbers::pi;
   result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;
 }
 
-void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result) {
-  OrbitAccount account(model, full);
+void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result, bool judge_rests) {
+  OrbitAccount account(model, full, judge_rests);
   (void)map.from(result.start, Monodromy::without, &account);
   account.write(result);
 }

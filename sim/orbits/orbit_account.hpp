@@ -7,11 +7,11 @@
 
 namespace dualdamp::sim {
 
-/// Watches a period from its begin: the map hands it every interval.
+/// Watches a period of the motion from its begin: the map hands it every interval.
 class OrbitAccount final : public PeriodObserver {
  public:
-  /// `full`: phase, largest speed and energy too.
-  OrbitAccount(const Model& model, bool full);
+  /// `full`: phase, largest speed and energy too; `judge_rests`: by speed, where no law holds the mass.
+  OrbitAccount(const Model& model, bool full, bool judge_rests = false);
 
   void begin(const State& start) override;
   void observe(const Interval& interval, double x) override;
@@ -20,6 +20,8 @@ class OrbitAccount final : public PeriodObserver {
   void write(SteadyState& result);
 
  private:
+  void collect_speeds(const Interval& interval);
+  [[nodiscard]] int slow_spans(double period) const;
   void collect_stick(const Interval& interval, double x);
   void join_stick_across_boundary();
 
@@ -28,6 +30,9 @@ class OrbitAccount final : public PeriodObserver {
   Extremes extremes_;
   EnergyAudit energy_;
   Fundamental fundamental_;
+  bool judges_speed_ = false;
+  double spacing_ = 0.0;  ///< of the speeds below [s]
+  std::vector<double> speeds_;
   double peak_ = 0.0;
   double trough_ = 0.0;
   int stops_ = 0;
@@ -37,7 +42,9 @@ class OrbitAccount final : public PeriodObserver {
   bool sticking_ = false;  ///< at the end of the last interval
 };
 
-/// Walks along the orbit that begins at `result.start` and fills the other numbers of `result`.
-void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result);
+/// Walks along the orbit that begins at `result.start` and fills the other numbers of `result`. `map`: over its
+/// `period_ratio` forcing periods.
+void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result,
+                       bool judge_rests = false);
 
 }  // namespace dualdamp::sim

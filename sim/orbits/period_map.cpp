@@ -10,15 +10,15 @@ namespace dualdamp::sim {
 
 using friction::Direction;
 
-double ForcingPeriod::closure(double omega) const {
-  const double scale = std::max(size, std::abs(begin.v) / omega);
-  if (!same_mode(begin, end)) return std::numeric_limits<double>::infinity();
-  const double x_gap = (end.x - begin.x) / scale;
-  const double v_gap = (end.v - begin.v) / omega / scale;
+double distance(const State& a, const State& b, double size, double omega) {
+  const double scale = std::max(size, std::abs(a.v) / omega);
+  if (!same_mode(a, b)) return std::numeric_limits<double>::infinity();
+  const double x_gap = (b.x - a.x) / scale;
+  const double v_gap = (b.v - a.v) / omega / scale;
   double result = scale > 0.0 ? std::sqrt(x_gap * x_gap + v_gap * v_gap) : 0.0;
-  for (std::size_t i = 0; i < begin.memories.size(); ++i) {
-    const std::vector<double>& before = begin.memories[i].state;
-    const std::vector<double>& after = end.memories[i].state;
+  for (std::size_t i = 0; i < a.memories.size(); ++i) {
+    const std::vector<double>& before = a.memories[i].state;
+    const std::vector<double>& after = b.memories[i].state;
     for (std::size_t k = 0; k < before.size(); ++k) {
       // A state near zero is one of the motion's size that happens to pass there.
       const double own = std::max({std::abs(before[k]), std::abs(after[k]), scale});
@@ -42,6 +42,7 @@ std::vector<std::complex<double>> ForcingPeriod::multipliers() const {
 }
 
 double ForcingPeriod::radius() const {
+  if (!monodromy.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const std::complex<double>& value : multipliers()) largest = std::max(largest, std::abs(value));
   return largest;
@@ -52,11 +53,17 @@ bool ForcingPeriod::holds(Eigen::Index row) const {
   return monodromy(row, row) == 1.0 && (monodromy.row(row).array() != 0.0).count() == 1;
 }
 
-double ForcingPeriod::free_radius() const {
+std::vector<Eigen::Index> ForcingPeriod::free_coordinates() const {
   std::vector<Eigen::Index> free;
   for (Eigen::Index row = 0; row < monodromy.rows(); ++row) {
     if (!holds(row)) free.push_back(row);
   }
+  return free;
+}
+
+double ForcingPeriod::free_radius() const {
+  if (!monodromy.allFinite()) return std::numeric_limits<double>::infinity();
+  const std::vector<Eigen::Index> free = free_coordinates();
   return monodromy(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
 }
 
@@ -66,8 +73,8 @@ ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
   period.size = std::abs(engine_->position());
   engine_->track_sensitivity(monodromy == Monodromy::with);
   if (observer != nullptr) observer->begin(period.begin);
-  const long passed = engine_->periods_passed();
-  while (engine_->periods_passed() == passed) {
+  const long last = engine_->periods_passed() + periods_;
+  while (engine_->periods_passed() < last) {
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
     period.moves = period.moves || interval->direction != Direction::none;

@@ -1,6 +1,6 @@
 #pragma once
-/// The period map: the state one forcing period later, and the monodromy matrix: the derivative of that state by
-/// the state at the start of the period. Its eigenvalues are the Floquet multipliers.
+/// The period map: the state one forcing period later, or several, and the monodromy matrix: the derivative of that
+/// state by the state at the start. Its eigenvalues are the Floquet multipliers.
 ///
 /// Coordinates of a state are x, v and the states of every law, in this order. A mass at rest at a period boundary
 /// and a law in a mode whose state does not act make the monodromy matrix singular: their Floquet multipliers are
@@ -17,7 +17,12 @@
 
 namespace dualdamp::sim {
 
-/// One forcing period: where it starts, where it ends, how the end depends on the start.
+/// Distance of two states relative to `size` [m], the size of the motion; velocities scaled by omega [rad/s], law
+/// states relative to their own size. Infinite when a law is in another mode.
+[[nodiscard]] double distance(const State& a, const State& b, double size, double omega);
+
+/// One forcing period, or as many as the map passes: where it starts, where it ends, how the end depends on the
+/// start.
 struct ForcingPeriod {
   State begin;
   State end;
@@ -25,16 +30,18 @@ struct ForcingPeriod {
   double size = 0.0;          ///< largest |x| met [m]
   bool moves = false;
 
-  /// Distance of end and begin relative to the size of the motion, velocities scaled by omega [rad/s]; law states
-  /// relative to their own size. Infinite when a law ends in another mode than it began in.
-  [[nodiscard]] double closure(double omega) const;
+  /// Distance of end and begin.
+  [[nodiscard]] double closure(double omega) const { return distance(begin, end, size, omega); }
   /// Floquet multipliers.
   [[nodiscard]] std::vector<std::complex<double>> multipliers() const;
-  /// The largest modulus of them.
+  /// The largest modulus of them; infinite when the monodromy matrix is not finite: what is not known does not
+  /// attract.
   [[nodiscard]] double radius() const;
   /// The same without the coordinates that a period leaves as they are, whatever the others do: sliders that never
   /// slip. Their Floquet multipliers are 1.
   [[nodiscard]] double free_radius() const;
+  /// These coordinates.
+  [[nodiscard]] std::vector<Eigen::Index> free_coordinates() const;
   /// Whether the period leaves law state `row` (2, 3, ...) as it is.
   [[nodiscard]] bool holds(Eigen::Index row) const;
 };
@@ -53,7 +60,8 @@ class PeriodObserver {
 
 class PeriodMap {
  public:
-  explicit PeriodMap(const Model& model) : engine_(make_engine(model)) {}
+  /// Over `periods` forcing periods.
+  explicit PeriodMap(const Model& model, int periods = 1) : engine_(make_engine(model)), periods_(periods) {}
 
   /// From the model's initial state, laws at their start.
   [[nodiscard]] ForcingPeriod from_start(double x, double v, Monodromy monodromy);
@@ -63,11 +71,13 @@ class PeriodMap {
 
   [[nodiscard]] const core::Outcome& outcome() const { return engine_->outcome(); }
   [[nodiscard]] Engine& engine() { return *engine_; }
+  [[nodiscard]] int periods() const { return periods_; }
 
  private:
   ForcingPeriod pass(Monodromy monodromy, PeriodObserver* observer = nullptr);
 
   std::unique_ptr<Engine> engine_;
+  int periods_;
 };
 
 [[nodiscard]] Eigen::VectorXd coordinates(const State& state);

@@ -4,11 +4,18 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "sim/batch/batch.hpp"
+#include "sim/engine/drive.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/motion/observers.hpp"
+#include "sim/orbits/approach.hpp"
+#include "sim/orbits/coexistence.hpp"
+#include "sim/orbits/monotone_model.hpp"
+#include "sim/orbits/newton.hpp"
 #include "sim/orbits/orbit_account.hpp"
+#include "sim/orbits/orbit_solver.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/validate.hpp"
 
@@ -24,61 +31,32 @@ constexpr double on_circle = 1e-9;
 /// Closure that counts as an orbit when Newton's corrections have sunk into rounding.
 constexpr double rounding_closure = 1e-12;
 
-/// A motion that closes this well after thousands of periods and still is not periodic creeps.
-constexpr double creeping = 1e-3;
+/// Of the only orbit: how well it is known at least, relative to its size.
+constexpr double known = 1e-6;
 
-/// Where orbits may coexist the motion is integrated until it closes this well before Newton's method takes over.
-constexpr double near_orbit = 1e-2;
-constexpr int periods_to_near_orbit = 500;
-
-/// A motion that closes this well has settled every slider that comes to rest.
-constexpr double settled = 1e-8;
-
-constexpr int max_newton = 60;
-
-/// Growth over the first periods' motion that counts as growth without bound.
-constexpr double runaway = 1e9;
-
-/// Tells growth without end from growth that slows down and from beats. Asked at 500, 1000, 2000, ... periods: an
-/// amplitude grows on when it gained 1.7 times as much over the last doubling of time, n to 2 n, as over the one
-/// before; 2 is in proportion to time. One that tends to its end as 1 - exp(-n/tau) or as tanh(n/tau) gains so much
-/// for n below tau/4.5 or tau/3.4 only, and would not settle within `max_periods` from there. One that beats was
-/// larger before.
-class Growth {
- public:
-  bool goes_on(int period, double amplitude) {
-    largest_ = std::max(largest_, amplitude);
-    if (period != next_) return false;
-    next_ *= 2;
-    constexpr double gained_more = 1.7;
-    constexpr double beating = 0.9;
-    constexpr double at_least = 0.1;  // of the amplitude; 1/2 in proportion to time
-    const double gain = amplitude < beating * largest_ ? 0.0 : amplitude - last_;
-    const bool on = gain_ > 0.0 && gain > gained_more * gain_ && gain > at_least * amplitude;
-    gain_ = last_ > 0.0 ? gain : 0.0;
-    last_ = amplitude;
-    return on;
+/// Where the steady state of an oscillator without friction is at t = 0.
+State linear_response(const Model& model) {
+  const Oscillator& o = model.oscillator;
+  const Drive drive(o, model.excitation);
+  State state{.x = drive.force_constant() / o.stiffness};
+  for (std::size_t j = 0; j < drive.frequencies().size(); ++j) {
+    const double w = drive.frequencies()[j];
+    const std::complex<double> x =
+        drive.force_phasor(j) / std::complex(o.stiffness - o.mass * w * w, o.damping * w);
+    state.x += x.real();
+    state.v -= w * x.imag();
   }
-
- private:
-  int next_ = 500;
-  double largest_ = 0.0;
-  double last_ = 0.0;
-  double gain_ = 0.0;
-};
+  state.direction = state.v < 0.0 ? Direction::backward : Direction::forward;
+  return state;
+}
 
 class OrbitFinder {
  public:
   OrbitFinder(const Model& model, const SteadyStateOptions& options)
-      : model_(model), options_(options), omega_(model.excitation.frequency), map_(model) {
+      : model_(model), options_(options), map_(model), motions_(motions_of(model)) {
     const double accuracy = map_.engine().accuracy();
     options_.tolerance = std::max(options_.tolerance, accuracy);
     rounding_closure_ = std::max(rounding_closure, 10.0 * accuracy);
-    for (const friction::Law& law : model.friction) {
-      const friction::Memory memory = law.start({});
-      const double slipping = std::abs(law.force(memory, {}, Direction::forward));
-      may_coexist_ = may_coexist_ || law.is_modal() || law.static_limit(memory, {}) > slipping;
-    }
   }
 
   void find(SteadyState& result);
@@ -89,152 +67,134 @@ class OrbitFinder {
   void describe(SteadyState& result);
 
  private:
-  bool begin_on_sliding_orbit(ForcingPeriod& period);
-  bool newton(ForcingPeriod& period, SteadyState& result);
-  bool integrate_to_orbit(ForcingPeriod& period, SteadyState& result);
-  bool integrate(ForcingPeriod& period, double closure, int periods, SteadyState& result);
-  [[nodiscard]] core::Outcome failure(const ForcingPeriod& period) const;
+  bool begin_on_sliding_orbit(State& start);
+  [[nodiscard]] std::optional<Orbit> the_only_orbit(SteadyState& result);
+  [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
+  [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
+  void list_others(const std::vector<Orbit>& others, SteadyState& result);
+  void add_mirror_image(SteadyState& result);
 
   const Model& model_;
   SteadyStateOptions options_;
-  double omega_;
   PeriodMap map_;
+  Motions motions_;
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< beside those of the engine
   double rounding_closure_ = 0.0;
-  double first_half_ = 0.0;  ///< largest |x| in either half of the periods integrated [m]
-  double second_half_ = 0.0;
-  bool grows_ = false;        ///< and nothing slows it down
-  bool may_coexist_ = false;  ///< static above kinetic, or laws that remember: more than one orbit may attract
 };
-
-/// Integrates the transient until one period closes to `closure`; gives up on a motion that grows without bound.
-bool OrbitFinder::integrate(ForcingPeriod& period, double closure, int periods, SteadyState& result) {
-  first_half_ = second_half_ = 0.0;
-  const double early = period.size;
-  Growth growth;
-  for (int i = 0; i < periods; ++i) {
-    if (period.closure(omega_) <= closure) return true;
-    if (early > 0.0 && period.size > runaway * early) return false;
-    grows_ = growth.goes_on(i, period.size);
-    if (grows_) return false;
-    double& largest = i < periods / 2 ? first_half_ : second_half_;
-    largest = std::max(largest, period.size);
-    period = map_.next(Monodromy::without);
-    ++result.transient_periods;
-    if (!map_.outcome().ok()) return false;
-  }
-  return period.closure(omega_) <= closure;
-}
-
-/// Newton on the period map; a step that does not bring the orbit closer is replaced by one period of transient.
-bool OrbitFinder::newton(ForcingPeriod& period, SteadyState& result) {
-  period = map_.from(period.begin, Monodromy::with, account_ ? &*account_ : nullptr);
-  for (int i = 0; i < max_newton && map_.outcome().ok(); ++i) {
-    const double closure = period.closure(omega_);
-    if (closure <= options_.tolerance) return true;
-    account_.reset();
-    const Eigen::VectorXd step = newton_step(period);
-    ++result.newton_steps;
-    const State fallback = period.end;
-    if (step.size() > 0) {
-      const ForcingPeriod trial = map_.from(displaced(period.begin, step), Monodromy::with);
-      if (map_.outcome().ok() && trial.closure(omega_) < 0.5 * closure) {
-        period = trial;
-        continue;
-      }
-    }
-    if (closure <= rounding_closure_) return true;
-    period = map_.from(fallback, Monodromy::with);
-    ++result.transient_periods;
-  }
-  return false;
-}
-
-/// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.
-core::Outcome OrbitFinder::failure(const ForcingPeriod& period) const {
-  const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
-  if (grows_ || second_half_ > 1.5 * first_half_ || period.size > 1.5 * first_half_) {
-    return {core::OutcomeKind::no_steady_state,
-            "no steady state: the amplitude still grows; damping limits it far out or not at all"};
-  }
-  if (period.closure(omega_) < creeping) {
-    return {
-        core::OutcomeKind::not_unique,
-        "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
-            after};
-  }
-  return {core::OutcomeKind::no_steady_state,
-          "no steady state: the motion from the initial state has not become periodic" + after};
-}
-
-/// The orbit that the motion from the initial state itself leads to: among neighbours that are steady too.
-bool OrbitFinder::integrate_to_orbit(ForcingPeriod& period, SteadyState& result) {
-  period = map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
-  if (!integrate(period, settled, options_.max_periods, result)) return false;
-  // Sliders at rest: where they stand is settled, and Newton's method finds the rest of the orbit.
-  ForcingPeriod trial = map_.from(period.begin, Monodromy::with);
-  if (same_mode(trial.begin, trial.end) && trial.free_radius() < 1.0 - neutral_margin && newton(trial, result) &&
-      trial.free_radius() < 1.0 - neutral_margin) {
-    period = std::move(trial);
-    return true;
-  }
-  period = map_.from(period.begin, Monodromy::without);
-  const bool found = integrate(period, 10.0 * options_.tolerance, options_.max_periods, result);
-  if (found) period = map_.from(period.begin, Monodromy::with);
-  return found;
-}
 
 /// An orbit without sticking that attracts every motion is found without integrating any; Newton's method then has
 /// nothing left to do.
-bool OrbitFinder::begin_on_sliding_orbit(ForcingPeriod& period) {
-  const std::optional<SlidingOrbit> orbit = may_coexist_ ? std::nullopt : sliding_orbit(model_);
+bool OrbitFinder::begin_on_sliding_orbit(State& begin) {
+  const std::optional<SlidingOrbit> orbit = sliding_orbit(model_);
   if (!orbit) return false;
   const std::optional<State> start = start_of(*orbit, model_);
   if (!start) return false;
-  period.begin = *start;
+  begin = *start;
   // Newton's method will find nothing left to do: one walk along the orbit is enough.
   account_.emplace(model_, options_.full_account);
   searched_ += orbit->certificate;
   return true;
 }
 
+State OrbitFinder::after_transient(double x, double v, SteadyState& result) {
+  static_cast<void>(map_.from_start(x, v, Monodromy::without));
+  result.transient_periods += 2;
+  return map_.next(Monodromy::without).end;
+}
+
+std::optional<Orbit> OrbitFinder::only_orbit_from(const State& start, SteadyState& result) {
+  const NewtonOptions newton{
+      .omega = model_.excitation.frequency, .tolerance = options_.tolerance, .rounding = rounding_closure_};
+  ForcingPeriod period = map_.from(start, Monodromy::with, account_ ? &*account_ : nullptr);
+  const NewtonResult closed = close_orbit(map_, newton, period);
+  result.newton_steps += closed.steps;
+  result.transient_periods += closed.transient_periods;
+  if (closed.steps > 0) account_.reset();
+  if (closed.found && period.radius() < 1.0 - neutral_margin) return Orbit{std::move(period), 1};
+  const bool only = motions_ == Motions::meet_sliding && period.moves;
+  if (closed.found && only && correction_left(period, newton.omega) < known) return Orbit{std::move(period), 1};
+  account_.reset();
+  return std::nullopt;
+}
+
+/// Where motions never part: any way to an orbit leads to the right one.
+std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
+  State start;
+  const InitialState& initial = model_.initial;
+  if (model_.friction.empty() && motions_ == Motions::meet_sliding) {
+    start = linear_response(model_);
+  } else if (!begin_on_sliding_orbit(start)) {
+    start = after_transient(initial.position, initial.velocity, result);
+  }
+  std::optional<Orbit> orbit = only_orbit_from(start, result);
+  // A motion that begins far off may creep for long to where Newton's method finds the orbit.
+  if (!orbit && motions_ == Motions::meet_sliding && (initial.position != 0.0 || initial.velocity != 0.0))
+    orbit = only_orbit_from(after_transient(0.0, 0.0, result), result);
+  return orbit;
+}
+
 void OrbitFinder::describe(SteadyState& result) {
   if (account_) return account_->write(result);
-  account_for_orbit(model_, map_, options_.full_account, result);
+  if (result.period_ratio == 1) {
+    account_for_orbit(model_, map_, options_.full_account, result, options_.judge_rests);
+  } else {
+    PeriodMap map(model_, result.period_ratio);
+    account_for_orbit(model_, map, options_.full_account, result, options_.judge_rests);
+    searched_ += map.engine().count();
+    result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
+  }
+  add_mirror_image(result);
+  if (!result.others.empty())
+    result.warnings.emplace_back(
+        "not the only steady state: the one that the motion from the initial state approaches; others attract "
+        "other "
+        "motions");
+}
+
+void OrbitFinder::list_others(const std::vector<Orbit>& others, SteadyState& result) {
+  for (const Orbit& other : others) {
+    SteadyState state{.period_ratio = other.period_ratio, .start = other.period.begin};
+    PeriodMap map(model_, other.period_ratio);
+    account_for_orbit(model_, map, false, state);
+    searched_ += map.engine().count();
+    result.others.push_back({state.peak, state.trough, other.period_ratio});
+  }
+}
+
+/// In a symmetric model the mirror image of an orbit is an orbit.
+void OrbitFinder::add_mirror_image(SteadyState& result) {
+  constexpr double rounding = 1e-6;
+  const bool is_its_own = std::abs(result.peak + result.trough) <= rounding * result.amplitude;
+  if (is_its_own || result.amplitude == 0.0 || motions_ != Motions::may_part || !is_symmetric(model_)) return;
+  const auto is_mirror = [&](const OtherState& other) {
+    return std::abs(other.peak + result.trough) + std::abs(other.trough + result.peak) <=
+           rounding * result.amplitude;
+  };
+  if (std::ranges::none_of(result.others, is_mirror))
+    result.others.push_back({-result.trough, -result.peak, result.period_ratio});
+  result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
 }
 
 void OrbitFinder::find(SteadyState& result) {
-  ForcingPeriod period;
-  if (!begin_on_sliding_orbit(period)) {
-    period = map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
-    period = map_.next(Monodromy::without);
-    result.transient_periods = 2;
-    // Where orbits may coexist Newton could land on another one than the motion approaches.
-    if (may_coexist_) integrate(period, near_orbit, periods_to_near_orbit, result);
-  }
-  // A motion that depends on its past has no state that Newton's method could change: the transient is integrated.
+  std::optional<Orbit> orbit;
+  // A motion that depends on its past has no state that Newton's method could change.
   const bool has_past = map_.engine().has_past();
-  bool found =
-      has_past ? integrate(period, options_.tolerance, options_.max_periods, result) : newton(period, result);
-  const bool attracting = found && (has_past || period.radius() < 1.0 - neutral_margin);
-  if (!attracting && map_.outcome().ok()) {
-    account_.reset();
-    found = integrate_to_orbit(period, result);
-    if (found && period.moves && period.radius() >= 1.0 - neutral_margin) {
-      result.warnings.emplace_back(
-          "not unique: a Floquet multiplier lies on the unit circle, so that neighbouring orbits are steady too; "
-          "this is "
-          "the one approached from the initial state");
-    }
+  if (motions_ != Motions::may_part && !has_past) orbit = the_only_orbit(result);
+  if (!orbit) {
+    OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
+    Approach approach(model_, options_, map_, solver, motions_);
+    orbit = approach.find(result);
+    if (orbit && motions_ == Motions::may_part && !has_past)
+      list_others(other_orbits(model_, *orbit, approach.others(), solver), result);
+    result.newton_steps += solver.newton_steps();
+    searched_ += solver.count();
   }
-  if (!map_.outcome().ok()) {
-    result.outcome = map_.outcome();
-  } else if (!found) {
-    result.outcome = failure(period);
-  }
-  result.start = period.begin;
-  if (found && !has_past) result.multipliers = period.multipliers();
+  if (!orbit) return;
+  result.period_ratio = orbit->period_ratio;
+  result.period *= orbit->period_ratio;
+  result.start = orbit->period.begin;
+  if (!has_past) result.multipliers = orbit->period.multipliers();
 }
 
 }  // namespace
@@ -268,7 +228,7 @@ std::vector<Sample> one_period(const Model& model, const SteadyState& state, int
   engine->restart(state.start);
   Sampler sampler(count / state.period);
   Sample final;
-  while (engine->periods_passed() == 0) {
+  while (engine->periods_passed() < state.period_ratio) {
     const Interval* interval = engine->next_in_period();
     if (interval == nullptr) break;
     sampler.observe(*interval);

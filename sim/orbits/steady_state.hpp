@@ -1,5 +1,6 @@
 #pragma once
-/// Steady states: the periodic orbit approached from the model's initial state.
+/// Steady states: the periodic orbit approached from the model's initial state. Its period is the forcing period or
+/// a multiple of it, up to 64 (subharmonic motion).
 
 #include <complex>
 #include <string>
@@ -15,9 +16,16 @@
 namespace dualdamp::sim {
 
 struct Stick {
-  double start = 0.0;     ///< s, modulo one forcing period
+  double start = 0.0;     ///< s, modulo one period
   double duration = 0.0;  ///< s
   double position = 0.0;  ///< m
+};
+
+/// Another steady state of the same model.
+struct OtherState {
+  double peak = 0.0;     ///< max x [m]
+  double trough = 0.0;   ///< min x [m]
+  int period_ratio = 1;  ///< forcing periods in its period
 };
 
 struct SteadyState {
@@ -29,14 +37,20 @@ struct SteadyState {
   double amplitude = 0.0;          ///< (peak - trough)/2 [m]
   double phase = 0.0;              ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
   double fundamental = 0.0;        ///< amplitude of x's fundamental [m]
-  double period = 0.0;             ///< s
+  double period = 0.0;             ///< of the motion [s]
+  int period_ratio = 1;            ///< forcing periods in it
   double max_speed = 0.0;          ///< m/s
   double mean_square_speed = 0.0;  ///< m^2/s^2
-  int stops_per_cycle = 0;         ///< stops per forcing period
+  int stops_per_cycle = 0;         ///< stops in one period
   std::vector<Stick> sticks;
-  std::vector<EventKind> sequence;                ///< events of one period in order
-  std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers of the full period
-  Energy energy;                                  ///< J per period
+  int rests = 0;                    ///< sticks; of laws that do not hold the mass as `judge_rests` has it
+  std::vector<EventKind> sequence;  ///< events of one period in order
+  std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers over one period
+  Energy energy;                                  ///< J in one period
+
+  /// Steady states that attract other motions, where they are easily known (`coexistence.hpp`); one period of
+  /// theirs may begin in any forcing period. An empty list proves nothing.
+  std::vector<OtherState> others;
 
   State start;  ///< of the orbit, at t = 0
   int newton_steps = 0;
@@ -57,7 +71,13 @@ struct SteadyStateOptions {
   int max_periods = 20'000;  ///< of transient integrated before giving up
   /// Phase, fundamental, speeds and energy cost more than the orbit itself; without this they stay zero.
   bool full_account = true;
+  /// Under laws none of which holds the mass (smooth laws, compliant contacts) it never quite sticks: a rest is
+  /// then a time longer than `shortest_rest` of a period at a speed below `rest_speed` times the largest.
+  bool judge_rests = false;
 };
+
+inline constexpr double rest_speed = 1e-3;
+inline constexpr double shortest_rest = 0.02;
 
 /// Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state(const Model& model, const SteadyStateOptions& options = {});

@@ -20,7 +20,7 @@ namespace dualdamp::sim {
 struct BoundaryPoint {
   core::Outcome outcome;                ///< not ok(): no boundary was found
   double omega = 0.0;                   ///< rad/s
-  double amplitude = 0.0;               ///< m (base) or N (force), to 1e-12
+  double amplitude = 0.0;               ///< m (base) or N (force); its closed form is met to 2e-11
   double x = 0.0;                       ///< output amplitude there [m]
   std::optional<double> closed_form{};  ///< Den Hartog's amplitude, where his oscillator is this one
 };

@@ -141,8 +141,12 @@ TEST_CASE("run: the regimes of a map count its points, and the boundary stands b
   for (const json& point : map.at("points")) ++counted[{point.at("stops"), point.at("sticks")}];
   REQUIRE(map.at("regimes").size() == counted.size());
   CHECK(counted.size() >= 3);  // never moves, sticks, does not stick
-  for (const json& regime : map.at("regimes"))
+  for (const json& regime : map.at("regimes")) {
     CHECK(counted.at({regime.at("stops"), regime.at("sticks")}) == regime.at("points"));
+    const bool moves = regime.at("stops") != 0 || regime.at("sticks") != 1;
+    const bool rests = regime.at("sticks") != 0;
+    CHECK(regime.at("regime") == (!moves ? "never moves" : rests ? "rests" : "slides through"));
+  }
   REQUIRE(map.at("boundary").size() == 7);
   for (const json& point : map.at("boundary")) {
     CHECK(point.at("Y").get<double>() == Approx(point.at("Y_closed_form").get<double>()).epsilon(1e-9));

@@ -39,7 +39,9 @@ Table change_table(const std::vector<sim::BranchChange>& changes, const std::str
                       column(name, unit, changes, &BranchChange::parameter),
                       column("x", "m", changes, &BranchChange::amplitude),
                       typed(column("stops_before", "", changes, &BranchChange::stops_before), CellKind::count),
-                      typed(column("stops_after", "", changes, &BranchChange::stops_after), CellKind::count)},
+                      typed(column("stops_after", "", changes, &BranchChange::stops_after), CellKind::count),
+                      typed(column("stable_before", "", changes, &BranchChange::stable_before), CellKind::truth),
+                      typed(column("stable_after", "", changes, &BranchChange::stable_after), CellKind::truth)},
           .key = "changes",
           .is_complete = true};
 }
@@ -47,18 +49,21 @@ Table change_table(const std::vector<sim::BranchChange>& changes, const std::str
 }  // namespace
 
 ResultFields branch_fields(const ResultField& parameter) {
-  return joined({{"points[]." + parameter.path, parameter.unit, parameter.meaning},
+  return joined({{"end", "", "why there are no more points: range, orbit, points, edge; all but range warn"},
+                 {"points[]." + parameter.path, parameter.unit, parameter.meaning},
                  {"points[].x", "m", "output amplitude (peak - trough)/2"},
                  {"points[].peak", "m", "max x"},
                  {"points[].trough", "m", "min x"},
                  {"points[].stops", "1", "stops in a period"},
                  {"points[].sticks", "1", "sticks in a period"},
                  {"points[].stable", "", "no Floquet multiplier outside the unit circle"},
-                 {"changes[].kind", "", "sequence, sticking, stops, fold, stability, end"},
+                 {"changes[].kind", "", "sequence, sticking, stops, fold, flip, neimark_sacker, stability, end"},
                  {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
                  {"changes[].x", "m", "output amplitude there"},
                  {"changes[].stops_before", "1", "stops before"},
-                 {"changes[].stops_after", "1", "stops after"}},
+                 {"changes[].stops_after", "1", "stops after"},
+                 {"changes[].stable_before", "", "whether the orbits before attract"},
+                 {"changes[].stable_after", "", "whether the orbits after attract"}},
                 certificate_fields());
 }
 
@@ -67,15 +72,15 @@ Answer BranchQuestion::run(const RunContext& context) const {
   if (!branch.outcome.ok()) return failed("the branch has no first point: " + branch.outcome.reason);
   const bool amplitude = parameter_ == sim::BranchParameter::amplitude;
   Answer answer;
+  answer.result["end"] = sim::name(branch.end);
   answer.result["points"] = nullptr;
   answer.result["changes"] = nullptr;
-  answer.result["certificate"] = certificate_json(branch.certificate);
+  add_certificate(answer.result, context.model, branch.certificate);
   const std::string name = amplitude ? "Y" : "omega";
   const std::string unit = amplitude ? amplitude_unit(context.model.excitation) : "rad/s";
   answer.tables.push_back(branch_table(branch.points, name, unit));
   answer.tables.push_back(change_table(branch.changes, name, unit));
-  if (!branch.changes.empty() && branch.changes.back().kind == sim::ChangeKind::end)
-    answer.warnings.emplace_back("the branch ends inside the range: no orbit continues it");
+  answer.warnings = branch.warnings;
   return answer;
 }
 

@@ -33,7 +33,8 @@ void add_reasons(Table& table, const sim::Curve& curve) {
   table.columns.push_back(std::move(column));
 }
 
-Answer answer_of_points(const sim::Curve& curve, const std::string& what, const std::vector<Axis>& axes) {
+Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const std::string& what,
+                        const std::vector<Axis>& axes) {
   if (std::ranges::none_of(curve.points, &sim::CurvePoint::ok))
     return failed("no point of the " + what + " has a number; the first: " + curve.reason(curve.points.front()));
   Answer answer;
@@ -47,12 +48,12 @@ Answer answer_of_points(const sim::Curve& curve, const std::string& what, const 
     answer.warnings.push_back(remark.text + " (" + count + place + ")");
   }
   answer.result["points"] = nullptr;
-  answer.result["certificate"] = certificate_json(curve.certificate);
+  add_certificate(answer.result, model, curve.certificate);
   return answer;
 }
 
-Answer answer_of_curve(const sim::Curve& curve, const Axis& axis, bool with_phase) {
-  Answer answer = answer_of_points(curve, "curve", {axis});
+Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis, bool with_phase) {
+  Answer answer = answer_of_points(curve, model, "curve", {axis});
   if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, axis, with_phase));
   return answer;
 }

@@ -33,11 +33,12 @@ struct Axis {
 };
 
 /// Remarks, the place of the list `points` and the certificate; no result when no point has a number.
-[[nodiscard]] Answer answer_of_points(const sim::Curve& curve, const std::string& what,
+[[nodiscard]] Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const std::string& what,
                                       const std::vector<Axis>& axes);
 
 /// A curve over one axis; its points have a phase `with_phase`.
-[[nodiscard]] Answer answer_of_curve(const sim::Curve& curve, const Axis& axis, bool with_phase);
+[[nodiscard]] Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis,
+                                     bool with_phase);
 /// The fields of a curve; `own`: those of its axis.
 [[nodiscard]] ResultFields curve_fields(const ResultFields& own);
 

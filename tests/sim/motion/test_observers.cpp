@@ -10,6 +10,7 @@
 #include "sim/engine/closed_form.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/observers.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp::sim;
@@ -111,6 +112,45 @@ TEST_CASE("Accounts in closed form are those of quadrature") {
     CHECK(std::abs(account.fundamental.coefficient() - reference.fundamental.coefficient()) < 1e-13 * size);
   }
   CHECK(closed > 500);
+}
+
+TEST_CASE("The largest speed under heavy damping is that of the fastest sample") {
+  Random random(2);
+  for (int i = 0; i < 20; ++i) {
+    Model model = random_model(random);
+    model.oscillator.damping = random.logarithmic(100.0, 2e4);
+    ExactEngine engine(model);
+    Extremes extremes;
+    double fastest = 0.0;
+    while (engine.periods_passed() < 2) {
+      const Interval* interval = engine.next_in_period();
+      REQUIRE(interval != nullptr);
+      extremes.observe(*interval);
+      for (int k = 0; k <= 400; ++k) {
+        // Dense at the start too, where the own motion dies out.
+        const double part = k / 400.0;
+        fastest = std::max({fastest, std::abs(interval->at(part * interval->duration).v),
+                            std::abs(interval->at(std::pow(part, 4) * interval->duration).v)});
+      }
+    }
+    INFO("damping " << model.oscillator.damping << " mass " << model.oscillator.mass);
+    CHECK(extremes.max_speed() >= fastest * (1.0 - 1e-13));
+    // A sample misses the maximum by the square of its distance.
+    CHECK(extremes.max_speed() <= fastest * (1.0 + 1e-3));
+  }
+}
+
+TEST_CASE("A free decay that turns no more says so") {
+  Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 30.0};
+  model.initial = {.position = 0.1};
+  const FreeDecay decay = free_decay(model, 8);
+  CHECK(decay.outcome.ok());
+  CHECK(decay.peaks.size() == 1);
+  CHECK(decay.creeps);
+  CHECK_FALSE(decay.came_to_rest);
+  model.oscillator.damping = 1.0;
+  CHECK_FALSE(free_decay(model, 8).creeps);
 }
 
 TEST_CASE("Integrals of products of exponentials are exact for long and for short intervals") {

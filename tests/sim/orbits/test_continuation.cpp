@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
@@ -43,6 +44,19 @@ sim::Model coulomb_driven(double damping, double friction, double amplitude, dou
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = frequency};
   model.friction.emplace_back(friction::Coulomb(friction, friction));
   return model;
+}
+
+sim::Model compliant(double damping, double frequency, double kinetic, double ratio, double stiffness) {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = damping};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = frequency};
+  model.friction.emplace_back(friction::ContactCompliance(kinetic, ratio * kinetic, stiffness, 0.0));
+  return model;
+}
+
+const sim::BranchChange* first(const sim::Branch& branch, ChangeKind kind) {
+  const auto place = std::ranges::find(branch.changes, kind, &sim::BranchChange::kind);
+  return place == branch.changes.end() ? nullptr : &*place;
 }
 
 long count(const sim::Branch& branch, ChangeKind kind) {
@@ -133,5 +147,76 @@ TEST_CASE("the response of a bilinear spring folds; the branch between is unstab
   }
   CHECK(passes == 3);
   CHECK(stable == 2);
-  CHECK(count(branch, ChangeKind::stability) == 2);
+  // At a fold a Floquet multiplier passes 1: one place, one change.
+  CHECK(count(branch, ChangeKind::stability) == 0);
+  CHECK(folds[0].stable_before);
+  CHECK_FALSE(folds[0].stable_after);
+  CHECK_FALSE(folds[1].stable_before);
+  CHECK(folds[1].stable_after);
+  CHECK(branch.end == sim::BranchEnd::range);
+  CHECK(branch.warnings.empty());
+}
+
+TEST_CASE("a Floquet multiplier passes -1 at a flip") {
+  const sim::Branch branch = continue_branch(compliant(0.0471012, 0.5, 0.193215, 1.21178, 11.47106),
+                                             BranchParameter::frequency, 0.5, 0.3);
+  REQUIRE(branch.outcome.ok());
+  const sim::BranchChange* flip = first(branch, ChangeKind::flip);
+  REQUIRE(flip != nullptr);
+  CHECK(flip->parameter == Approx(0.34276919).epsilon(1e-7));
+  CHECK(flip->stable_before);
+  CHECK_FALSE(flip->stable_after);
+  int behind = 0;
+  for (const sim::BranchPoint& point : branch.points) {
+    double least = 0.0;
+    for (const std::complex<double>& value : point.state.multipliers) least = std::min(least, value.real());
+    CHECK((least < -1.0) == (point.parameter < flip->parameter));
+    behind += least < -1.0 ? 1 : 0;
+  }
+  CHECK(behind > 0);
+}
+
+TEST_CASE("a complex pair that leaves the unit circle is no flip and no fold") {
+  const sim::Branch branch = continue_branch(compliant(0.01029022, 0.2828109, 0.06704356, 1.7833826, 4.648053),
+                                             BranchParameter::amplitude, 0.6, 0.4);
+  REQUIRE(branch.outcome.ok());
+  const sim::BranchChange* place = first(branch, ChangeKind::neimark_sacker);
+  REQUIRE(place != nullptr);
+  CHECK(place->parameter == Approx(0.508036191).epsilon(1e-6));
+  CHECK(place->stable_before);
+  CHECK_FALSE(place->stable_after);
+  CHECK(count(branch, ChangeKind::flip) == 0);
+}
+
+TEST_CASE("a branch that ends says so once, and does not jump to and fro between two branches") {
+  // The first folds, and its unstable part then meets a grazing; the other two end where static friction above
+  // kinetic lets a slip go on. A branch that jumps back to a part it has passed folds again and again.
+  std::vector<sim::Branch> branches;
+  branches.push_back(continue_branch(compliant(0.05144051, 1.0, 0.10326303, 2.20485448, 5.0238030),
+                                     BranchParameter::frequency, 0.317, 0.2));
+  for (const double ratio : {1.03153634, 1.089}) {
+    sim::Model model = coulomb_driven(0.0168831, 0.15343084, 1.0, 0.2257);
+    model.friction = {friction::Law(friction::Coulomb(0.15343084, ratio * 0.15343084))};
+    branches.push_back(continue_branch(model, BranchParameter::frequency, 0.2257, 0.05));
+  }
+  for (const sim::Branch& branch : branches) {
+    REQUIRE(branch.outcome.ok());
+    CHECK(branch.end == sim::BranchEnd::orbit);
+    REQUIRE(branch.warnings.size() == 1);
+    CHECK(count(branch, ChangeKind::end) == 1);
+    CHECK(branch.changes.back().kind == ChangeKind::end);
+    CHECK(count(branch, ChangeKind::fold) <= 1);
+    CHECK(branch.changes.size() < 40);
+  }
+  CHECK(count(branches[0], ChangeKind::fold) == 1);
+}
+
+TEST_CASE("a branch that is cut short says so") {
+  const sim::Branch branch =
+      continue_branch(coulomb_driven(0.1, 1.0, 1.0, 0.5), BranchParameter::amplitude, 4.0, 1.05, {.max_points = 7});
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.points.size() == 7);
+  CHECK(branch.end == sim::BranchEnd::points);
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings[0].find("7 points") != std::string::npos);
 }

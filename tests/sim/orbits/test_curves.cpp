@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "tests/support/random.hpp"
@@ -244,4 +245,30 @@ TEST_CASE("reasons and warnings of many points are kept once, with their number 
   CHECK(curve.remarks[1].text == curve.reasons[1]);
   CHECK(curve.remarks[1].first == 1);
   CHECK(curve.remarks[1].count == 3);
+}
+
+TEST_CASE("a map tells what the mass does, by its speed where no law holds it") {
+  using sim::Regime;
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 1.5};
+  const std::vector<double> amplitudes = {1.5, 6.0};
+  model.friction.emplace_back(friction::Coulomb(1.0, 1.0));
+  const sim::Curve rigid = sim::regime_map(model, {1.5}, {0.9, 1.5, 6.0});
+  CHECK(rigid.points[0].regime() == Regime::never_moves);
+  CHECK(rigid.points[1].regime() == Regime::rests);
+  CHECK(rigid.points[1].sticks == 2);
+  CHECK(rigid.points[2].regime() == Regime::slides_through);
+  // A contact so stiff that the mass nearly rests where it would under rigid friction.
+  model.friction = {friction::Law(friction::ContactCompliance(1.0, 1.0, 1e7, 300.0))};
+  const sim::Curve compliant = sim::regime_map(model, {1.5}, amplitudes);
+  CHECK(compliant.points[0].regime() == Regime::rests);
+  CHECK(compliant.points[0].sticks == 2);
+  CHECK(compliant.points[1].regime() == Regime::slides_through);
+  // Resonance that nothing limits.
+  model.oscillator.damping = 0.0;
+  model.friction = {friction::Law(friction::Coulomb(0.5, 0.5))};
+  const sim::Curve growing = sim::regime_map(model, {1.0}, {1.0});
+  CHECK(growing.points[0].regime() == Regime::no_steady_state);
+  CHECK(sim::name(Regime::no_steady_state) == "no steady state");
 }

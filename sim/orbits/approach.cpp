@@ -1,0 +1,211 @@
+#include "sim/orbits/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dualdamp::sim {
+
+namespace {
+
+/// Newton's method takes over where the motion closes this well over one forcing period, and over several.
+constexpr double near_orbit = 1e-2;
+constexpr double near_longer_orbit = 1e-3;
+
+/// Whatever the closure, Newton's method is tried after so many periods and each time that they have grown by four.
+constexpr int first_trial = 32;
+
+/// A motion that closes this well after thousands of periods and still is not periodic creeps.
+constexpr double creeping = 1e-3;
+
+/// Deviations from an orbit below this part of the motion are none.
+constexpr double arrived = 1e-9;
+
+/// A motion that has not come back after so many periods is asked whether its neighbours run away from it.
+constexpr long time_to_tell = 1000;
+constexpr long time_to_tell_exact = 8000;  // where a period costs microseconds
+constexpr int periods_of_divergence = 200;
+/// Mean logarithmic growth of a perturbation in one forcing period: more is no rounding and no slow transient.
+constexpr double diverging = 0.03;
+
+constexpr const char* neighbours =
+    "not unique: a Floquet multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
+    "the one approached from the initial state";
+constexpr const char* repelling =
+    "unstable: a Floquet multiplier lies outside the unit circle; the motion from the initial state stays on this "
+    "orbit only while nothing disturbs it";
+
+}  // namespace
+
+Approach::Approach(const Model& model, const SteadyStateOptions& options, PeriodMap& map, OrbitSolver& solver,
+                   Motions motions)
+    : model_(model),
+      options_(options),
+      omega_(model.excitation.frequency),
+      map_(map),
+      solver_(solver),
+      motions_(motions),
+      has_past_(map.engine().has_past()),
+      recurrence_(omega_),
+      growth_(options.max_periods),
+      time_to_tell_(map.engine().accuracy() > 0.0 ? time_to_tell : time_to_tell_exact),
+      next_trial_(first_trial) {
+  level_.fill(near_longer_orbit);
+  level_[1] = near_orbit;
+}
+
+std::optional<Orbit> Approach::find(SteadyState& result) {
+  ForcingPeriod period = map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
+  recurrence_.add(period.begin, period.size);
+  std::optional<Orbit> orbit;
+  while (map_.outcome().ok()) {
+    ++passed_;
+    ++result.transient_periods;
+    growth_.observe(period.size);
+    recurrence_.add(period.end, period.size);
+    orbit = look(period, result);
+    if (orbit || growth_.is_endless() || passed_ >= options_.max_periods || divergence_ > diverging) break;
+    period = map_.next(Monodromy::without);
+  }
+  if (!orbit && map_.outcome().ok()) orbit = nearly_there(result);
+  if (!orbit) result.outcome = map_.outcome().ok() ? failure() : map_.outcome();
+  return orbit;
+}
+
+/// What the motion shows after one more period.
+std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& result) {
+  if (std::optional<Orbit> orbit = closed(period.end)) {
+    const double radius = has_past_ || !period.moves ? 0.0 : orbit->period.radius();
+    if (radius > 1.0 + neutral_margin) {
+      result.warnings.emplace_back(repelling);
+    } else if (radius >= 1.0 - neutral_margin) {
+      result.warnings.emplace_back(neighbours);
+    }
+    return orbit;
+  }
+  if (has_arrived(period.end)) return at_start(*candidate_);
+  if (!has_past_) try_candidate(period.end);
+  if (passed_ == time_to_tell_ && !has_past_) divergence_ = divergence(period.end);
+  return std::nullopt;
+}
+
+/// The motion has come back to rounding; after one forcing period whether the orbit attracts is not asked.
+std::optional<Orbit> Approach::closed(const State& state) {
+  const int periods = recurrence_.shortest((has_past_ ? 1.0 : 10.0) * options_.tolerance);
+  if (periods == 0 || (periods > 1 && motions_ != Motions::may_part)) return std::nullopt;
+  // A motion that depends on its past has no state that could be displaced.
+  const Monodromy monodromy = has_past_ ? Monodromy::without : Monodromy::with;
+  Orbit orbit{solver_.map_over(periods).from(state, monodromy), periods};
+  // An own motion that nothing damps comes back too where the frequencies fit.
+  if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) return std::nullopt;
+  return orbit;
+}
+
+/// Tells the candidate of the motion, once in each of its periods.
+bool Approach::has_arrived(const State& state) {
+  if (!candidate_ || (passed_ - candidate_->found_at) % candidate_->orbit.period_ratio != 0) return false;
+  candidate_->attraction.observe(state);
+  if (candidate_->attraction.approaches()) return true;
+  if (candidate_->attraction.leaves()) {
+    others_.push_back(std::move(candidate_->orbit));
+    candidate_.reset();
+  }
+  return false;
+}
+
+/// Over how many forcing periods the motion has come back well enough for Newton's method, for a whole period of
+/// its own: a chance return does not last. 0: over none.
+int Approach::worth_trying() {
+  int shortest = 0;
+  // Two motions that never part are a motion and itself some periods later: a longer period would not attract.
+  const std::size_t longest = motions_ == Motions::may_part ? longest_period : 1;
+  for (std::size_t periods = longest; periods >= 1; --periods) {
+    const bool back = recurrence_.closure(static_cast<int>(periods)) <= level_[periods];
+    streak_[periods] = back ? streak_[periods] + 1 : 0;
+    if (streak_[periods] >= static_cast<int>(periods)) shortest = static_cast<int>(periods);
+  }
+  return shortest;
+}
+
+void Approach::try_candidate(const State& state) {
+  int periods = worth_trying();
+  if (periods == 0 && passed_ == next_trial_ && !candidate_) periods = 1;
+  if (passed_ == next_trial_) next_trial_ *= 4;
+  if (periods == 0) return;
+  double& level = level_[static_cast<std::size_t>(periods)];
+  level = 0.1 * std::min(level, recurrence_.closure(periods));
+  streak_[static_cast<std::size_t>(periods)] = 0;
+  std::optional<Orbit> orbit = solver_.near(state, periods);
+  if (!orbit) return;
+  if (candidate_ && solver_.same(candidate_->orbit, *orbit)) return;
+  if (candidate_) others_.push_back(std::move(candidate_->orbit));
+  const double resolution = std::max(arrived, 100.0 * map_.engine().accuracy());
+  Attraction attraction(orbit->period, omega_, resolution);
+  attraction.observe(state);
+  candidate_.emplace(Candidate{std::move(*orbit), std::move(attraction), passed_});
+}
+
+/// The orbit of a candidate from the first of its periods on that begins with the motion at t = 0.
+Orbit Approach::at_start(const Candidate& candidate) {
+  const int ratio = candidate.orbit.period_ratio;
+  return solver_.later(candidate.orbit, (ratio - candidate.found_at % ratio) % ratio);
+}
+
+/// The time is over, and the motion has come nearer to an orbit all along.
+std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
+  if (!candidate_ || growth_.is_endless()) return std::nullopt;
+  const Attraction& attraction = candidate_->attraction;
+  if (!(attraction.deviation() < 0.9 * attraction.first_deviation())) return std::nullopt;
+  result.warnings.emplace_back("the motion from the initial state still approaches this steady state after " +
+                               std::to_string(passed_) + " forcing periods");
+  return at_start(*candidate_);
+}
+
+/// Mean logarithmic growth of a perturbation in one forcing period: the largest Lyapunov exponent, nearly.
+double Approach::divergence(const State& state) {
+  PeriodMap& map = solver_.map_over(1);
+  ForcingPeriod period = map.from(state, Monodromy::with);
+  Eigen::VectorXd perturbation = Eigen::VectorXd::Ones(period.monodromy.cols());
+  perturbation[1] = omega_;
+  double sum = 0.0;
+  for (int i = 0; i < periods_of_divergence && map.outcome().ok(); ++i) {
+    if (period.monodromy.cols() != perturbation.size() || !period.monodromy.allFinite()) return 0.0;
+    const auto size = [&](const Eigen::VectorXd& d) { return std::hypot(d[0], d[1] / omega_); };
+    const Eigen::VectorXd grown = period.monodromy * perturbation;
+    if (!(size(grown) > 0.0)) return 0.0;
+    sum += std::log(size(grown) / size(perturbation));
+    perturbation = grown / size(grown);
+    period = map.next(Monodromy::with);
+  }
+  return sum / periods_of_divergence;
+}
+
+/// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.
+core::Outcome Approach::failure() const {
+  if (growth_.has_grown()) {
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state: the amplitude still grows; damping limits it far out or not at all"};
+  }
+  if (divergence_ > diverging) {
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state: the motion from the initial state is aperiodic: it has not come back within " +
+                std::to_string(time_to_tell_) + " forcing periods, and neighbouring motions run away from it"};
+  }
+  if (motions_ == Motions::meet_sliding) {
+    return {
+        core::OutcomeKind::no_steady_state,
+        "no steady state found: there is one, but the motion creeps towards it too slowly, or it moves the mass by "
+        "hardly more than rounding"};
+  }
+  const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
+  if (recurrence_.closure(1) < creeping) {
+    return {
+        core::OutcomeKind::not_unique,
+        "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
+            after};
+  }
+  return {core::OutcomeKind::no_steady_state,
+          "no steady state: the motion from the initial state has not become periodic" + after};
+}
+
+}  // namespace dualdamp::sim

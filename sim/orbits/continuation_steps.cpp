@@ -1,0 +1,187 @@
+#include "sim/orbits/continuation_steps.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dualdamp::sim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int max_corrections = 12;
+/// Periods integrated to enter the mode that a predicted state belongs to.
+constexpr int settling_periods = 4;
+/// Of the parameter, for the difference that stands for the derivative by it.
+constexpr double nudge = 1e-7;
+
+/// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips stays where it is.
+MatrixXd closing(const ForcingPeriod& period, const VectorXd& by_parameter) {
+  const Index n = period.monodromy.cols();
+  MatrixXd system(n, n + 1);
+  system.leftCols(n) = period.monodromy - MatrixXd::Identity(n, n);
+  system.col(n) = by_parameter;
+  for (Index row = 2; row < n; ++row) {
+    if (period.holds(row)) system(row, row) = 1.0;
+  }
+  return system;
+}
+
+/// What of a tangent all modes have: the parts along x, v and the parameter.
+Eigen::Vector3d common_part(const VectorXd& tangent) {
+  return {tangent[0], tangent[1], tangent[tangent.size() - 1]};
+}
+
+}  // namespace
+
+Model Continuation::at(double parameter) const {
+  Model model = model_;
+  model.excitation.*quantity_ = parameter;
+  return model;
+}
+
+double Continuation::omega(double parameter) const { return at(parameter).excitation.frequency; }
+
+ForcingPeriod Continuation::period(double parameter, const State& start) const {
+  CountedMap map(at(parameter), ratio_, count_);
+  return map.from(start, Monodromy::with);
+}
+
+/// Sizes of the coordinates and of the parameter.
+VectorXd Continuation::scale(const Node& node) const {
+  const VectorXd z = coordinates(node.period.begin);
+  const double size = std::max(node.period.size, std::abs(z[1]) / omega(node.parameter));
+  VectorXd result = VectorXd::Constant(z.size() + 1, size);
+  result[1] = size * omega(node.parameter);
+  result[z.size()] = range_;
+  return result;
+}
+
+/// d(end)/d(parameter), by a difference; none where the nudge meets another mode.
+std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
+  for (const double step : {nudge * node.parameter, -nudge * node.parameter}) {
+    CountedMap map(at(node.parameter + step), ratio_, count_);
+    const ForcingPeriod moved = map.from(node.period.begin, Monodromy::without);
+    if (map.outcome().ok() && same_mode(moved.end, node.period.end))
+      return (coordinates(moved.end) - coordinates(node.period.end)) / step;
+  }
+  return std::nullopt;
+}
+
+/// Unit tangent, scaled, on the side of `along`.
+std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& along) const {
+  const std::optional<VectorXd> slope = by_parameter(node);
+  const Index n = node.period.monodromy.cols();
+  if (!slope || along.size() != n + 1) return std::nullopt;
+  const VectorXd size = scale(node);
+  MatrixXd system(n + 1, n + 1);
+  system.topRows(n) = closing(node.period, *slope) * size.asDiagonal();
+  system.row(n) = along.transpose();
+  const Eigen::FullPivLU<MatrixXd> lu(system);
+  if (!lu.isInvertible()) return std::nullopt;
+  const VectorXd direction = lu.solve(VectorXd::Unit(n + 1, n));
+  return VectorXd(direction.normalized());
+}
+
+/// The orbit at a fixed parameter nearest to `guess`.
+std::optional<Node> Continuation::orbit(double parameter, const State& guess) const {
+  CountedMap map(at(parameter), ratio_, count_);
+  ForcingPeriod trial = map.from(guess, Monodromy::with);
+  for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
+    if (trial.closure(omega(parameter)) <= options_.tolerance) return Node{parameter, std::move(trial), {}};
+    const VectorXd step = newton_step(trial);
+    trial = map.from(step.size() > 0 ? displaced(trial.begin, step) : trial.end, Monodromy::with);
+  }
+  return std::nullopt;
+}
+
+/// Predictor and corrector: (orbit closes, step along the tangent is `step`).
+std::optional<Node> Continuation::correct(const Node& from, double step) const {
+  const VectorXd size = scale(from);
+  const Index n = size.size() - 1;
+  const VectorXd predicted = step * from.tangent.cwiseProduct(size);
+  Node node{from.parameter + predicted[n], {}, {}};
+  State start = displaced(from.period.begin, predicted.head(n));
+  for (int i = 0; i < max_corrections; ++i) {
+    if (!(node.parameter > 0.0)) return std::nullopt;
+    node.period = period(node.parameter, start);
+    if (!same_mode(node.period.begin, node.period.end)) return std::nullopt;
+    const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
+    if (node.period.closure(omega(node.parameter)) <= options_.tolerance) return node;
+    const std::optional<VectorXd> slope = by_parameter(node);
+    if (!slope) return std::nullopt;
+    VectorXd distance(n + 1);
+    distance.head(n) = coordinates(start) - coordinates(from.period.begin);
+    distance[n] = node.parameter - from.parameter;
+    MatrixXd system(n + 1, n + 1);
+    system.topRows(n) = closing(node.period, *slope);
+    system.row(n) = from.tangent.cwiseQuotient(size).transpose();
+    VectorXd right(n + 1);
+    right.head(n) = -gap;
+    right[n] = step - from.tangent.dot(distance.cwiseQuotient(size));
+    const VectorXd change = Eigen::FullPivLU<MatrixXd>(system).solve(right);
+    if (!change.allFinite()) return std::nullopt;
+    start = displaced(start, change.head(n));
+    node.parameter += change[n];
+  }
+  return std::nullopt;
+}
+
+/// The same where the predicted state lies in another mode than the orbit: the motion itself finds the mode, the
+/// sooner the better, for it leaves an orbit that does not attract.
+std::optional<Node> Continuation::cross_modes(const Node& from, double step) const {
+  const VectorXd size = scale(from);
+  const Index n = size.size() - 1;
+  const VectorXd predicted = step * from.tangent.cwiseProduct(size);
+  const double parameter = from.parameter + predicted[n];
+  if (!(parameter > 0.0)) return std::nullopt;
+  CountedMap map(at(parameter), ratio_, count_);
+  ForcingPeriod trial = map.from(displaced(from.period.begin, predicted.head(n)), Monodromy::without);
+  for (int i = 1; i <= settling_periods && map.outcome().ok(); ++i) {
+    std::optional<Node> node = orbit(parameter, trial.end);
+    if (node && is_ahead(from, *node, step)) return node;
+    trial = map.next(Monodromy::without);
+  }
+  return std::nullopt;
+}
+
+/// Another branch is not a continuation of this one, nor is a part of it that lies behind: x, v and the parameter,
+/// which all modes have, go on by about a step.
+bool Continuation::is_ahead(const Node& from, const Node& node, double step) const {
+  // In steps. Where a branch has a corner, as where a release passes t = 0, the state changes by many small ones.
+  const double farthest = step > 16.0 * options_.smallest_step ? 4.0 : 100.0;
+  constexpr double least = 0.1;
+  const VectorXd size = scale(from);
+  const VectorXd before = coordinates(from.period.begin);
+  const VectorXd after = coordinates(node.period.begin);
+  const Eigen::Vector3d change((after[0] - before[0]) / size[0], (after[1] - before[1]) / size[1],
+                               (node.parameter - from.parameter) / range_);
+  const Eigen::Vector3d along = common_part(from.tangent);
+  return change.norm() <= farthest * step && change.dot(along) >= least * step * along.norm();
+}
+
+/// The next point, with its tangent; shortens `step` as needed. None: the branch ends.
+std::optional<Node> Continuation::advance(const Node& from, double& step) const {
+  for (; step >= options_.smallest_step; step *= 0.5) {
+    std::optional<Node> node = correct(from, step);
+    if (!node) node = cross_modes(from, step);
+    if (!node) continue;
+    const Index n = node->period.monodromy.cols();
+    // Across modes of different size the old tangent says only which way the parameter went.
+    const double sense = from.tangent[from.tangent.size() - 1] < 0.0 ? -1.0 : 1.0;
+    const bool alike = same_mode(from.period.begin, node->period.begin);
+    const VectorXd along = alike ? from.tangent : VectorXd(sense * VectorXd::Unit(n + 1, n));
+    const std::optional<VectorXd> next = tangent(*node, along);
+    if (!next) continue;
+    if (alike && next->dot(from.tangent) < 0.5 && step > 16.0 * options_.smallest_step) continue;
+    node->tangent = *next;
+    return node;
+  }
+  return std::nullopt;
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,82 @@
+#pragma once
+/// Steps of a continuation along its branch (`continuation.hpp`): from one orbit to the next, in whatever mode it
+/// is.
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "sim/orbits/continuation.hpp"
+#include "sim/orbits/period_map.hpp"
+
+namespace dualdamp::sim {
+
+/// A point with what the next step needs.
+struct Node {
+  double parameter = 0.0;
+  ForcingPeriod period;
+  Eigen::VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
+};
+
+/// A period map whose searches count for a branch.
+class CountedMap : public PeriodMap {
+ public:
+  CountedMap(const Model& model, int periods, core::SearchCount& total)
+      : PeriodMap(model, periods), total_(total) {}
+  ~CountedMap() { total_ += engine().count(); }
+  CountedMap(const CountedMap&) = delete;
+  CountedMap& operator=(const CountedMap&) = delete;
+
+ private:
+  core::SearchCount& total_;
+};
+
+class Continuation {
+ public:
+  Continuation(const Model& model, BranchParameter parameter, double from, double to, const BranchOptions& options)
+      : model_(model),
+        quantity_(parameter == BranchParameter::amplitude ? &Excitation::amplitude : &Excitation::frequency),
+        options_(options),
+        from_(from),
+        to_(to),
+        range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {}
+
+  Branch run();
+  [[nodiscard]] const core::SearchCount& count() const { return count_; }
+
+ private:
+  [[nodiscard]] Model at(double parameter) const;
+  [[nodiscard]] ForcingPeriod period(double parameter, const State& start) const;
+  [[nodiscard]] double omega(double parameter) const;
+  [[nodiscard]] Eigen::VectorXd scale(const Node& node) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> by_parameter(const Node& node) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node, const Eigen::VectorXd& along) const;
+  [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess) const;
+  [[nodiscard]] std::optional<Node> correct(const Node& from, double step) const;
+  [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step) const;
+  [[nodiscard]] bool is_ahead(const Node& from, const Node& node, double step) const;
+  [[nodiscard]] bool was_passed(const Node& node) const;
+  [[nodiscard]] std::optional<Node> advance(const Node& from, double& step) const;
+  [[nodiscard]] BranchPoint describe(const Node& node) const;
+  [[nodiscard]] bool inside(double parameter) const;
+  [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
+  void record(const Node& before, const Node& after);
+  void locate_stability(const Node& before, const BranchPoint& last);
+  template <class Changed>
+  void bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const;
+  void locate_sequences(const Node& before, const BranchPoint& last);
+  void locate_fold(const Node& before, const Node& after);
+  void add_change(ChangeKind kind, const BranchPoint& before, const BranchPoint& after);
+
+  Model model_;
+  double Excitation::* quantity_;
+  BranchOptions options_;
+  double from_;
+  double to_;
+  double range_;
+  int ratio_ = 1;  ///< forcing periods in a period of the motion
+  Branch branch_;
+  mutable core::SearchCount count_;  ///< of all maps, those of attempts included
+};
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,69 @@
+#include "sim/orbits/orbit_solver.hpp"
+
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::sim {
+
+OrbitSolver::OrbitSolver(const Model& model, double tolerance, double rounding)
+    : model_(model),
+      options_{.omega = model.excitation.frequency,
+               .tolerance = tolerance,
+               .rounding = rounding,
+               .most_steps = 20,
+               .most_transients = 4} {}
+
+PeriodMap& OrbitSolver::map_over(int periods) {
+  if (!map_ || map_->periods() != periods) {
+    if (map_) searched_ += map_->engine().count();
+    map_ = std::make_unique<PeriodMap>(model_, periods);
+  }
+  return *map_;
+}
+
+core::SearchCount OrbitSolver::count() const {
+  core::SearchCount sum = searched_;
+  if (map_) sum += map_->engine().count();
+  return sum;
+}
+
+std::optional<Orbit> OrbitSolver::attracting(const State& state, int periods) {
+  PeriodMap& map = map_over(periods);
+  Orbit orbit{map.from(state, Monodromy::with), periods};
+  const NewtonResult newton = close_orbit(map, options_, orbit.period);
+  newton_steps_ += newton.steps;
+  if (!newton.found || !(orbit.period.free_radius() < 1.0 - neutral_margin)) return std::nullopt;
+  return orbit;
+}
+
+std::optional<Orbit> OrbitSolver::near(const State& state, int periods) {
+  std::optional<Orbit> orbit = attracting(state, periods);
+  for (int divisor = 1; orbit && divisor < periods; ++divisor) {
+    if (periods % divisor != 0) continue;
+    const ForcingPeriod shorter = map_over(divisor).from(orbit->period.begin, Monodromy::without);
+    if (shorter.closure(options_.omega) > same_orbit) continue;
+    if (std::optional<Orbit> shortest = attracting(orbit->period.begin, divisor)) return shortest;
+  }
+  return orbit;
+}
+
+Orbit OrbitSolver::later(const Orbit& orbit, long periods) {
+  if (periods == 0) return orbit;
+  State state = orbit.period.begin;
+  PeriodMap& single = map_over(1);
+  for (long i = 0; i < periods; ++i) state = single.from(state, Monodromy::without).end;
+  return {map_over(orbit.period_ratio).from(state, Monodromy::with), orbit.period_ratio};
+}
+
+bool OrbitSolver::same(const Orbit& a, const Orbit& b) const {
+  return a.period_ratio == b.period_ratio &&
+         distance(a.period.begin, b.period.begin, a.period.size, options_.omega) < same_orbit;
+}
+
+bool OrbitSolver::coincide(const Orbit& a, const Orbit& b) {
+  for (int late = 0; late < a.period_ratio && a.period_ratio == b.period_ratio; ++late) {
+    if (same(later(a, late), b)) return true;
+  }
+  return false;
+}
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,51 @@
+#pragma once
+/// Orbits that attract, found by Newton's method from a state near one, over one forcing period or several.
+
+#include <memory>
+#include <optional>
+
+#include "core/search_result.hpp"
+#include "sim/orbits/newton.hpp"
+#include "sim/orbits/period_map.hpp"
+
+namespace dualdamp::sim {
+
+/// An orbit with its monodromy matrix, and its period in forcing periods.
+struct Orbit {
+  ForcingPeriod period;
+  int period_ratio = 1;
+};
+
+/// Orbits nearer to each other than this, relative to their size, are one.
+inline constexpr double same_orbit = 1e-6;
+
+class OrbitSolver {
+ public:
+  /// `tolerance`, `rounding`: as in NewtonOptions.
+  OrbitSolver(const Model& model, double tolerance, double rounding);
+
+  /// An orbit that attracts, of its shortest period, which divides `periods`.
+  [[nodiscard]] std::optional<Orbit> near(const State& state, int periods);
+  /// The orbit from the state on that it reaches after `periods`.
+  [[nodiscard]] Orbit later(const Orbit& orbit, long periods);
+  /// Both are met at the same time.
+  [[nodiscard]] bool same(const Orbit& a, const Orbit& b) const;
+  /// The same, perhaps some forcing periods apart.
+  [[nodiscard]] bool coincide(const Orbit& a, const Orbit& b);
+  /// A map over so many forcing periods; valid until the next call of any function here.
+  [[nodiscard]] PeriodMap& map_over(int periods);
+
+  [[nodiscard]] int newton_steps() const { return newton_steps_; }
+  [[nodiscard]] core::SearchCount count() const;
+
+ private:
+  [[nodiscard]] std::optional<Orbit> attracting(const State& state, int periods);
+
+  const Model& model_;
+  NewtonOptions options_;
+  std::unique_ptr<PeriodMap> map_;
+  core::SearchCount searched_;  ///< by maps that are gone
+  int newton_steps_ = 0;
+};
+
+}  // namespace dualdamp::sim

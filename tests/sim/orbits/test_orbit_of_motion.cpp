@@ -1,0 +1,164 @@
+// The steady state is the one that the motion from the initial state reaches: against that motion itself,
+// integrated for hundreds of periods. Subharmonic, asymmetric and aperiodic motions; orbits that are the only one.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace dualdamp;
+
+/// A hardening spring in the range of frequencies where two orbits attract.
+sim::Model bistable() {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.148, .cubic_stiffness = 3.4};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.36, .frequency = 1.98};
+  model.friction.emplace_back(friction::Coulomb(0.037, 0.037));
+  model.initial = {-2.6, -1.2};
+  return model;
+}
+
+/// Static friction four times the kinetic: after each stick the mass slips for many own periods.
+sim::Model period_twelve() {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.097};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.459};
+  model.friction.emplace_back(friction::Coulomb(0.11, 0.435));
+  return model;
+}
+
+double forcing_period(const sim::Model& model) { return 2.0 * std::numbers::pi / model.excitation.frequency; }
+
+struct Range {
+  double peak = 0.0;
+  double trough = 0.0;
+};
+
+/// Extremes over `periods` forcing periods after `settle` of them.
+Range after(const sim::Model& model, int settle, int periods) {
+  const double period = forcing_period(model);
+  const sim::History history = sim::simulate(model, {.duration = (settle + periods) * period});
+  REQUIRE(history.outcome.ok());
+  Range range{-1e300, 1e300};
+  for (const sim::Event& event : history.events) {
+    if (event.t < settle * period) continue;
+    range.peak = std::max(range.peak, event.x);
+    range.trough = std::min(range.trough, event.x);
+  }
+  return range;
+}
+
+}  // namespace
+
+TEST_CASE("where two orbits attract, the steady state is the one that the motion reaches") {
+  const sim::SteadyState state = sim::steady_state(bistable());
+  REQUIRE(state.outcome.ok());
+  // exp(-c T/2) = 0.79 a period: rounding after 200.
+  CHECK(state.peak == Approx(after(bistable(), 400, 2).peak).epsilon(1e-8));
+  CHECK(state.peak == Approx(0.1211).epsilon(1e-3));
+  CHECK(state.stable());
+  REQUIRE(state.others.size() == 1);
+  CHECK(state.others[0].peak == Approx(1.0877).epsilon(1e-4));
+  CHECK_FALSE(state.warnings.empty());
+}
+
+TEST_CASE("24 starts of a bistable oscillator end where their motions do") {
+  test::Random random(20261123);
+  int large = 0;
+  for (int i = 0; i < 24; ++i) {
+    sim::Model model = bistable();
+    model.excitation.frequency = 1.85;
+    model.initial = {random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0)};
+    CAPTURE(i, model.initial.position, model.initial.velocity);
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.peak == Approx(after(model, 200, 2).peak).epsilon(1e-6));
+    CHECK(state.others.size() == 1);
+    large += state.peak > 0.5 ? 1 : 0;
+  }
+  CHECK(large > 2);
+  CHECK(large < 22);
+}
+
+TEST_CASE("a motion of twelve forcing periods is a steady state of period twelve") {
+  const sim::Model model = period_twelve();
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.period_ratio == 12);
+  CHECK(state.period == Approx(12.0 * forcing_period(model)).epsilon(1e-15));
+  CHECK(state.stable());
+  const Range range = after(model, 4800, 12);
+  CHECK(state.peak == Approx(range.peak).epsilon(1e-10));
+  CHECK(state.trough == Approx(range.trough).epsilon(1e-10));
+  // All that is said of a period is said of this one.
+  CHECK(std::abs(state.energy.defect) < 1e-12 * state.energy.input);
+  const std::vector<sim::Sample> orbit = sim::one_period(model, state, 1200);
+  REQUIRE(orbit.size() == 1201);
+  CHECK(orbit.back().x == Approx(orbit.front().x).margin(1e-10));
+  CHECK(orbit[100].x != Approx(orbit.front().x).margin(1e-3));
+  const auto largest = std::ranges::max_element(orbit, {}, &sim::Sample::x);
+  CHECK(largest->x == Approx(state.peak).epsilon(1e-4));
+  CHECK(state.transient_periods < 3000);
+}
+
+TEST_CASE("a linear oscillator with damping has exactly one steady state") {
+  struct Case {
+    double zeta, r;
+  };
+  for (const Case c : {Case{0.2, 1e5}, Case{0.2, 1e3}, Case{1e-8, 0.7}, Case{1e-8, 1.0}, Case{1e-8, 0.5},
+                       Case{1e-5, 1.0 / 3.0}, Case{30.0, 1e4}, Case{0.01, 1e-3}}) {
+    CAPTURE(c.zeta, c.r);
+    sim::Model model;
+    model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 20.0 * c.zeta};
+    model.excitation = {
+        .type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0 * c.r, .phase = 0.3};
+    model.initial = {0.5, 1.0};
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.warnings.empty());
+    CHECK(state.stable());
+    const std::complex<double> response = 0.1 / std::complex<double>(1.0 - c.r * c.r, 2.0 * c.zeta * c.r);
+    // The period map determines the orbit to its rounding over 1 - exp(-2 pi zeta/r).
+    CHECK(state.amplitude == Approx(std::abs(response)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a drive that barely moves the mass has one steady state from every start") {
+  for (const double start : {0.0, 0.0005, -0.001, 0.4}) {
+    CAPTURE(start);
+    sim::Model model;
+    model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
+    model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.7};
+    model.friction.emplace_back(friction::Coulomb(0.999, 0.999));
+    const sim::SteadyState centred = sim::steady_state(model);
+    REQUIRE(centred.outcome.ok());
+    CHECK(centred.amplitude > 0.0);
+    model.initial.position = start;
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.warnings.empty());
+    CHECK(state.peak == Approx(centred.peak).epsilon(1e-8));
+    CHECK(state.trough == Approx(centred.trough).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("an aperiodic motion is called so") {
+  // Ueda's x'' + 0.05 x' + x^3 = 7.5 cos t is chaotic; the linear spring is next to nothing.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1e-6, .damping = 0.05, .cubic_stiffness = 1.0};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 7.5, .frequency = 1.0};
+  model.initial = {2.5, 0.0};
+  const sim::SteadyState state = sim::steady_state(model);
+  CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+  CHECK(state.outcome.reason.find("aperiodic") != std::string::npos);
+  CHECK(state.transient_periods < 1010);
+}
