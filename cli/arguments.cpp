@@ -97,6 +97,8 @@ class Parser {
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
     run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test");
+    run_command_->add_flag("--verify", run_.verify,
+                           "Compute each result again by another engine and compare; the same as numerics.verify");
     add_plugins(*run_command_);
   }
 

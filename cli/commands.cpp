@@ -131,6 +131,8 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
   report.json = files.back().write;
   report.text = readable(*scenario, *result);
   if (!result->failure.empty()) report.errors = scenario->file + ": error: " + result->failure + "\n";
+  if (result->verification && !result->verification->agrees)
+    report.errors += scenario->file + ": error: verification: " + result->verification->reason + "\n";
   for (const std::string& warning : result->warnings)
     report.messages += scenario->file + ": warning: " + warning + "\n";
   {
@@ -173,6 +175,7 @@ Report run_file(const RunCommand& command, const std::string& file) {
   return guarded([&] {
     LoadOptions options{.analyses = bench::analyses()};
     for (const std::string& assignment : command.set) options.set.push_back({assignment});
+    if (command.verify) options.set.push_back({"numerics.verify=true", "--verify"});
     Scenario scenario = scenarios::load_scenario(file, options);
     const std::string directory = output_directory(command, file);
     if (command.resume && campaign_of(scenario) == nullptr)

@@ -92,6 +92,18 @@ std::string checks_text(const std::vector<scenarios::Check>& checks) {
   return columns(rows);
 }
 
+std::string verification_text(const scenarios::Verification& verification) {
+  std::string text = "verified by " + verification.engine + ": ";
+  if (verification.quantity.empty())
+    return text + (verification.agrees ? "nothing to compare" : verification.reason);
+  if (verification.rows_left_out > 0)
+    text += std::to_string(verification.rows_left_out) + " rows have a reason and no number in one of both, ";
+  return text + "largest difference " + core::format_number(verification.largest_difference, 2) + " (" +
+         verification.quantity + ", " + core::format_number(verification.tolerance, 2) + " allowed) of " +
+         std::to_string(verification.quantities) +
+         " quantities: " + (verification.agrees ? "agrees" : "DOES NOT AGREE: " + verification.reason);
+}
+
 }  // namespace
 
 std::string columns(const std::vector<std::vector<std::string>>& rows) {
@@ -116,6 +128,7 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
     if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table);
   if (!result.verdict.empty()) text += "\n" + folded(result.verdict) + "\n";
   if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
+  if (result.verification) text += "\n" + folded(verification_text(*result.verification)) + "\n";
   return text;
 }
 

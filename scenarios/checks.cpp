@@ -115,6 +115,19 @@ void resolve_frequency(CheckedFile& file) {
   frequency = core::format_number(value) + " rad/s";
 }
 
+/// What cannot be computed again in another way is not said to be verified.
+void check_verification(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
+  const Json& values = file.values();
+  if (analysis.verifiable || !values.contains("numerics") || !values.at("numerics").value("verify", false)) return;
+  std::vector<std::string> names;
+  for (const Analysis* other : analyses)
+    if (other->verifiable) names.emplace_back(other->name);
+  file.complain("numerics.verify",
+                "'numerics.verify' does not work with " + file.subject() +
+                    ": no other engine can compute its result again, point by point",
+                joined(names));
+}
+
 }  // namespace
 
 Checked check(const Document& document, Reading& reading, const Section& format, const AnalysisList& analyses,
@@ -130,6 +143,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   if (file.needs() != nullptr) {
     check_sections(file);
     check_excitation(file);
+    if (!file.needs()->excitations.empty()) check_verification(file, *analysis, analyses);
   }
   resolve_damping(file);
   resolve_frequency(file);

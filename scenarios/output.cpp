@@ -62,6 +62,23 @@ Json checks_json(const std::vector<Check>& checks) {
   return list;
 }
 
+Json verification_json(const Verification& verification) {
+  Json json = {{"engine", verification.engine}};
+  if (verification.quantity.empty()) {
+    json["largest_difference"] = nullptr;
+    json["quantity"] = nullptr;
+  } else {
+    json["largest_difference"] = verification.largest_difference;
+    json["quantity"] = verification.quantity;
+    json["tolerance"] = verification.tolerance;
+  }
+  json["quantities"] = verification.quantities;
+  if (verification.rows_left_out > 0) json["rows_left_out"] = verification.rows_left_out;
+  json["agrees"] = verification.agrees;
+  if (!verification.reason.empty()) json["reason"] = verification.reason;
+  return json;
+}
+
 /// The keys every document has, in order.
 Json frame(core::ExitStatus status) {
   Json json;
@@ -172,6 +189,7 @@ Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<c
     json["analysis"] = scenario->analysis_name;
     json["warnings"] = result->warnings;
     json["checks"] = checks_json(result->checks);
+    if (result->verification) json["verification"] = verification_json(*result->verification);
     if (!result->failure.empty()) json["errors"].push_back({{"message", result->failure}});
     write_members(out, json, "", [&](const std::string& key, const Json& value, const std::string& margin) {
       if (key == "result")

@@ -2,7 +2,8 @@
 /// What a run leaves behind: one JSON document, and a CSV file for each table.
 ///
 /// The document holds, in this order: program, provenance, scenario, analysis, status, result, warnings, checks,
-/// errors. It is written row by row and never a text in memory. A table opens with its provenance as comment lines
+/// errors, and verification where one was asked for. It is written row by row and never a text in memory. A table
+/// opens with its provenance as comment lines
 /// `# name: value`, then a header `name [unit]`, then rows; numbers read back to the same bits, a number that does
 /// not exist is an empty field.
 

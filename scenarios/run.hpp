@@ -13,6 +13,7 @@
 #include "core/provenance.hpp"
 #include "scenarios/results/table.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/verification.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -39,6 +40,7 @@ struct RunResult {
   std::vector<Table> tables;  ///< its lists; each becomes a file
   std::string verdict;        ///< what it means, in plain words; of an identification
   std::vector<Check> checks;
+  std::optional<Verification> verification;  ///< where the scenario asks for one
   core::Provenance provenance;
 };
 

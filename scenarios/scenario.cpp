@@ -175,6 +175,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"));
   scenario.tolerance = tolerance_of(values, scenario.model);
+  scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
   const Json& section = values.at("analysis");
   scenario.analysis_name = std::string(checked.analysis->name);
   scenario.result_fields = result_fields(*checked.analysis, section);

@@ -40,6 +40,7 @@ struct Scenario {
   std::vector<ResultField> result_fields;  ///< what the result may hold
   std::vector<Expectation> expect;
   double tolerance = 0.0;
+  bool verify = false;                ///< the result is to be computed again in another way
   std::vector<std::string> warnings;  ///< of the laws, about their parameters
 
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario

@@ -57,17 +57,21 @@ Section scenario_format(const AnalysisList& analyses) {
        choice("analysis", choice_of(analyses), "the question").required(),
        section_list("expect", expect_section(), "checks of the result; if a value differs, the exit status is 1")
            .items(1, 10'000),
-       section("numerics",
-               {{quantity("tolerance", {"1"},
-                          "closure of a steady state relative to its size, and error of a step where friction is "
-                          "not piecewise linear; default: 1e-14, or 1e-11 in that case")
-                     .at_least(1e-15)
-                     .at_most(1e-3),
-                 words("solver", {"automatic", "explicit", "implicit"},
-                       "steps of the smooth engine; automatic: the exact engine where every law allows it, else "
-                       "explicit steps until the motion is stiff")
-                     .with_fallback("automatic")}},
-               "numerical settings")}};
+       section(
+           "numerics",
+           {{quantity("tolerance", {"1"},
+                      "closure of a steady state relative to its size, and error of a step where friction is "
+                      "not piecewise linear; default: 1e-14, or 1e-11 in that case")
+                 .at_least(1e-15)
+                 .at_most(1e-3),
+             words("solver", {"automatic", "explicit", "implicit"},
+                   "steps of the smooth engine; automatic: the exact engine where every law allows it, else "
+                   "explicit steps until the motion is stiff")
+                 .with_fallback("automatic"),
+             boolean("verify",
+                     "compute the result again by the other engine, or by other steps, at a tight tolerance and "
+                     "compare every quantity; if one differs, the exit status is 1")}},
+           "numerical settings")}};
 }
 
 }  // namespace dualdamp::scenarios

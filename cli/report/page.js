@@ -37,6 +37,17 @@ function checks() {
     c.value, c.expected, { text: c.found, title: String(c.found) }, c.difference ?? null, { text: c.ok ? "✓" : "✗ off", class: c.ok ? "good" : "bad" }, { text: c.source ?? "", class: "long" }]))];
 }
 
+/** What a second computation says, where one was asked for. */
+function verification() {
+  const v = run.verification;
+  if (!v) return [];
+  const rows = [["computed again by", v.engine], ["quantities compared", v.quantities], ["largest difference", v.largest_difference],
+    ["of", v.quantity ?? "–"], ["allowed", v.tolerance ?? "–"], ["", { text: v.agrees ? "✓ agrees" : "✗ does not agree", class: v.agrees ? "good" : "bad" }]];
+  if (v.rows_left_out) rows.push(["rows without a number in one of both", v.rows_left_out]);
+  if (v.reason) rows.push(["reason", { text: v.reason, class: "long" }]);
+  return [heading("Verification"), grid(["", ""], rows)];
+}
+
 function provenance() {
   const { program } = run;
   const rows = [["program", `${program.name} ${program.version}`], ["commit", program.commit], ["compiler", program.compiler],
@@ -59,7 +70,7 @@ function body() {
   if (single.length) parts.push(heading("Numbers"), numbers(single.map((item) => ({ ...item, unit: unitOfScalar(item.path) }))));
   const drawn = (view.charts?.(result) ?? []).filter(Boolean);
   if (drawn.length) parts.push(make("div", { class: "charts", style: "margin-top:1rem" }, drawn));
-  parts.push(...(view.after?.(result) ?? []), ...checks());
+  parts.push(...(view.after?.(result) ?? []), ...checks(), ...verification());
   if (Object.keys(tables).length) parts.push(make("div", { class: "screen" }, heading("Tables"), Object.entries(tables).map(([name, t]) => folded(name, t))));
   return [...parts, ...provenance()];
 }

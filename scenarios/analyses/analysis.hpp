@@ -42,6 +42,12 @@ struct RunContext {
   }
 };
 
+/// Some numbers of a result, computed in another way.
+struct OtherWay {
+  std::string words;  ///< which
+  Answer answer;      ///< the numbers alone, by their keys in the result
+};
+
 class Question {
  public:
   Question() = default;
@@ -51,6 +57,10 @@ class Question {
 
   /// A number that does not exist is null in the answer; no result at all has a reason.
   [[nodiscard]] virtual Answer run(const RunContext& context) const = 0;
+  /// For a verification: what can also be computed by a method that run() does not use; none: nothing.
+  [[nodiscard]] virtual std::optional<OtherWay> other_way(const RunContext& /*context*/) const {
+    return std::nullopt;
+  }
 };
 
 /// The ability of a question whose run is long: it writes its cases to `options.directory` as it goes, can be
@@ -80,6 +90,7 @@ struct Analysis {
   Section keys;              ///< of `analysis`, beside its type
   std::vector<Needs> needs;  ///< of the other sections
   std::vector<ResultField> results;
+  bool verifiable = false;  ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.
   void (*check)(CheckedFile& file) = nullptr;
   std::unique_ptr<const Question> (*ask)(CheckedValues&& values) = nullptr;

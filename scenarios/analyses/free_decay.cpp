@@ -45,6 +45,7 @@ const Analysis& free_decay_analysis() {
                                     .keys = {{peaks()}},
                                     .needs = {needs_of_free_vibrations("")},
                                     .results = fields(),
+                                    .verifiable = true,
                                     .ask = ask};
   return analysis;
 }

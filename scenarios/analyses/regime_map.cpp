@@ -189,6 +189,7 @@ const Analysis& regime_map_analysis() {
       .keys = keys(),
       .needs = needs_of_steady_states({}),
       .results = fields(),
+      .verifiable = true,
       .check = check,
       .ask = ask,
       .length_of = length_of};

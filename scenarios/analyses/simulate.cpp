@@ -76,6 +76,7 @@ const Analysis& simulate_analysis() {
                                     .keys = keys(),
                                     .needs = {{"", excitations().names(), {"amplitude", "frequency"}, true, ""}},
                                     .results = fields(),
+                                    .verifiable = true,
                                     .check = check,
                                     .ask = ask};
   return analysis;

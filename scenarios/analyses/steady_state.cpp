@@ -1,8 +1,10 @@
 #include "scenarios/analyses/steady_state.hpp"
 
 #include "scenarios/results/motion.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/orbits/transient.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -72,12 +74,31 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   return answer;
 }
 
+std::optional<OtherWay> SteadyStateQuestion::other_way(const RunContext& context) const {
+  constexpr int most_exact = 2000;
+  constexpr int most_smooth = 300;  // each of them costs a thousand times as much
+  const int most = sim::is_exact(context.model) ? most_exact : most_smooth;
+  const sim::Transient transient = sim::follow_transient(context.model, {.max_periods = most});
+  OtherWay other{"the transient over " + std::to_string(transient.periods) + " periods", {}};
+  if (!transient.outcome.ok()) {
+    other.answer = failed(transient.outcome.reason);
+  } else if (!transient.settled) {
+    other.answer = failed("it has not settled");
+  } else {
+    other.answer.result = {{"peak", finite(transient.peak)},
+                           {"trough", finite(transient.trough)},
+                           {"stops_per_cycle", transient.stops}};
+  }
+  return other;
+}
+
 const Analysis& steady_state_analysis() {
   static const Analysis analysis = {.name = "steady_state",
                                     .summary = "the periodic motion approached from the initial state",
                                     .keys = {},
                                     .needs = needs_of_steady_states({"amplitude", "frequency"}),
                                     .results = fields(),
+                                    .verifiable = true,
                                     .ask = ask};
   return analysis;
 }

@@ -160,6 +160,19 @@ class Run(Case):
         self.assertTrue(bad["reason"])
         self.assertTrue(document["warnings"])
 
+    def test_verify_computes_the_result_again(self):
+        result = self.run_program("run", "base.yaml", "--verify", "--out", "a")
+        self.assertIn("agrees", result.stdout)
+        document = json.loads((self.folder / "a/result.json").read_text())
+        self.assertTrue(document["verification"]["agrees"])
+        self.assertLessEqual(document["verification"]["largest_difference"], document["verification"]["tolerance"])
+        self.assertIn("smooth engine", document["verification"]["engine"])
+        self.assertIn('"verification"', (self.folder / "a/report.html").read_text())
+
+    def test_verify_is_refused_where_nothing_can_be_computed_again(self):
+        self.write("branch.yaml", BASE.replace("steady_state", "xy_branch, amplitudes: {from: 0.05, to: 0.1}"))
+        self.assertIn("numerics.verify", self.run_program("run", "branch.yaml", "--verify", status=3).stderr)
+
     def test_tables_open_with_provenance(self):
         self.run_program("run", "base.yaml", "--set", "analysis={type: simulate, cycles: 2, sample_rate: 100 Hz}")
         for name in ["events", "history"]:

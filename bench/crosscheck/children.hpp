@@ -1,0 +1,32 @@
+#pragma once
+/// Runs each case in a process of its own: a crash, an endless loop or a flood of memory is an entry in the table
+/// and not the end of the campaign.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace dualdamp::crosscheck {
+
+struct Limits {
+  int jobs = 1;                                ///< processes at a time
+  int processor_seconds = 10;                  ///< of one case
+  int wall_seconds = 120;                      ///< of one case: it may wait for locks or for a busy machine
+  std::size_t memory = std::size_t{4} << 30U;  ///< bytes
+};
+
+/// How a case ended.
+struct Ending {
+  std::uint32_t index = 0;
+  std::string text;      ///< what `work` returned; empty when it did not
+  std::string failure;   ///< "killed by signal 11 (Segmentation fault)", "more than 10 s"; empty: none
+  double seconds = 0.0;  ///< processor time
+};
+
+/// `work(index)` for 0 <= index < count in children; `done` in this process, in the order in which they end.
+/// Errors: `std::system_error` when no process can be started.
+void run_in_children(std::uint32_t first, std::uint32_t count, const Limits& limits,
+                     const std::function<std::string(std::uint32_t)>& work,
+                     const std::function<void(const Ending&)>& done);
+
+}  // namespace dualdamp::crosscheck

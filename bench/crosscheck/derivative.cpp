@@ -1,0 +1,111 @@
+#include "bench/crosscheck/derivative.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/orbits/transient.hpp"
+
+namespace dualdamp::crosscheck {
+
+namespace {
+
+using sim::ForcingPeriod;
+using sim::State;
+
+/// Relative to the column, or to 1 where it is smaller: what a central difference knows at its best step.
+constexpr double tolerance = 1e-4;
+
+/// The size of every coordinate: those of the motion where a law states none.
+Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length, double omega) {
+  std::vector<double> list = {length, length * omega};
+  for (std::size_t i = 0; i < state.memories.size(); ++i) {
+    const friction::Memory& memory = state.memories[i];
+    std::vector<double> scales(memory.state.size());
+    model.friction[i].scales(memory, scales);
+    for (std::size_t k = 0; k < scales.size(); ++k) list.push_back(scales[k] > 0.0 ? scales[k] : length);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
+struct Quotient {
+  Eigen::VectorXd column;
+  bool same_sequence = false;
+};
+
+class Quotients {
+ public:
+  Quotients(const sim::Model& model, const State& state) : map_(model), state_(state) {
+    period_ = map_.from(state, sim::Monodromy::with, &events_);
+  }
+
+  [[nodiscard]] bool ok() const { return map_.outcome().ok(); }
+  [[nodiscard]] const std::string& reason() const { return map_.outcome().reason; }
+  [[nodiscard]] const ForcingPeriod& period() const { return period_; }
+
+  Quotient central(Eigen::Index coordinate, double step) {
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(sim::coordinates(state_).size());
+    change[coordinate] = step;
+    sim::PeriodEvents above_events;
+    sim::PeriodEvents below_events;
+    const ForcingPeriod above = map_.from(sim::displaced(state_, change), sim::Monodromy::without, &above_events);
+    const bool above_ok = map_.outcome().ok();
+    const ForcingPeriod below = map_.from(sim::displaced(state_, -change), sim::Monodromy::without, &below_events);
+    if (!above_ok || !map_.outcome().ok()) return {};
+    if (!sim::same_mode(above.end, below.end) || !sim::same_mode(above.end, period_.end)) return {};
+    return {(sim::coordinates(above.end) - sim::coordinates(below.end)) / (2.0 * step),
+            above_events.sequence() == events_.sequence() && below_events.sequence() == events_.sequence()};
+  }
+
+ private:
+  sim::PeriodMap map_;
+  State state_;
+  sim::PeriodEvents events_;
+  ForcingPeriod period_;
+};
+
+}  // namespace
+
+Finding compare_derivative(const std::string& name, const sim::Model& model, const State& state, double omega) {
+  Finding finding{name, Verdict::agreed, 0.0, {}};
+  Quotients quotients(model, state);
+  if (!quotients.ok()) return {name, Verdict::refused, 0.0, quotients.reason()};
+  const Eigen::MatrixXd& monodromy = quotients.period().monodromy;
+  const double length = quotients.period().size;
+  if (monodromy.rows() != monodromy.cols() || length == 0.0) return {name, Verdict::not_compared, 0.0, "no motion"};
+  if (!monodromy.allFinite()) return {name, Verdict::disagree, 0.0, "the monodromy matrix is not finite"};
+  const Eigen::VectorXd size = sizes(model, state, length, omega);
+  for (Eigen::Index j = 0; j < monodromy.cols(); ++j) {
+    if (j == 1 && state.direction == friction::Direction::none) continue;
+    double best = std::numeric_limits<double>::infinity();
+    Eigen::VectorXd nearest;
+    for (double part = 1e-3; part > 1e-9; part *= 0.1) {
+      const Quotient quotient = quotients.central(j, part * size[j]);
+      if (!quotient.same_sequence) continue;
+      const Eigen::VectorXd column = monodromy.col(j).cwiseQuotient(size) * size[j];
+      const Eigen::VectorXd found = quotient.column.cwiseQuotient(size) * size[j];
+      const double error = (found - column).norm() / std::max({1.0, column.norm(), found.norm()});
+      if (!(error < best)) continue;
+      best = error;
+      nearest = quotient.column;
+    }
+    if (std::isinf(best)) {
+      if (finding.verdict == Verdict::agreed) finding.verdict = Verdict::exception;
+      finding.text = "corner: the sequence of events changes at this state";
+      continue;
+    }
+    finding.worst = std::max(finding.worst, best);
+    if (best <= tolerance) continue;
+    Eigen::Index row = 0;
+    (nearest - monodromy.col(j)).cwiseQuotient(size).cwiseAbs().maxCoeff(&row);
+    finding.verdict = Verdict::disagree;
+    finding.text =
+        fmt::format("row {}, column {}: {:.6g}, by differences {:.6g}", row, j, monodromy(row, j), nearest[row]);
+    return finding;
+  }
+  return finding;
+}
+
+}  // namespace dualdamp::crosscheck

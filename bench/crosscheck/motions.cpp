@@ -1,0 +1,188 @@
+#include "bench/crosscheck/motions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "bench/crosscheck/differences.hpp"
+#include "bench/crosscheck/variants.hpp"
+#include "scenarios/scenario.hpp"
+#include "sim/engine/engine.hpp"
+
+namespace dualdamp::crosscheck {
+
+namespace {
+
+using scenarios::Json;
+
+constexpr double tolerance = 1e-7;
+constexpr double energy_tolerance_exact = 1e-10;
+constexpr double energy_tolerance_smooth = 1e-7;
+constexpr double change = 1e-10;
+
+sim::Model model_of(const Json& scenario) { return scenarios::parse_scenario(scenario.dump(), "case").model; }
+
+/// Three forcing and ten natural periods, but not more than sixty of the shorter one.
+double duration_of(const Json& scenario, const sim::Model& model) {
+  const Json& analysis = scenario.at("analysis");
+  if (analysis.contains("duration")) return analysis.at("duration").get<double>();
+  const double natural = 2.0 * std::numbers::pi / sim::natural_frequency(model.oscillator);
+  const double forcing = 2.0 * std::numbers::pi / model.excitation.frequency;
+  return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
+}
+
+double extent(const Walk& walk) {
+  double result = 0.0;
+  for (const sim::Sample& sample : walk.samples)
+    result = std::max({result, std::abs(sample.x), std::abs(sample.y)});
+  return result;
+}
+
+/// The walk in the units, and in the mirror, of the first.
+void map_back(Walk& walk, const Scales& scales, double sign) {
+  const double length = sign / scales.length;
+  const double speed = sign / scales.length * scales.time;
+  for (sim::Event& event : walk.events)
+    event = {event.t / scales.time, event.kind, event.x * length, event.v * speed};
+  for (sim::Sample& sample : walk.samples) {
+    sample.t /= scales.time;
+    sample.x *= length;
+    sample.v *= speed;
+  }
+  walk.end /= scales.time;
+}
+
+class Motions {
+ public:
+  Motions(const Json& scenario, std::uint64_t draw)
+      : scenario_(scenario), model_(model_of(scenario)), is_exact_(sim::is_exact(model_)) {
+    options_.duration = duration_of(scenario, model_);
+    options_.with_energy = true;
+    first_ = walk(model_, options_);
+    options_.with_energy = false;
+    if (first_.outcome.ok() && first_.finite) measure_sensitivity(draw);
+  }
+
+  Findings compare() {
+    const std::string name = is_exact_ ? "exact against smooth engine" : "automatic against implicit steps";
+    if (!first_.finite) {
+      findings_.push_back(
+          {name, Verdict::disagree, 0.0, "the motion is not finite, outcome: " + first_.outcome.reason});
+      return std::move(findings_);
+    }
+    compare_engines(name);
+    if (!first_.outcome.ok()) return std::move(findings_);
+    check_energy();
+    if (has_mirror(scenario_)) compare_variant("mirror", mirrored(scenario_), {}, -1.0);
+    constexpr Scales odd = {.force = 3.7, .length = 0.41, .time = 2.3};
+    compare_variant("other units", scaled(scenario_, odd), odd, 1.0);
+    constexpr Scales even = {.force = 0x1p-9, .length = 0x1p-9, .time = 1.0};
+    compare_variant("force and length by a power of two", scaled(scenario_, even), even, 1.0);
+    constexpr Scales tiny = {.force = 0x1p-400, .length = 0x1p-400, .time = 1.0};
+    if (is_exact_) compare_variant("force and length by 2^-400", scaled(scenario_, tiny), tiny, 1.0);
+    return std::move(findings_);
+  }
+
+ private:
+  void measure_sensitivity(std::uint64_t draw) {
+    constexpr std::uint32_t count = 4;
+    sensitivity_.change = change;
+    const double length = extent(first_);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Draws draws(draw, i);
+      widen(sensitivity_, first_, walk(model_of(perturbed(scenario_, change, length, draws)), options_));
+    }
+  }
+
+  void judge(const std::string& name, const Walk& other) {
+    if (!other.finite) {
+      findings_.push_back({name, Verdict::disagree, 0.0, "the other motion is not finite"});
+      return;
+    }
+    const Difference gap = difference(first_, other, sensitivity_, tolerance);
+    Finding finding{name, Verdict::agreed, gap.worst, {}};
+    if (!gap.fault.empty()) {
+      finding.verdict = Verdict::disagree;
+      finding.text = gap.fault;
+    } else if (!gap.exception.empty()) {
+      finding.verdict = Verdict::exception;
+      finding.text = "sensitive: " + gap.exception;
+    } else if (gap.coincident > 0) {
+      finding.verdict = Verdict::exception;
+      finding.text = fmt::format("coincident events: {} groups", gap.coincident);
+    } else if (gap.silent > 0) {
+      finding.verdict = Verdict::exception;
+      finding.text = fmt::format("switching that leaves the motion as it is: {}", gap.silent);
+    }
+    findings_.push_back(std::move(finding));
+  }
+
+  /// The other way to integrate: explicit steps, implicit ones where these need too many.
+  void compare_engines(const std::string& name) {
+    constexpr double tight = 1e-13;
+    sim::Model model = model_;
+    Walk other;
+    for (const sim::SolverKind kind : {sim::SolverKind::explicit_steps, sim::SolverKind::implicit_steps}) {
+      if (!is_exact_ && kind == sim::SolverKind::explicit_steps) continue;
+      model.solver = {kind, tight};
+      other = walk(model, options_);
+      if (other.outcome.ok()) break;
+    }
+    if (!first_.outcome.ok()) {
+      const bool cost = first_.outcome.kind == core::OutcomeKind::event_limit;
+      const bool refused = cost || !other.outcome.ok() || other.ended_early;
+      findings_.push_back({name, refused ? Verdict::refused : Verdict::disagree, 0.0,
+                           (refused ? "" : "only one engine gives up: ") + first_.outcome.reason});
+    } else if (!other.outcome.ok()) {
+      const bool cost = other.outcome.kind == core::OutcomeKind::event_limit;
+      findings_.push_back(
+          {name, cost ? Verdict::not_compared : Verdict::disagree, 0.0,
+           (cost ? "smooth engine: " : "only the smooth engine gives up: ") + other.outcome.reason});
+    } else {
+      judge(name, other);
+    }
+  }
+
+  void check_energy() {
+    const double defect = std::abs(first_.energy.defect) / first_.energy_scale;
+    const double allowed = is_exact_ ? energy_tolerance_exact : energy_tolerance_smooth;
+    Finding finding{"energy balance", Verdict::agreed, defect, {}};
+    if (first_.energy_scale == 0.0) finding.worst = 0.0;
+    if (!(finding.worst <= allowed)) {
+      finding.verdict = Verdict::disagree;
+      finding.text = fmt::format("defect {:.2e} of the energy exchanged", defect);
+    }
+    findings_.push_back(std::move(finding));
+  }
+
+  void compare_variant(const std::string& name, const Json& variant, const Scales& scales, double sign) {
+    WalkOptions options = options_;
+    options.duration *= scales.time;
+    Walk other = walk(model_of(variant), options);
+    if (!other.outcome.ok()) {
+      findings_.push_back({name, Verdict::disagree, 0.0, "only the variant gives up: " + other.outcome.reason});
+      return;
+    }
+    map_back(other, scales, sign);
+    judge(name, other);
+  }
+
+  const Json& scenario_;
+  sim::Model model_;
+  bool is_exact_;
+  WalkOptions options_;
+  Walk first_;
+  Sensitivity sensitivity_;
+  Findings findings_;
+};
+
+}  // namespace
+
+Findings compare_motions(const scenarios::Json& scenario, std::uint64_t draw) {
+  return Motions(scenario, draw).compare();
+}
+
+}  // namespace dualdamp::crosscheck

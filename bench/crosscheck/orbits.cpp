@@ -1,0 +1,106 @@
+#include "bench/crosscheck/orbits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "bench/crosscheck/derivative.hpp"
+#include "sim/engine/engine.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "sim/orbits/transient.hpp"
+
+namespace dualdamp::crosscheck {
+
+namespace {
+
+constexpr double tolerance = 1e-7;
+/// Processor time for a transient [s]; a longer one is not compared.
+constexpr double patience = 1.5;
+
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+sim::Transient transient(const sim::Model& model) {
+  const double end = processor_time() + patience;
+  return sim::follow_transient(model, {.give_up = [end] { return processor_time() > end; }});
+}
+
+/// Of the transient, as of a curve.
+double size_of(const sim::Transient& motion) { return std::max(std::abs(motion.peak), std::abs(motion.trough)); }
+
+/// The largest modulus of those multipliers that are not on the unit circle.
+double slowest(const sim::SteadyState& state) {
+  double result = 0.0;
+  for (const std::complex<double>& multiplier : state.multipliers)
+    if (const double modulus = std::abs(multiplier); std::abs(modulus - 1.0) > sim::neutral_margin)
+      result = std::max(result, modulus);
+  return result;
+}
+
+Finding compare_transient(const sim::SteadyState& state, const sim::Transient& motion) {
+  const std::string name = "steady state against transient";
+  if (!motion.outcome.ok()) return {name, Verdict::refused, 0.0, "transient: " + motion.outcome.reason};
+  if (!state.outcome.ok()) {
+    if (motion.settled)
+      return {name, Verdict::disagree, 0.0,
+              fmt::format("the transient closes to {:.1e} after {} periods, peak {:.10g}, but: {}", motion.closure,
+                          motion.periods, motion.peak, state.outcome.reason)};
+    return {name, Verdict::refused, 0.0, state.outcome.reason};
+  }
+  if (!std::isfinite(state.peak) || !std::isfinite(state.trough) || !std::isfinite(state.energy.defect))
+    return {name, Verdict::disagree, 0.0, "a steady state that is not finite"};
+  if (!motion.settled) {
+    const double modulus = slowest(state);
+    constexpr double safely = 1e-20;
+    if (motion.closure > tolerance && state.stable() && std::pow(modulus, motion.periods) < safely)
+      return {name, Verdict::disagree, 0.0,
+              fmt::format("largest multiplier {:.4g}, but after {} periods the transient closes to {:.1e} only",
+                          modulus, motion.periods, motion.closure)};
+    return {name, Verdict::not_compared, 0.0, "the transient is too long"};
+  }
+  const double size = std::max(size_of(motion), std::abs(state.peak));
+  const double apart = std::max(std::abs(state.peak - motion.peak), std::abs(state.trough - motion.trough));
+  const double worst = apart == 0.0 ? 0.0 : apart / size;
+  if (worst <= tolerance) return {name, Verdict::agreed, worst, {}};
+  return {name, Verdict::disagree, worst,
+          fmt::format("peak {:.10g}, trough {:.10g}; transient {:.10g}, {:.10g} after {} periods{}", state.peak,
+                      state.trough, motion.peak, motion.trough, motion.periods,
+                      state.warnings.empty() ? "" : "; warned: " + state.warnings.front())};
+}
+
+/// Why the period map of this model cannot be asked from an arbitrary state; empty: it can.
+std::string reason_against_map(const sim::Model& model) {
+  for (const friction::Law& law : model.friction) {
+    if (!law.aperiodic().empty()) return std::string(law.aperiodic());
+    if (law.delay() > 0.0) return "a law with a delay";
+  }
+  return {};
+}
+
+}  // namespace
+
+Findings compare_orbits(const scenarios::Scenario& scenario) {
+  const sim::Model& model = scenario.model;
+  Findings findings;
+  const std::string reason = reason_against_map(model);
+  sim::SteadyStateOptions options;
+  options.tolerance = scenario.tolerance;
+  const sim::SteadyState state = sim::steady_state(model, options);
+  if (!reason.empty()) {
+    findings.push_back({"steady state against transient", Verdict::not_compared, 0.0, reason});
+    return findings;
+  }
+  findings.push_back(compare_transient(state, transient(model)));
+  const double omega = sim::natural_frequency(model.oscillator);
+  sim::PeriodMap map(model);
+  static_cast<void>(map.from_start(model.initial.position, model.initial.velocity, sim::Monodromy::without));
+  const sim::ForcingPeriod second = map.next(sim::Monodromy::without);
+  if (map.outcome().ok())
+    findings.push_back(compare_derivative("derivative in a transient", model, second.end, omega));
+  if (state.outcome.ok())
+    findings.push_back(compare_derivative("derivative on an orbit", model, state.start, omega));
+  return findings;
+}
+
+}  // namespace dualdamp::crosscheck

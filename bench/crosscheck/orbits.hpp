@@ -1,0 +1,13 @@
+#pragma once
+/// Comparisons of steady states: the monodromy matrix against difference quotients, the orbit against
+/// the transient that should end on it.
+
+#include "bench/crosscheck/finding.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace dualdamp::crosscheck {
+
+/// Of a scenario with a harmonic drive.
+[[nodiscard]] Findings compare_orbits(const scenarios::Scenario& scenario);
+
+}  // namespace dualdamp::crosscheck

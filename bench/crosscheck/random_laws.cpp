@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "bench/crosscheck/random_scenario.hpp"
+#include "friction_models/registry.hpp"
+
+namespace dualdamp::crosscheck {
+
+namespace {
+
+/// Draws laws whose limits are shares of the drive's force, and whose stiffnesses range far around the
+/// oscillator's.
+class RandomLaws {
+ public:
+  RandomLaws(Draws& draws, const Sizes& sizes) : draws_(draws), sizes_(sizes) {}
+
+  using Draw = Json (RandomLaws::*)();
+  using Kind = std::pair<const char*, Draw>;
+  static const std::array<Kind, 5> exact;
+  static const std::array<Kind, 11> smooth;
+
+  Json law(const Kind& kind) {
+    Json result = {{"law", kind.first}};
+    result.update((this->*kind.second)());
+    add_modifiers(result);
+    return result;
+  }
+
+ private:
+  double force() {
+    return sizes_.force * (sizes_.wide ? draws_.logarithmic(1e-6, 1e3) : draws_.logarithmic(1e-2, 1.5));
+  }
+  double critical() const { return 2.0 * sizes_.mass * sizes_.natural; }
+  double time() const { return 1.0 / sizes_.natural; }
+  double contact_stiffness() {
+    return sizes_.stiffness * (sizes_.wide ? draws_.logarithmic(1e-3, 1e8) : draws_.logarithmic(0.3, 1e4));
+  }
+
+  /// Kinetic friction, and mostly a static one above it.
+  Json levels(double chance_of_static) {
+    const double kinetic = force();
+    Json result = {{"kinetic", kinetic}};
+    if (draws_.chance(chance_of_static)) result["static"] = kinetic * draws_.uniform(1.0, sizes_.wide ? 5.0 : 2.5);
+    return result;
+  }
+  Json coulomb() { return levels(0.5); }
+  Json contact() {
+    Json result = levels(0.5);
+    result["contact_stiffness"] = contact_stiffness();
+    if (draws_.chance(0.4))
+      result["contact_damping"] =
+          critical() * (sizes_.wide ? draws_.logarithmic(1e-12, 1e5) : draws_.logarithmic(1e-3, 10.0));
+    return result;
+  }
+  Json reset_integrator() {
+    Json result = {{"kinetic", force()}, {"stiffness", contact_stiffness()}};
+    if (draws_.chance(0.6)) result["static_gain"] = draws_.uniform(0.0, 1.5);
+    if (draws_.chance(0.4)) result["damping"] = critical() * draws_.logarithmic(1e-3, 10.0);
+    return result;
+  }
+  Json iwan() {
+    const double limit = force();
+    const double stiffness = contact_stiffness();
+    if (draws_.chance(0.5)) return {{"stiffness", stiffness}, {"limit", limit}, {"count", 1 + draws_.pick(20)}};
+    Json elements = Json::array();
+    const int count = 1 + draws_.pick(5);
+    for (int i = 0; i < count; ++i)
+      elements.push_back({{"stiffness", stiffness * draws_.logarithmic(0.1, 10.0)},
+                          {"limit", limit * draws_.logarithmic(0.1, 1.0)}});
+    return {{"elements", elements}};
+  }
+  /// Not so short that they snap all the time.
+  Json bristle() {
+    const int count = 1 + draws_.pick(5);
+    const double distance = sizes_.length() * draws_.logarithmic(0.2, 2.0);
+    const double limit = std::min(force(), sizes_.force);
+    const double stiffness = limit / (count * distance);
+    return {{"stiffness", stiffness}, {"snap_distance", distance}, {"count", count}, {"seed", draws_.pick(1000)}};
+  }
+
+  Json curve() {
+    Json result = levels(0.8);
+    result["stribeck_velocity"] = sizes_.speed() * draws_.logarithmic(0.02, 2.0);
+    return result;
+  }
+  Json stribeck() {
+    Json result = curve();
+    const int form = draws_.pick(4);
+    if (form == 0) result["exponent"] = draws_.uniform(0.7, 3.0);
+    if (form >= 2) result["form"] = form == 2 ? "exponential" : "lorentz";
+    return result;
+  }
+  /// Bristles: not softer than the spring by much, nor so stiff that only implicit steps pay.
+  double sigma0(double kinetic) {
+    return kinetic /
+           (sizes_.length() * (sizes_.wide ? draws_.logarithmic(1e-5, 1.0) : draws_.logarithmic(1e-3, 0.3)));
+  }
+  Json lugre() {
+    Json result = curve();
+    result["sigma0"] = sigma0(result.at("kinetic").get<double>());
+    result["sigma1"] = critical() * draws_.logarithmic(1e-3, 1.0);
+    if (draws_.chance(0.5)) result["sigma2"] = critical() * draws_.logarithmic(1e-3, 0.5);
+    return result;
+  }
+  Json elasto_plastic() {
+    Json result = lugre();
+    result["elastic_limit"] =
+        result.at("kinetic").get<double>() / result.at("sigma0").get<double>() * draws_.uniform(0.2, 0.9);
+    return result;
+  }
+  Json dahl() {
+    const double kinetic = force();
+    Json result = {{"kinetic", kinetic}, {"sigma0", sigma0(kinetic)}};
+    if (draws_.chance(0.3)) result["exponent"] = draws_.uniform(1.0, 2.0);
+    return result;
+  }
+  Json bouc_wen() {
+    const double limit = force();
+    Json result = {{"limit", limit}, {"stiffness", sigma0(limit)}, {"exponent", draws_.uniform(1.0, 4.0)}};
+    if (draws_.chance(0.5)) result["ratio"] = draws_.uniform(0.0, 0.5);
+    if (draws_.chance(0.5)) result["beta_share"] = draws_.uniform(0.5, 1.0);
+    return result;
+  }
+  Json generalized_maxwell_slip() {
+    Json result = curve();
+    const double stiffness = sigma0(result.at("kinetic").get<double>());
+    const int count = 1 + draws_.pick(4);
+    Json elements = Json::array();
+    for (int i = 0; i < count; ++i)
+      elements.push_back({{"stiffness", stiffness * draws_.logarithmic(0.2, 2.0)}, {"share", 1.0 / count}});
+    result["elements"] = elements;
+    result["attraction"] = result.at("kinetic").get<double>() * sizes_.natural * draws_.logarithmic(1.0, 100.0);
+    return result;
+  }
+  Json rate_state() {
+    const double a = draws_.logarithmic(0.003, 0.03);
+    return {{"normal_force", force()},
+            {"mu0", draws_.uniform(0.3, 0.8)},
+            {"a", a},
+            {"b", a * draws_.uniform(0.2, 2.0)},
+            {"slip_distance", sizes_.length() * draws_.logarithmic(1e-2, 1.0)},
+            {"reference_velocity", sizes_.speed() * draws_.logarithmic(1e-5, 1e-2)},
+            {"evolution", draws_.chance(0.5) ? "aging" : "slip"}};
+  }
+  Json friction_lag() {
+    Json result = stribeck();
+    result["lag"] = time() * draws_.logarithmic(1e-2, 1.0);
+    return result;
+  }
+  Json normal_vibration() {
+    Json result = {{"mu", draws_.uniform(0.1, 0.6)}, {"weight", force()}};
+    if (draws_.chance(0.5)) result["mu_static"] = result.at("mu").get<double>() * draws_.uniform(1.0, 1.5);
+    const double weight = result.at("weight").get<double>();
+    const double rise = draws_.logarithmic(3.0, 30.0) * sizes_.natural;
+    result["static_approach"] = sizes_.length() * draws_.logarithmic(1e-4, 1e-2);
+    result["normal_mass"] = 2.0 * weight / result.at("static_approach").get<double>() / (rise * rise);
+    result["normal_damping_ratio"] = draws_.uniform(0.02, 0.5);
+    result["lift_velocity"] = sizes_.speed() * draws_.logarithmic(0.1, 3.0);
+    result["lift"] = 0.6 * weight / result.at("lift_velocity").get<double>() * draws_.uniform(0.0, 1.0);
+    return result;
+  }
+  Json viscous_saturating() {
+    const double velocity = sizes_.speed() * draws_.logarithmic(0.05, 5.0);
+    return {{"coefficient", force() / velocity}, {"saturation_velocity", velocity}};
+  }
+  Json viscous_power() {
+    return {{"coefficient", force()},
+            {"reference_velocity", sizes_.speed()},
+            {"exponent", draws_.chance(0.3) ? 2.0 : draws_.uniform(0.5, 3.0)}};
+  }
+
+  void add_modifiers(Json& law) {
+    const friction::LawEntry* entry = friction::find_law(law.at("law").get<std::string>());
+    for (const std::string_view modifier : entry->modifiers) {
+      if (!draws_.chance(0.07)) continue;
+      if (modifier == "drift") {
+        law["drift"] = draws_.uniform(-0.03, 0.03) / time();
+      } else if (modifier == "position_slope" && !law.contains("contact_damping")) {
+        law["position_slope"] = draws_.sign() * sizes_.stiffness * draws_.logarithmic(1e-3, 1.5);
+      } else if (modifier == "fluctuation") {
+        const double ratio = draws_.uniform(0.05, entry->is_random ? 0.2 : 0.9);
+        law["fluctuation"] = {{"ratio", ratio},
+                              {"correlation_time", time() * draws_.logarithmic(1.0, 50.0)},
+                              {"seed", draws_.pick(1000)}};
+      } else if (modifier == "warming") {
+        law["warming"] = {{"power", sizes_.force * sizes_.speed() * draws_.logarithmic(0.1, 10.0)},
+                          {"time_constant", time() * draws_.logarithmic(1.0, 100.0)}};
+      }
+    }
+  }
+
+  Draws& draws_;
+  const Sizes& sizes_;
+};
+
+const std::array<RandomLaws::Kind, 5> RandomLaws::exact = {{{"coulomb", &RandomLaws::coulomb},
+                                                            {"contact_compliance", &RandomLaws::contact},
+                                                            {"reset_integrator", &RandomLaws::reset_integrator},
+                                                            {"iwan", &RandomLaws::iwan},
+                                                            {"bristle", &RandomLaws::bristle}}};
+
+const std::array<RandomLaws::Kind, 11> RandomLaws::smooth = {
+    {{"stribeck", &RandomLaws::stribeck},
+     {"lugre", &RandomLaws::lugre},
+     {"elasto_plastic", &RandomLaws::elasto_plastic},
+     {"dahl", &RandomLaws::dahl},
+     {"bouc_wen", &RandomLaws::bouc_wen},
+     {"generalized_maxwell_slip", &RandomLaws::generalized_maxwell_slip},
+     {"rate_state", &RandomLaws::rate_state},
+     {"friction_lag", &RandomLaws::friction_lag},
+     {"normal_vibration", &RandomLaws::normal_vibration},
+     {"viscous_saturating", &RandomLaws::viscous_saturating},
+     {"viscous_power", &RandomLaws::viscous_power}}};
+
+/// Laws of the exact engine by how often they are met: rigid friction and contacts most.
+std::size_t exact_kind(Draws& draws) {
+  constexpr std::array<std::size_t, 10> kinds = {0, 0, 0, 0, 1, 1, 1, 2, 3, 4};
+  return kinds[static_cast<std::size_t>(draws.pick(static_cast<int>(kinds.size())))];
+}
+
+}  // namespace
+
+Json random_friction(Draws& draws, const Sizes& sizes) {
+  RandomLaws laws(draws, sizes);
+  Json list = Json::array();
+  const bool has_smooth = draws.chance(0.25);
+  if (has_smooth)
+    list.push_back(laws.law(RandomLaws::smooth[static_cast<std::size_t>(draws.pick(RandomLaws::smooth.size()))]));
+  const int more = draws.chance(0.65) ? (has_smooth ? 0 : 1) : 2 + draws.pick(2) - (has_smooth ? 1 : 0);
+  for (int i = 0; i < more; ++i) list.push_back(laws.law(RandomLaws::exact[exact_kind(draws)]));
+  return list;
+}
+
+}  // namespace dualdamp::crosscheck

@@ -1,0 +1,134 @@
+#include "bench/crosscheck/random_scenario.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::crosscheck {
+
+namespace {
+
+std::string frequency(double omega) { return core::format_number(omega) + " rad/s"; }
+
+double damping_ratio(Draws& draws, bool wide) {
+  const int kind = draws.pick(16);
+  if (kind == 0) return 0.0;
+  if (kind == 1) return -draws.logarithmic(1e-3, wide ? 10.0 : 0.5);
+  return wide ? draws.logarithmic(1e-6, 1e4) : draws.logarithmic(1e-3, 2.0);
+}
+
+Json harmonics(Draws& draws, double amplitude) {
+  Json list = Json::array();
+  const int count = 1 + draws.pick(draws.chance(0.2) ? 8 : 3);
+  int order = 1;
+  for (int i = 0; i < count; ++i) {
+    order += 1 + draws.pick(3);
+    const double size = amplitude * draws.logarithmic(1e-3, 0.5);
+    list.push_back({{"order", order}, {"amplitude", size}, {"phase", draws.angle()}});
+  }
+  return list;
+}
+
+Json harmonic(Draws& draws, const Sizes& sizes, const char* type) {
+  const bool moves_base = std::string_view(type) == "base_harmonic";
+  const double ratio = sizes.wide ? draws.logarithmic(1e-3, 1e3) : draws.logarithmic(0.05, 20.0);
+  const double amplitude = moves_base ? sizes.length() : sizes.force;
+  Json drive = {{"type", type}, {"amplitude", amplitude}, {"frequency", frequency(ratio * sizes.natural)}};
+  if (draws.chance(0.6)) drive["phase"] = draws.angle();
+  if (draws.chance(0.2)) drive["harmonics"] = harmonics(draws, amplitude);
+  if (!moves_base && draws.chance(0.3)) drive["offset"] = draws.sign() * sizes.force * draws.logarithmic(1e-2, 1.0);
+  return drive;
+}
+
+/// A ramp that reaches the force of the drive within 0.1 to 100 natural periods, so that the friction gives way.
+Json ramp(Draws& draws, const Sizes& sizes, const char* type) {
+  const double time = draws.logarithmic(0.1, 100.0) * 2.0 * std::numbers::pi / sizes.natural;
+  const double sign = draws.sign();
+  if (std::string_view(type) == "base_ramp") return {{"type", type}, {"velocity", sign * sizes.length() / time}};
+  return {{"type", type}, {"rate", sign * sizes.force / time}};
+}
+
+Json noise(Draws& draws, const Sizes& sizes) {
+  const double bandwidth = sizes.natural * draws.logarithmic(0.5, 20.0);
+  const double size = sizes.force * sizes.force;
+  return {{"type", "force_noise"},
+          {"intensity", size / bandwidth},
+          {"bandwidth", frequency(bandwidth)},
+          {"seed", draws.pick(1'000'000)}};
+}
+
+Json excitation(Draws& draws, const Sizes& sizes) {
+  const int kind = draws.pick(20);
+  if (kind < 10) return harmonic(draws, sizes, "base_harmonic");
+  if (kind < 14) return harmonic(draws, sizes, "force_harmonic");
+  if (kind < 16) return ramp(draws, sizes, "base_ramp");
+  if (kind < 17) return ramp(draws, sizes, "force_ramp");
+  if (kind < 18) return noise(draws, sizes);
+  return {{"type", "none"}};
+}
+
+/// How long a motion without a period is followed [s].
+double duration(const Json& excitation, const Sizes& sizes) {
+  const double natural_period = 2.0 * std::numbers::pi / sizes.natural;
+  double time = 10.0 * natural_period;
+  if (excitation.contains("velocity"))
+    time += 3.0 * sizes.length() / std::abs(excitation.at("velocity").get<double>());
+  if (excitation.contains("rate")) time += 3.0 * sizes.force / std::abs(excitation.at("rate").get<double>());
+  return time;
+}
+
+}  // namespace
+
+Json random_scenario(std::uint64_t seed, std::uint32_t index) {
+  Draws draws(seed, index);
+  Sizes sizes;
+  sizes.wide = draws.chance(0.3);
+  sizes.mass = draws.logarithmic(1e-3, 1e3);
+  sizes.natural = draws.logarithmic(0.1, 1e3);
+  sizes.stiffness = sizes.mass * sizes.natural * sizes.natural;
+  sizes.force = sizes.stiffness * draws.logarithmic(1e-4, 1.0);
+  const double zeta = damping_ratio(draws, sizes.wide);
+  Json system = {
+      {"mass", sizes.mass}, {"stiffness", sizes.stiffness}, {"damping", 2.0 * zeta * sizes.mass * sizes.natural}};
+  if (draws.chance(0.25)) system["damper_to"] = "base";
+  if (draws.chance(0.08)) {
+    const double share = draws.chance(0.7) ? draws.logarithmic(1e-3, 10.0) : -draws.logarithmic(1e-3, 0.05);
+    system["cubic_stiffness"] = share * sizes.stiffness / (sizes.length() * sizes.length());
+  }
+  const Json drive = excitation(draws, sizes);
+  system["friction"] = random_friction(draws, sizes);
+  Json scenario = {{"schema", "dualdamp/1"}, {"system", system}, {"excitation", drive}};
+  const bool is_free = drive.at("type") == "none";
+  if (is_free || draws.chance(0.4)) {
+    const double x = draws.sign() * sizes.length() * draws.logarithmic(0.1, 10.0);
+    const double v = draws.chance(0.5) ? 0.0 : draws.sign() * sizes.speed() * draws.logarithmic(0.1, 10.0);
+    scenario["initial"] = {{"position", x}, {"velocity", v}};
+  }
+  const bool is_periodic = drive.contains("frequency");
+  scenario["analysis"] = is_periodic ? Json{{"type", "steady_state"}}
+                                     : Json{{"type", "simulate"}, {"duration", duration(drive, sizes)}};
+  return scenario;
+}
+
+std::string yaml(const Json& scenario) {
+  std::string text;
+  for (const auto& [key, value] : scenario.items()) {
+    if (key != "system") {
+      text += key + ": " + (value.is_string() ? value.get<std::string>() : value.dump()) + "\n";
+      continue;
+    }
+    text += "system:\n";
+    for (const auto& [name, part] : value.items()) {
+      if (name != "friction") {
+        text += "  " + name + ": " + (part.is_string() ? part.get<std::string>() : part.dump()) + "\n";
+        continue;
+      }
+      text += "  friction:\n";
+      for (const Json& law : part) text += "    - " + law.dump() + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace dualdamp::crosscheck

@@ -1,0 +1,77 @@
+#include "bench/crosscheck/walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/engine/engine.hpp"
+#include "sim/motion/observers.hpp"
+
+namespace dualdamp::crosscheck {
+
+namespace {
+
+/// Energy that went to and fro: what rounding of the account is measured by.
+double exchanged(const sim::Model& model, const Walk& walk) {
+  const sim::Oscillator& o = model.oscillator;
+  double x = 0.0;
+  double v = 0.0;
+  double y = 0.0;
+  double f = 0.0;
+  for (const sim::Sample& sample : walk.samples) {
+    x = std::max(x, std::abs(sample.x));
+    v = std::max(v, std::abs(sample.v));
+    y = std::max(y, std::abs(sample.y));
+    f = std::max(f, std::abs(sample.external));
+  }
+  const double extent = x + y;
+  const double events = static_cast<double>(walk.events.size()) + 1.0;
+  const double stored = o.mass * v * v + o.stiffness * extent * extent +
+                        std::abs(o.cubic_stiffness) * extent * extent * extent * extent + f * x;
+  return stored * events + std::abs(walk.energy.input) + std::abs(walk.energy.friction) +
+         std::abs(walk.energy.viscous);
+}
+
+void take_samples(const sim::Interval& interval, double spacing, std::vector<sim::Sample>& samples) {
+  while (samples.size() < static_cast<std::size_t>(walk_samples)) {
+    const double t = spacing * static_cast<double>(samples.size() + 1);
+    if (t > interval.end()) return;
+    samples.push_back(interval.state_at(t));
+  }
+}
+
+bool all_finite(const Walk& walk) {
+  const auto is_finite = [](const auto& item) {
+    return std::isfinite(item.t) && std::isfinite(item.x) && std::isfinite(item.v);
+  };
+  return std::ranges::all_of(walk.events, is_finite) && std::ranges::all_of(walk.samples, is_finite);
+}
+
+}  // namespace
+
+Walk walk(const sim::Model& model, const WalkOptions& options) {
+  Walk result;
+  const std::unique_ptr<sim::Engine> engine = sim::make_engine(model);
+  sim::EnergyAudit audit(model.oscillator);
+  const double spacing = options.duration / walk_samples;
+  long intervals = 0;
+  while (const sim::Interval* interval = engine->next(options.duration)) {
+    if (options.with_energy) audit.observe(*interval);
+    take_samples(*interval, spacing, result.samples);
+    result.end = interval->end();
+    if (interval->ending)
+      result.events.push_back({interval->end(), *interval->ending, engine->position(), engine->velocity()});
+    if (++intervals >= options.max_intervals) {
+      result.ended_early = true;
+      break;
+    }
+  }
+  result.outcome = engine->outcome();
+  result.finite = all_finite(result);
+  if (options.with_energy) {
+    result.energy = audit.account();
+    result.energy_scale = exchanged(model, result);
+  }
+  return result;
+}
+
+}  // namespace dualdamp::crosscheck

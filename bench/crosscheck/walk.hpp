@@ -1,0 +1,35 @@
+#pragma once
+/// A motion as far as a comparison needs it: its events, equally spaced samples, its energy account.
+
+#include <string>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "sim/motion/simulate.hpp"
+
+namespace dualdamp::crosscheck {
+
+struct WalkOptions {
+  double duration = 0.0;  ///< s
+  /// A walk of more intervals ends early; so a stiff motion costs a bounded time, the same on every machine.
+  long max_intervals = 20'000;
+  bool with_energy = false;
+};
+
+/// Samples of a whole walk, the first one at t = 0 left out.
+inline constexpr int walk_samples = 200;
+
+struct Walk {
+  core::Outcome outcome;
+  bool ended_early = false;  ///< by the number of intervals
+  double end = 0.0;          ///< where it ends [s]
+  std::vector<sim::Event> events;
+  std::vector<sim::Sample> samples;  ///< at duration/walk_samples, ...
+  sim::Energy energy;
+  double energy_scale = 0.0;  ///< sum of the moduli of all that was exchanged [J]
+  bool finite = true;         ///< every event and sample is
+};
+
+[[nodiscard]] Walk walk(const sim::Model& model, const WalkOptions& options);
+
+}  // namespace dualdamp::crosscheck

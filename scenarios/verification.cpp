@@ -1,0 +1,339 @@
+#include "scenarios/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "core/numbers.hpp"
+#include "friction_models/law_fault.hpp"
+#include "sim/engine/engine.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+constexpr double tight = 1e-13;
+constexpr double multiplier_tolerance = 1e-4;
+
+/// Numbers that say how a result was computed.
+bool is_account(const std::string& path) { return path.starts_with("certificate") || path == "energy.defect"; }
+
+/// "sticks[2].start" as the fields have it: "sticks[].start".
+std::string without_indices(const std::string& path) {
+  std::string result;
+  bool inside = false;
+  for (const char c : path) {
+    if (c == ']') inside = false;
+    if (!inside) result += c;
+    if (c == '[') inside = true;
+  }
+  return result;
+}
+
+std::string unit_of(const std::vector<ResultField>& fields, const std::string& path) {
+  const auto field = std::ranges::find(fields, without_indices(path), &ResultField::path);
+  return field == fields.end() ? "1" : field->unit;
+}
+
+/// Numbers, words and truths of a result by their path.
+using Leaves = std::map<std::string, Json>;
+
+void collect(const Json& json, const std::string& path, Leaves& leaves) {
+  if (is_account(path) || path == "multipliers") return;
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) collect(value, path.empty() ? key : path + "." + key, leaves);
+  } else if (json.is_array()) {
+    leaves[path + ".length"] = json.size();
+    for (std::size_t i = 0; i < json.size(); ++i) collect(json[i], path + "[" + std::to_string(i) + "]", leaves);
+  } else if (!json.is_null()) {
+    leaves[path] = json;
+  }
+}
+
+/// What follows from another list of the result.
+bool is_derived(const Table& table) { return table.key == "regimes"; }
+
+/// Rows of a table that are compared: all but grazings.
+std::vector<std::size_t> rows_of(const Table& table) {
+  const auto kind = std::ranges::find(table.columns, "kind", &Column::name);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (kind == table.columns.end() || kind->text(i) != "grazing") rows.push_back(i);
+  return rows;
+}
+
+/// Tables of samples: the columns that are continuous in time, of which a shift of an event by rounding makes no
+/// other number.
+bool is_compared(const Table& table, const Column& column) {
+  if (column.name == "reason") return false;
+  return !table.key.empty() || column.name == "t" || column.name == "x" || column.name == "v";
+}
+
+class Comparison {
+ public:
+  Comparison(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields)
+      : answer_(answer), other_(other), fields_(fields) {}
+
+  Verification compare() {
+    Leaves mine;
+    Leaves theirs;
+    collect(answer_.result, {}, mine);
+    collect(other_.result, {}, theirs);
+    size_up(mine);
+    // It follows from the multipliers, which are compared: of one on the unit circle rounding would decide it.
+    if (answer_.result.contains("multipliers")) {
+      mine.erase("stable");
+      theirs.erase("stable");
+    }
+    for (const auto& [path, value] : mine) compare_leaf(path, value, theirs);
+    for (const auto& [path, value] : theirs)
+      if (!mine.contains(path)) differ(path, "only the other result has it");
+    compare_multipliers();
+    for (const Table& table : answer_.tables)
+      if (!is_derived(table)) compare_table(table);
+    return std::move(result_);
+  }
+
+ private:
+  /// The largest value of every unit.
+  void size_up(const Leaves& leaves) {
+    const auto add = [&](const std::string& unit, double value) {
+      if (std::isfinite(value)) sizes_[unit] = std::max(sizes_[unit], std::abs(value));
+    };
+    for (const auto& [path, value] : leaves)
+      if (value.is_number_float()) add(unit_of(fields_, path), value.get<double>());
+    for (const Table& table : answer_.tables)
+      for (const Column& column : table.columns)
+        for (const double value : column.numbers) add(column.unit, value);
+  }
+
+  void differ(const std::string& quantity, const std::string& reason) {
+    ++result_.quantities;
+    if (!result_.agrees) return;
+    result_.agrees = false;
+    result_.quantity = quantity;
+    result_.largest_difference = 1.0;
+    result_.tolerance = 0.0;
+    result_.reason = quantity + ": " + reason;
+    share_ = std::numeric_limits<double>::infinity();
+  }
+
+  void add(const std::string& quantity, double difference, double tolerance, double mine, double theirs) {
+    ++result_.quantities;
+    const double share = difference / tolerance;
+    if (share <= share_) return;
+    share_ = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
+    result_.quantity = quantity;
+    result_.largest_difference = difference;
+    result_.tolerance = tolerance;
+    result_.agrees = difference <= tolerance;
+    if (!result_.agrees)
+      result_.reason =
+          quantity + ": " + core::format_number(mine) + ", the other result " + core::format_number(theirs);
+  }
+
+  void compare_numbers(const std::string& quantity, const std::string& unit, double mine, double theirs,
+                       double size) {
+    if (std::isnan(mine) && std::isnan(theirs)) return;
+    double gap = std::abs(mine - theirs);
+    if (unit == "rad") {
+      gap = std::abs(std::remainder(mine - theirs, 2.0 * std::numbers::pi));
+      size = 1.0;
+    }
+    add(quantity, gap == 0.0 ? 0.0 : gap / size, verification_tolerance(unit), mine, theirs);
+  }
+
+  void compare_leaf(const std::string& path, const Json& value, const Leaves& others) {
+    const auto other = others.find(path);
+    if (other == others.end()) return differ(path, "only this result has it");
+    if (value.is_number_float() && other->second.is_number()) {
+      const std::string unit = unit_of(fields_, path);
+      return compare_numbers(path, unit, value.get<double>(), other->second.get<double>(), sizes_[unit]);
+    }
+    if (value != other->second) return differ(path, value.dump() + ", the other result " + other->second.dump());
+    ++result_.quantities;
+  }
+
+  /// Each against the nearest one that is left.
+  void compare_multipliers() {
+    if (!answer_.result.contains("multipliers") || !other_.result.contains("multipliers")) return;
+    const auto values = [](const Json& list) {
+      std::vector<std::complex<double>> result;
+      for (const Json& pair : list)
+        if (pair[0].is_number() && pair[1].is_number()) result.emplace_back(pair[0], pair[1]);
+      return result;
+    };
+    const std::vector<std::complex<double>> mine = values(answer_.result.at("multipliers"));
+    std::vector<std::complex<double>> theirs = values(other_.result.at("multipliers"));
+    if (mine.size() != theirs.size()) return differ("multipliers", "another number of them");
+    for (const std::complex<double>& value : mine) {
+      const auto nearest = std::ranges::min_element(
+          theirs, {}, [&](const std::complex<double>& other) { return std::abs(other - value); });
+      add("multipliers", std::abs(*nearest - value) / std::max(1.0, std::abs(value)), multiplier_tolerance,
+          std::abs(value), std::abs(*nearest));
+      theirs.erase(nearest);
+    }
+  }
+
+  void compare_table(const Table& table) {
+    const auto other = std::ranges::find(other_.tables, table.name, &Table::name);
+    const std::string& name = table.key.empty() ? table.name : table.key;
+    if (other == other_.tables.end()) return differ(name, "the other result has none");
+    const std::vector<std::size_t> mine = rows_of(table);
+    const std::vector<std::size_t> theirs = rows_of(*other);
+    if (mine.size() != theirs.size())
+      return differ(name, std::to_string(mine.size()) + " rows, the other result " + std::to_string(theirs.size()));
+    const std::vector<char> compared = compared_rows(table, mine, *other, theirs);
+    for (const Column& column : table.columns) {
+      if (!is_compared(table, column)) continue;
+      const auto peer = std::ranges::find(other->columns, column.name, &Column::name);
+      if (peer == other->columns.end()) {
+        differ(name + "[]." + column.name, "only this result has it");
+        continue;
+      }
+      for (std::size_t i = 0; i < mine.size(); ++i)
+        if (compared[i])
+          compare_cell(name + "[" + std::to_string(i) + "]." + column.name, table, column, mine[i], *peer,
+                       theirs[i]);
+    }
+  }
+
+  /// Rows in which one computation has a reason instead of numbers are counted and not compared.
+  std::vector<char> compared_rows(const Table& table, const std::vector<std::size_t>& mine, const Table& other,
+                                  const std::vector<std::size_t>& theirs) {
+    std::vector<char> result(mine.size(), 1);
+    const auto has_reason = [](const Table& t, std::size_t row) {
+      const auto reason = std::ranges::find(t.columns, "reason", &Column::name);
+      return reason != t.columns.end() && !reason->text(row).empty();
+    };
+    for (std::size_t i = 0; i < mine.size(); ++i)
+      if (has_reason(table, mine[i]) || has_reason(other, theirs[i])) {
+        result[i] = 0;
+        ++result_.rows_left_out;
+      }
+    return result;
+  }
+
+  void compare_cell(const std::string& quantity, const Table& table, const Column& column, std::size_t row,
+                    const Column& peer, std::size_t peer_row) {
+    if (column.kind == CellKind::text) {
+      if (column.text(row) != peer.text(peer_row))
+        return differ(quantity, column.text(row) + ", the other result " + peer.text(peer_row));
+      ++result_.quantities;
+      return;
+    }
+    const double mine = column.numbers[row];
+    const double theirs = peer.numbers[peer_row];
+    if (column.kind == CellKind::number) {
+      // Each point of a curve is a motion of its own.
+      const double size = table.key == "points" ? std::abs(mine) : sizes_[column.unit];
+      return compare_numbers(quantity, column.unit, mine, theirs, size);
+    }
+    if (mine != theirs && !(std::isnan(mine) && std::isnan(theirs)))
+      return differ(quantity, core::format_number(mine) + ", the other result " + core::format_number(theirs));
+    ++result_.quantities;
+  }
+
+  const Answer& answer_;
+  const Answer& other_;
+  const std::vector<ResultField>& fields_;
+  std::map<std::string, double> sizes_;
+  double share_ = -1.0;
+  Verification result_;
+};
+
+/// Another way to compute the same motions.
+struct Way {
+  std::string words;
+  sim::Solver solver;
+};
+
+/// The first that can be used: steps of the other kind; where they give up those of the same kind, but tight.
+std::vector<Way> other_ways(const sim::Model& model) {
+  const std::string end = " at tolerance " + core::format_number(tight, 1);
+  const Way explicit_way = {"smooth engine, explicit steps" + end, {sim::SolverKind::explicit_steps, tight}};
+  const Way implicit_way = {"smooth engine, implicit steps" + end, {sim::SolverKind::implicit_steps, tight}};
+  if (sim::is_exact(model)) return {explicit_way, implicit_way};
+  if (model.solver.kind == sim::SolverKind::implicit_steps) return {explicit_way};
+  return {implicit_way};
+}
+
+/// The other answer, by the first way that has one.
+struct OtherAnswer {
+  Answer answer;
+  std::string words;
+  sim::Model model;
+};
+
+OtherAnswer other_answer(const Scenario& scenario, const RunOptions& options) {
+  OtherAnswer other{{}, {}, scenario.model};
+  for (const Way& way : other_ways(scenario.model)) {
+    other.model.solver = way.solver;
+    other.words = way.words;
+    try {
+      other.answer = scenario.question->run({other.model, tight, scenario.resolved, options});
+    } catch (const friction::LawFault& fault) {
+      other.answer = failed(fault.what());
+    }
+    if (!other.answer.result.is_null()) break;
+  }
+  return other;
+}
+
+/// The graver one of both.
+Verification worse(Verification a, Verification b) {
+  const long quantities = a.quantities + b.quantities;
+  const auto share = [](const Verification& v) { return v.agrees ? v.largest_difference / v.tolerance : 2.0; };
+  Verification result = b.quantities > 0 && share(b) > share(a) ? std::move(b) : std::move(a);
+  result.quantities = quantities;
+  return result;
+}
+
+}  // namespace
+
+double verification_tolerance(std::string_view unit) {
+  // A force acts on the motion, so a length is as good as a velocity. The time of an event and a work are integrals
+  // and roots of them.
+  constexpr double of_motion = 1e-7;
+  constexpr double of_times_and_works = 1e-6;
+  return unit == "m" || unit == "m/s" || unit == "N" ? of_motion : of_times_and_works;
+}
+
+Verification compare_answers(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields) {
+  return Comparison(answer, other, fields).compare();
+}
+
+Verification verify(const Scenario& scenario, const RunOptions& options, const Answer& answer) {
+  const OtherAnswer other = other_answer(scenario, options);
+  const std::string& words = other.words;
+  if (answer.result.is_null() || other.answer.result.is_null()) {
+    Verification result{.engine = words, .agrees = false};
+    if (answer.result.is_null())
+      result.reason = other.answer.result.is_null() ? "there is no result to verify: " + other.answer.failure
+                                                    : "the other computation has a result, this one none";
+    else
+      result.reason = "the other computation has no result: " + other.answer.failure;
+    return result;
+  }
+  Verification result = compare_answers(answer, other.answer, scenario.result_fields);
+  result.engine = words;
+  const std::optional<OtherWay> more =
+      scenario.question->other_way({scenario.model, scenario.tolerance, scenario.resolved, options});
+  if (!more) return result;
+  if (more->answer.result.is_null()) {
+    result.engine += "; not by " + more->words + ": " + more->answer.failure;
+    return result;
+  }
+  Answer same = failed({});
+  for (const auto& [key, value] : more->answer.result.items())
+    if (answer.result.contains(key)) same.result[key] = answer.result.at(key);
+  result = worse(std::move(result), compare_answers(same, more->answer, scenario.result_fields));
+  result.engine = words + "; " + more->words;
+  return result;
+}
+
+}  // namespace dualdamp::scenarios

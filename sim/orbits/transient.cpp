@@ -1,0 +1,77 @@
+#include "sim/orbits/transient.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/validate.hpp"
+
+namespace dualdamp::sim {
+
+namespace {
+
+/// Decides by how the last periods closed.
+class Closing {
+ public:
+  Closing(double rounding, double settled) : rounding_(rounding), settled_(settled) {}
+
+  /// Whether the transient has ended.
+  bool add(double closure) {
+    constexpr std::size_t back = 8;  // an orbit that winds closes better and worse by turns
+    closures_.push_back(closure);
+    const std::size_t count = closures_.size();
+    if (count <= back) return false;
+    const auto last = closures_.end() - static_cast<std::ptrdiff_t>(back);
+    const double largest = *std::max_element(last, closures_.end());
+    if (largest <= rounding_) return true;
+    const double rate = std::pow(closure / closures_[count - 1 - back], 1.0 / static_cast<double>(back));
+    return rate < 1.0 && largest < settled_ && closure * rate / (1.0 - rate) < settled_;
+  }
+
+ private:
+  double rounding_;
+  double settled_;
+  std::vector<double> closures_;
+};
+
+}  // namespace
+
+Transient follow_transient(const Model& model, const TransientOptions& options) {
+  constexpr double rounding = 4e-15;
+  Transient result;
+  PeriodMap map(valid_harmonic(model, "follow_transient"));
+  PeriodEvents events;
+  ForcingPeriod period = map.from_start(model.initial.position, model.initial.velocity, Monodromy::without);
+  Closing closing(std::max(rounding, map.engine().accuracy()), options.settled);
+  for (result.periods = 1; result.periods < options.max_periods && map.outcome().ok();) {
+    period = map.from(period.end, Monodromy::without, &events);
+    ++result.periods;
+    result.closure = period.closure(model.excitation.frequency);
+    result.settled = closing.add(result.closure);
+    if (result.settled || (options.give_up && options.give_up())) break;
+  }
+  result.outcome = map.outcome();
+  result.peak = events.peak();
+  result.trough = events.trough();
+  result.stops = events.stops();
+  return result;
+}
+
+void PeriodEvents::begin(const State& start) {
+  sequence_.clear();
+  peak_ = trough_ = start.x;
+  stops_ = 0;
+}
+
+void PeriodEvents::observe(const Interval& interval, double x) {
+  peak_ = std::max(peak_, x);
+  trough_ = std::min(trough_, x);
+  if (!interval.ending) return;
+  if (*interval.ending == EventKind::stop) ++stops_;
+  sequence_ += static_cast<char>('a' + static_cast<int>(*interval.ending));
+  sequence_ += interval.direction == friction::Direction::none      ? '0'
+               : interval.direction == friction::Direction::forward ? '+'
+                                                                    : '-';
+}
+
+}  // namespace dualdamp::sim

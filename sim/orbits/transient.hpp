@@ -1,0 +1,57 @@
+#pragma once
+/// The motion from the initial state, forcing period by forcing period, until it repeats itself: what a steady
+/// state is checked against. It shares the engine with `steady_state`, but neither Newton's method nor the
+/// monodromy matrix.
+///
+/// The periods still to come add up to about d q/(1 - q), with the distance d by which the last period closes and
+/// the factor q by which this distance falls from period to period. The transient has settled when that is below
+/// `TransientOptions::settled` of the size of the motion. Cost: one pass of the engine per period.
+
+#include <functional>
+#include <string>
+
+#include "core/outcome.hpp"
+#include "sim/model.hpp"
+#include "sim/orbits/period_map.hpp"
+
+namespace dualdamp::sim {
+
+struct TransientOptions {
+  int max_periods = 2000;
+  double settled = 1e-9;            ///< relative to the size of the motion
+  std::function<bool()> give_up{};  ///< asked after every period; may be absent
+};
+
+struct Transient {
+  core::Outcome outcome;  ///< of the engine
+  bool settled = false;
+  int periods = 0;
+  double closure = 0.0;  ///< of the last period, relative to the size of the motion
+  double peak = 0.0;     ///< max x of the last period [m]
+  double trough = 0.0;   ///< min x of the last period [m]
+  int stops = 0;         ///< in the last period
+};
+
+/// Needs a harmonic excitation.
+[[nodiscard]] Transient follow_transient(const Model& model, const TransientOptions& options = {});
+
+/// What happens in a period: its extremes, and its events in order.
+class PeriodEvents : public PeriodObserver {
+ public:
+  void begin(const State& start) override;
+  void observe(const Interval& interval, double x) override;
+
+  /// Two letters for each event: its kind, and the direction before it.
+  [[nodiscard]] const std::string& sequence() const { return sequence_; }
+  [[nodiscard]] double peak() const { return peak_; }      ///< m
+  [[nodiscard]] double trough() const { return trough_; }  ///< m
+  [[nodiscard]] int stops() const { return stops_; }
+
+ private:
+  std::string sequence_;
+  double peak_ = 0.0;
+  double trough_ = 0.0;
+  int stops_ = 0;
+};
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,130 @@
+/// The campaign of random systems: what it draws, its variants of a scenario, and that it finds planted faults.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <stdexcept>
+
+#include "bench/crosscheck/campaign.hpp"
+#include "bench/crosscheck/case.hpp"
+#include "bench/crosscheck/differences.hpp"
+#include "bench/crosscheck/random_scenario.hpp"
+#include "bench/crosscheck/variants.hpp"
+#include "scenarios/scenario.hpp"
+
+using namespace dualdamp;
+using crosscheck::Verdict;
+using scenarios::Json;
+
+namespace {
+
+Json scenario(const std::string& law) {
+  return {{"schema", "dualdamp/1"},
+          {"system", {{"mass", 1.0}, {"stiffness", 100.0}, {"damping", 4.0}, {"friction", {Json::parse(law)}}}},
+          {"excitation", {{"type", "base_harmonic"}, {"amplitude", 0.1}, {"frequency", "10.0 rad/s"}}},
+          {"analysis", {{"type", "steady_state"}}}};
+}
+
+/// What ends the endless loop of a test.
+volatile bool never = false;
+
+}  // namespace
+
+TEST_CASE("crosscheck: every case that is drawn is a valid file, and the same one each time", "[crosscheck]") {
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Json drawn = crosscheck::random_scenario(5, i);
+    INFO(crosscheck::yaml(drawn));
+    CHECK(drawn == crosscheck::random_scenario(5, i));
+    CHECK_NOTHROW(scenarios::parse_scenario(crosscheck::yaml(drawn), "case"));
+  }
+}
+
+TEST_CASE("crosscheck: other units and back give the same values", "[crosscheck]") {
+  constexpr crosscheck::Scales there = {.force = 0.25, .length = 8.0, .time = 0.5};
+  constexpr crosscheck::Scales back = {.force = 4.0, .length = 0.125, .time = 2.0};
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const Json drawn = crosscheck::random_scenario(6, i);
+    INFO(crosscheck::yaml(drawn));
+    const Json other = crosscheck::scaled(drawn, there);
+    CHECK(other.at("system").at("stiffness").get<double>() ==
+          drawn.at("system").at("stiffness").get<double>() / 32.0);
+    CHECK(crosscheck::scaled(other, back) == drawn);
+  }
+}
+
+TEST_CASE("crosscheck: a perturbed scenario keeps static friction equal to kinetic", "[crosscheck]") {
+  crosscheck::Draws draws(1, 2);
+  const Json first = scenario(R"({"law": "coulomb", "kinetic": 2.0, "static": 2.0})");
+  const Json other = crosscheck::perturbed(first, 1e-10, 0.1, draws);
+  const Json& law = other.at("system").at("friction")[0];
+  CHECK(law.at("static") == law.at("kinetic"));
+  CHECK(law.at("kinetic") != 2.0);
+  CHECK(law.at("kinetic").get<double>() == Approx(2.0).epsilon(1.1e-10));
+}
+
+TEST_CASE("crosscheck: the ordinary case agrees in every comparison", "[crosscheck]") {
+  const crosscheck::CaseReport report =
+      crosscheck::check_case(scenario(R"({"law": "coulomb", "kinetic": 2.0})"), 1, 1);
+  CHECK(report.findings.size() >= 8);
+  for (const crosscheck::Finding& finding : report.findings) {
+    INFO(finding.comparison << ": " << finding.text);
+    CHECK(finding.verdict == Verdict::agreed);
+  }
+}
+
+TEST_CASE("crosscheck: a lost event is found, coincident ones are named", "[crosscheck]") {
+  crosscheck::Walk walk;
+  for (int i = 1; i <= crosscheck::walk_samples; ++i) {
+    const double t = 0.05 * i;
+    walk.samples.push_back({.t = t, .x = std::sin(t), .v = std::cos(t)});
+  }
+  using sim::EventKind;
+  walk.events = {{1.0, EventKind::switching, 0.1, 0.0},
+                 {4.0, EventKind::reversal, 0.2, 0.0},
+                 {7.0, EventKind::stop, 0.3, 0.0},
+                 {7.0 + 1e-9, EventKind::release, 0.3, 0.0}};
+  crosscheck::Sensitivity mild{.deviation = std::vector<double>(walk.samples.size(), 1e-10), .change = 1e-10};
+  CHECK(crosscheck::difference(walk, walk, mild, 1e-7).fault.empty());
+
+  crosscheck::Walk lost = walk;
+  lost.events.erase(lost.events.begin() + 1);
+  CHECK_THAT(crosscheck::difference(walk, lost, mild, 1e-7).fault, Catch::Contains("reversal"));
+
+  crosscheck::Walk silent = walk;
+  silent.events.erase(silent.events.begin());
+  CHECK(crosscheck::difference(walk, silent, mild, 1e-7).fault.empty());
+  CHECK(crosscheck::difference(walk, silent, mild, 1e-7).silent == 1);
+
+  crosscheck::Walk grazing = walk;
+  grazing.events.erase(grazing.events.begin() + 2, grazing.events.end());
+  const crosscheck::Difference named = crosscheck::difference(walk, grazing, mild, 1e-7);
+  CHECK(named.fault.empty());
+  CHECK(named.coincident == 1);
+
+  crosscheck::Walk off = walk;
+  off.samples[100].x += 1e-5;
+  CHECK_FALSE(crosscheck::difference(walk, off, mild, 1e-7).fault.empty());
+  crosscheck::Sensitivity strong{.deviation = std::vector<double>(walk.samples.size(), 1e-6), .change = 1e-10};
+  CHECK(crosscheck::difference(walk, off, strong, 1e-7).fault.empty());
+}
+
+TEST_CASE("crosscheck: a crash, an endless loop and an exception are entries and not the end", "[crosscheck]") {
+  const auto work = [](std::uint32_t index) -> std::string {
+    if (index == 11) std::raise(SIGSEGV);
+    if (index == 12)
+      while (!never) {
+      }
+    if (index == 13) throw std::runtime_error("no motion");
+    return "answer " + std::to_string(index);
+  };
+  std::map<std::uint32_t, crosscheck::Ending> endings;
+  crosscheck::run_in_children(10, 5, {.jobs = 2, .processor_seconds = 1}, work,
+                              [&](const crosscheck::Ending& ending) { endings[ending.index] = ending; });
+  REQUIRE(endings.size() == 5);
+  CHECK(endings[10].text == "answer 10");
+  CHECK_THAT(endings[11].failure, Catch::Contains("signal 11"));
+  CHECK_THAT(endings[12].failure, Catch::Contains("more than 1 s"));
+  CHECK_THAT(endings[13].failure, Catch::Contains("no motion"));
+  CHECK(endings[14].text == "answer 14");
+}

@@ -1,0 +1,157 @@
+/// Results computed again in another way (`numerics: {verify: true}`).
+
+#include "scenarios/verification.hpp"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "core/diagnostics.hpp"
+#include "scenarios/run.hpp"
+
+using namespace dualdamp;
+using scenarios::Answer;
+using scenarios::Json;
+using scenarios::Verification;
+
+namespace {
+
+scenarios::Scenario scenario_of(
+    const std::string& friction, const std::string& analysis,
+    const std::string& excitation = "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
+    const std::string& more = "numerics: {verify: true}") {
+  return scenarios::parse_scenario("schema: dualdamp/1\nsystem: {mass: 1, stiffness: 100, damping: 4, friction: " +
+                                       friction + "}\nexcitation: {type: " + excitation +
+                                       "}\ninitial: {position: 0.01}\nanalysis: " + analysis + "\n" + more + "\n",
+                                   "test.yaml");
+}
+
+const std::string coulomb = "{law: coulomb, kinetic: 2, static: 2.5}";
+
+const std::vector<scenarios::ResultField> fields = {{"peak", "m", ""}, {"phase", "rad", ""}, {"stops", "1", ""}};
+
+Answer answer(double peak, double phase) {
+  Answer result;
+  result.result = {{"peak", peak}, {"phase", phase}, {"stops", 2}, {"certificate", {{"searches", 17}}}};
+  return result;
+}
+
+Answer curve(double x) {
+  Answer result;
+  result.result["points"] = nullptr;
+  result.tables.push_back(
+      {.name = "curve",
+       .columns = {{.name = "x", .unit = "m", .numbers = {x, 1.0}},
+                   {.name = "stops", .numbers = {0.0, 2.0}, .kind = scenarios::CellKind::count}},
+       .key = "points"});
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("verification: the quantity that is off is named", "[scenarios][verification]") {
+  const Verification same = scenarios::compare_answers(answer(0.1, 1.0), answer(0.1, 1.0), fields);
+  CHECK(same.agrees);
+  CHECK(same.largest_difference == 0.0);
+  CHECK(same.quantities == 3);
+
+  const Verification off = scenarios::compare_answers(answer(0.1, 1.0), answer(0.1 + 1e-7, 1.0), fields);
+  CHECK_FALSE(off.agrees);
+  CHECK(off.quantity == "peak");
+  CHECK(off.largest_difference == Approx(1e-6));
+  CHECK(off.tolerance == scenarios::verification_tolerance("m"));
+  CHECK_THAT(off.reason, Catch::Contains("peak") && Catch::Contains("0.1"));
+
+  const double turn = 2.0 * std::numbers::pi;
+  CHECK(scenarios::compare_answers(answer(0.1, 1e-9), answer(0.1, turn - 1e-9), fields).agrees);
+  CHECK_FALSE(scenarios::compare_answers(answer(0.1, 1.0), answer(0.1, 1.001), fields).agrees);
+}
+
+TEST_CASE("verification: counts are equal, and a missing number is a difference", "[scenarios][verification]") {
+  Answer other = answer(0.1, 1.0);
+  other.result["stops"] = 3;
+  CHECK(scenarios::compare_answers(answer(0.1, 1.0), other, fields).quantity == "stops");
+  other = answer(0.1, 1.0);
+  other.result["peak"] = nullptr;
+  CHECK(scenarios::compare_answers(answer(0.1, 1.0), other, fields).quantity == "peak");
+  CHECK(scenarios::compare_answers(other, answer(0.1, 1.0), fields).quantity == "peak");
+}
+
+TEST_CASE("verification: each point of a curve is measured by its own amplitude", "[scenarios][verification]") {
+  // Beside an amplitude of 1 m an error of 1e-12 m would be nothing.
+  const Verification off = scenarios::compare_answers(curve(1e-6), curve(1e-6 + 1e-12), {});
+  CHECK_FALSE(off.agrees);
+  CHECK(off.quantity == "points[0].x");
+  Answer other = curve(1e-6);
+  other.tables[0].columns[1].numbers[1] = 4.0;
+  CHECK(scenarios::compare_answers(curve(1e-6), other, {}).quantity == "points[1].stops");
+}
+
+TEST_CASE("verification: Floquet multipliers are a set", "[scenarios][verification]") {
+  Answer mine;
+  Answer theirs;
+  mine.result["multipliers"] = Json::parse("[[0.5, 0.1], [0.5, -0.1], [0.0, 0.0]]");
+  theirs.result["multipliers"] = Json::parse("[[0.0, 0.0], [0.5, -0.1], [0.5, 0.1]]");
+  CHECK(scenarios::compare_answers(mine, theirs, {}).agrees);
+  theirs.result["multipliers"] = Json::parse("[[0.0, 0.0], [0.5, -0.1], [0.6, 0.1]]");
+  CHECK(scenarios::compare_answers(mine, theirs, {}).quantity == "multipliers");
+}
+
+TEST_CASE("verification: grazings are left out, other events are not", "[scenarios][verification]") {
+  const auto events = [](std::vector<double> t, std::vector<std::string> kinds) {
+    Answer result;
+    result.result["events"] = nullptr;
+    result.tables.push_back(
+        {.name = "events",
+         .columns = {{.name = "t", .unit = "s", .numbers = std::move(t)},
+                     {.name = "kind", .texts = std::move(kinds), .kind = scenarios::CellKind::text}},
+         .key = "events"});
+    return result;
+  };
+  const Answer all = events({1.0, 1.5, 2.0}, {"stop", "grazing", "release"});
+  CHECK(scenarios::compare_answers(all, events({1.0, 2.0}, {"stop", "release"}), {}).agrees);
+  CHECK(scenarios::compare_answers(all, events({1.0}, {"stop"}), {}).quantity == "events");
+  CHECK(scenarios::compare_answers(all, events({1.0, 2.0}, {"stop", "reversal"}), {}).quantity == "events[1].kind");
+}
+
+TEST_CASE("verification: the results of every kind of motion are computed again and agree",
+          "[scenarios][verification]") {
+  const std::string lugre = "{law: lugre, kinetic: 2, static: 3, stribeck_velocity: 0.05, sigma0: 1e4, sigma1: 20}";
+  const std::vector<scenarios::Scenario> list = {
+      scenario_of(coulomb, "{type: steady_state}"),
+      scenario_of(coulomb, "{type: simulate, cycles: 5, sample_rate: 50}"),
+      scenario_of(coulomb, "{type: xy_curve, amplitudes: [0.03, 0.1]}"),
+      scenario_of(coulomb, "{type: frequency_response, frequencies: [8 rad/s, 12 rad/s]}"),
+      scenario_of(coulomb, "{type: free_decay, peaks: 3}", "none"),
+      scenario_of(lugre, "{type: steady_state}"),
+      scenario_of(coulomb, "{type: steady_state}", "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
+                  "numerics: {verify: true, solver: implicit}")};
+  for (const scenarios::Scenario& scenario : list) {
+    INFO(scenario.resolved);
+    const scenarios::RunResult result = scenarios::run(scenario);
+    REQUIRE(result.verification.has_value());
+    INFO(result.verification->engine << ": " << result.verification->reason);
+    CHECK(result.verification->agrees);
+    CHECK(result.verification->quantities > 2);
+    CHECK(result.verification->largest_difference <= result.verification->tolerance);
+    CHECK(result.status == core::ExitStatus::done);
+  }
+}
+
+TEST_CASE("verification: without it nothing is said, and where it is impossible the file is refused",
+          "[scenarios][verification]") {
+  const scenarios::Scenario plain =
+      scenario_of(coulomb, "{type: steady_state}", "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
+                  "numerics: {verify: false}");
+  CHECK_FALSE(scenarios::run(plain).verification.has_value());
+  for (const std::string analysis :
+       {"{type: xy_branch, amplitudes: {from: 0.05, to: 0.1}}",
+        "{type: identify, measurement: {type: xy_curve, amplitudes: [0.08, 0.1, 0.12], sweeps: 1}}"}) {
+    INFO(analysis);
+    try {
+      static_cast<void>(scenario_of(coulomb, analysis));
+      FAIL("accepted");
+    } catch (const core::InputError& error) {
+      CHECK_THAT(error.diagnostics().front().message, Catch::Contains("numerics.verify"));
+    }
+  }
+}

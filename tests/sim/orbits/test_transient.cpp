@@ -1,0 +1,62 @@
+/// The transient against the closed form, and where it does not settle.
+
+#include "sim/orbits/transient.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/diagnostics.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::sim;
+
+namespace {
+
+Model model(double damping, double amplitude) {
+  Model result;
+  result.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = damping};
+  result.excitation = {.type = ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = 10.0};
+  result.friction = {friction::Law(friction::Coulomb(2.0, 2.0))};
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("transient: it settles on Den Hartog's orbit", "[transient]") {
+  const Transient transient = follow_transient(model(4.0, 0.1));
+  REQUIRE(transient.outcome.ok());
+  CHECK(transient.settled);
+  CHECK(transient.peak == Approx(0.186078097956786199).epsilon(1e-9));
+  CHECK(transient.trough == Approx(-transient.peak).epsilon(1e-9));
+  CHECK(transient.stops == 0);
+  CHECK(transient.periods < 100);
+}
+
+TEST_CASE("transient: a motion that sticks stops as often as its steady state", "[transient]") {
+  Model slow = model(4.0, 0.05);
+  slow.excitation.frequency = 3.0;
+  const Transient transient = follow_transient(slow);
+  const SteadyState state = steady_state(slow);
+  CHECK(transient.settled);
+  CHECK(state.stops_per_cycle > 0);
+  CHECK(transient.stops == state.stops_per_cycle);
+  CHECK(transient.peak == Approx(state.peak).epsilon(1e-12));
+}
+
+TEST_CASE("transient: a motion that grows does not settle", "[transient]") {
+  // Undamped at resonance with F0 below pi/4 k Y.
+  const Transient transient = follow_transient(model(0.0, 0.1), {.max_periods = 100});
+  CHECK_FALSE(transient.settled);
+  CHECK(transient.periods == 100);
+}
+
+TEST_CASE("transient: it ends when the caller has had enough, and needs a period", "[transient]") {
+  int asked = 0;
+  const Transient transient = follow_transient(model(0.0, 0.1), {.give_up = [&] { return ++asked == 5; }});
+  CHECK(asked == 5);
+  CHECK_FALSE(transient.settled);
+  Model free = model(4.0, 0.1);
+  free.excitation = {};
+  CHECK_THROWS_AS(follow_transient(free), core::InputError);
+}
