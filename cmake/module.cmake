@@ -1,7 +1,7 @@
 # dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]): the library of one folder.
 # HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
 # A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
-# say PAIRS, the test ROOM/test_NAME.cpp: one line for each law.
+# say PAIRS, the test ROOM/test_NAME.cpp: one line for each law, method or analysis.
 # PUBLIC and PRIVATE are what it links.
 function(dualdamp_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE")

@@ -2,48 +2,37 @@
 
 #include <algorithm>
 
-#include "identify/methods/amplitudes/den_hartog_fit.hpp"
-#include "identify/methods/amplitudes/energy_balance.hpp"
-#include "identify/methods/amplitudes/harmonic_balance.hpp"
-#include "identify/methods/amplitudes/law_selection.hpp"
-#include "identify/methods/amplitudes/receptance.hpp"
-#include "identify/methods/amplitudes/resonance_deming.hpp"
-#include "identify/methods/amplitudes/resonance_least_squares.hpp"
-#include "identify/methods/amplitudes/resonance_two_point.hpp"
-#include "identify/methods/amplitudes/resonance_within_sweep.hpp"
-#include "identify/methods/decays/free_decay.hpp"
-#include "identify/methods/decays/jacobsen_ayre.hpp"
-#include "identify/methods/histories/acceleration_velocity_displacement.hpp"
-#include "identify/methods/histories/extended_kalman.hpp"
-#include "identify/methods/histories/friction_force.hpp"
-#include "identify/methods/histories/output_error.hpp"
-#include "identify/methods/histories/random_decrement.hpp"
-#include "identify/methods/histories/recursive_least_squares.hpp"
-#include "identify/methods/histories/stochastic_averaging.hpp"
+// The methods, one line each, sorted by name. The source of each method defines its entry, NAME_method.
+#define DUALDAMP_METHODS(METHOD)             \
+  METHOD(acceleration_velocity_displacement) \
+  METHOD(den_hartog_fit)                     \
+  METHOD(energy_balance)                     \
+  METHOD(extended_kalman)                    \
+  METHOD(free_decay)                         \
+  METHOD(friction_force)                     \
+  METHOD(harmonic_balance)                   \
+  METHOD(jacobsen_ayre)                      \
+  METHOD(law_selection)                      \
+  METHOD(output_error)                       \
+  METHOD(random_decrement)                   \
+  METHOD(receptance)                         \
+  METHOD(recursive_least_squares)            \
+  METHOD(resonance_deming)                   \
+  METHOD(resonance_least_squares)            \
+  METHOD(resonance_two_point)                \
+  METHOD(resonance_within_sweep)             \
+  METHOD(stochastic_averaging)
 
 namespace dualdamp::identify {
 
+#define DUALDAMP_DECLARE(name) extern const MethodEntry name##_method;
+DUALDAMP_METHODS(DUALDAMP_DECLARE)
+#undef DUALDAMP_DECLARE
+
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> list = {
-      acceleration_velocity_displacement_method,
-      den_hartog_fit_method,
-      energy_balance_method,
-      extended_kalman_method,
-      free_decay_method,
-      friction_force_method,
-      harmonic_balance_method,
-      jacobsen_ayre_method,
-      law_selection_method,
-      output_error_method,
-      random_decrement_method,
-      receptance_method,
-      recursive_least_squares_method,
-      resonance_deming_method,
-      resonance_least_squares_method,
-      resonance_two_point_method,
-      resonance_within_sweep_method,
-      stochastic_averaging_method,
-  };
+#define DUALDAMP_ENTRY(name) name##_method,
+  static const std::vector<MethodEntry> list = {DUALDAMP_METHODS(DUALDAMP_ENTRY)};
+#undef DUALDAMP_ENTRY
   return list;
 }
 

@@ -1,11 +1,12 @@
 #include "identify/statistics/correlated_regression.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <utility>
+
+#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 
@@ -93,7 +94,7 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
 
   CorrelatedFit fit;
   fit.condition = std::sqrt(spectrum.eigenvalues()[count - 1] / least);
-  const Eigen::VectorXd solution = Eigen::HouseholderQR<Eigen::MatrixXd>(scaled).solve(target);
+  const Eigen::VectorXd solution = linear_least_squares(scaled, target);
   fit.coefficients = solution.cwiseQuotient(scale);
   fit.residuals = target - scaled * solution;
   fit.deviation = std::sqrt(fit.residuals.squaredNorm() / static_cast<double>(columns.rows() - count));
@@ -123,7 +124,7 @@ std::optional<LackOfFit> correlated_term_test(const Eigen::MatrixXd& columns, co
   const Eigen::Index last = columns.cols();
   const double gain = fit->coefficients[last];
   const double variance = fit->covariance(last, last);
-  const Eigen::VectorXd extra = term - columns * Eigen::HouseholderQR<Eigen::MatrixXd>(columns).solve(term);
+  const Eigen::VectorXd extra = term - columns * linear_least_squares(columns, term);
   LackOfFit test;
   test.test = std::move(name);
   test.freedom = static_cast<int>(fit->freedom());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/cancellation.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 
@@ -92,8 +93,7 @@ std::optional<Linearised> linearised(const LeastSquaresProblem& problem, const E
 std::vector<int> take_to_bounds(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
   const auto at = linearised(problem, parameters);
   if (!at) return {};
-  const Eigen::VectorXd wanted =
-      parameters - Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(at->jacobian).solve(at->residuals);
+  const Eigen::VectorXd wanted = parameters - pivoted_least_squares(at->jacobian, at->residuals);
   std::vector<int> taken;
   for (int i = 0; i < parameters.size(); ++i) {
     const double inside = std::clamp(wanted[i], problem.low[i], problem.high[i]);

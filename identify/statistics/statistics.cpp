@@ -1,6 +1,5 @@
 #include "identify/statistics/statistics.hpp"
 
-#include <Eigen/QR>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 
@@ -23,8 +23,7 @@ std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian, const 
   const auto count = jacobian.rows();
   const auto freedom = static_cast<int>(count - jacobian.cols() - 1) - spent;
   if (freedom < 1 || !(range > 0.0)) return std::nullopt;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  const Eigen::VectorXd explained = jacobian * qr.solve(term);
+  const Eigen::VectorXd explained = jacobian * linear_least_squares(jacobian, term);
   const Eigen::VectorXd extra = term - explained;  // what the term adds to the fitted columns
   const double weight = extra.squaredNorm();
   if (!(weight > 1e-16 * term.squaredNorm())) return std::nullopt;

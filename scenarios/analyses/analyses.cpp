@@ -1,26 +1,30 @@
 #include "scenarios/analyses/analyses.hpp"
 
-#include "scenarios/analyses/formula.hpp"
-#include "scenarios/analyses/free_decay.hpp"
-#include "scenarios/analyses/frequency_branch.hpp"
-#include "scenarios/analyses/frequency_response.hpp"
-#include "scenarios/analyses/identify.hpp"
-#include "scenarios/analyses/regime_map.hpp"
-#include "scenarios/analyses/simulate.hpp"
-#include "scenarios/analyses/steady_state.hpp"
-#include "scenarios/analyses/xy_branch.hpp"
-#include "scenarios/analyses/xy_curve.hpp"
+#include "scenarios/analyses/analysis.hpp"
+
+// The analyses, one line each, in the order in which lists show them. The source of each defines NAME_analysis().
+#define DUALDAMP_ANALYSES(ANALYSIS) \
+  ANALYSIS(simulate)                \
+  ANALYSIS(steady_state)            \
+  ANALYSIS(xy_curve)                \
+  ANALYSIS(frequency_response)      \
+  ANALYSIS(regime_map)              \
+  ANALYSIS(xy_branch)               \
+  ANALYSIS(frequency_branch)        \
+  ANALYSIS(free_decay)              \
+  ANALYSIS(identify)                \
+  ANALYSIS(formula)
 
 namespace dualdamp::scenarios {
 
+#define DUALDAMP_DECLARE(name) const Analysis& name##_analysis();
+DUALDAMP_ANALYSES(DUALDAMP_DECLARE)
+#undef DUALDAMP_DECLARE
+
 const AnalysisList& analyses() {
-  static const AnalysisList list = {
-      &simulate_analysis(),         &steady_state_analysis(),
-      &xy_curve_analysis(),         &frequency_response_analysis(),
-      &regime_map_analysis(),       &xy_branch_analysis(),
-      &frequency_branch_analysis(), &free_decay_analysis(),
-      &identify_analysis(),         &formula_analysis(),
-  };
+#define DUALDAMP_ENTRY(name) &name##_analysis(),
+  static const AnalysisList list = {DUALDAMP_ANALYSES(DUALDAMP_ENTRY)};
+#undef DUALDAMP_ENTRY
   return list;
 }
 

@@ -7,34 +7,20 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "files.hpp"
 #include "identify/readers/record_reader.hpp"
 #include "scenarios/output.hpp"
+#include "tests/scenarios/answers.hpp"
+#include "tests/scenarios/files.hpp"
 
 using namespace dualdamp;
 using nlohmann::json;
 using scenarios::RunResult;
 using scenarios::Scenario;
+using testing::document_of;
+using testing::result_of;
+using testing::scenario_of;
 
 namespace {
-
-Scenario scenario_of(const std::string& analysis, const std::string& more = {}) {
-  return scenarios::parse_scenario(
-      "schema: dualdamp/1\n"
-      "system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}\n"
-      "excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}\n"
-      "analysis: " +
-          analysis + "\n" + more,
-      "test.yaml");
-}
-
-nlohmann::ordered_json document_of(const Scenario& scenario, const RunResult& result) {
-  std::ostringstream text;
-  scenarios::json_document(std::make_shared<Scenario>(scenario), std::make_shared<RunResult>(result))(text);
-  return nlohmann::ordered_json::parse(text.str());
-}
-
-json result_of(const RunResult& result) { return document_of({.resolved = "null"}, result).at("result"); }
 
 std::string csv(const scenarios::Table& table, const core::Provenance& provenance) {
   std::ostringstream text;
@@ -131,29 +117,6 @@ TEST_CASE("run: every number of a result is in the tables", "[scenarios][run]") 
       if (answered_elsewhere(scenario)) continue;
       check_paths(result_of(scenarios::run(scenario)), "", patterns_of(scenario));
     }
-}
-
-TEST_CASE("run: the regimes of a map count its points, and the boundary stands beside it", "[scenarios][run]") {
-  const json map = result_of(scenarios::run(
-      scenario_of("{type: regime_map, frequencies: {from: 0.5 Hz, to: 2 Hz, count: 7}, amplitudes: {from: 1 mm, "
-                  "to: 0.4 m, count: 11}, sticking_boundary: true}")));
-  std::map<std::pair<int, int>, int> counted;
-  for (const json& point : map.at("points")) ++counted[{point.at("stops"), point.at("sticks")}];
-  REQUIRE(map.at("regimes").size() == counted.size());
-  CHECK(counted.size() >= 3);  // never moves, sticks, does not stick
-  for (const json& regime : map.at("regimes")) {
-    CHECK(counted.at({regime.at("stops"), regime.at("sticks")}) == regime.at("points"));
-    const bool moves = regime.at("stops") != 0 || regime.at("sticks") != 1;
-    const bool rests = regime.at("sticks") != 0;
-    CHECK(regime.at("regime") == (!moves ? "never moves" : rests ? "rests" : "slides through"));
-  }
-  REQUIRE(map.at("boundary").size() == 7);
-  for (const json& point : map.at("boundary")) {
-    CHECK(point.at("Y").get<double>() == Approx(point.at("Y_closed_form").get<double>()).epsilon(1e-9));
-    for (const json& other : map.at("points"))
-      if (other.at("omega") == point.at("omega"))
-        CHECK((other.at("Y") > point.at("Y")) == (other.at("sticks") == 0));
-  }
 }
 
 TEST_CASE("run: what is said of many points is said once, with their number and the first place",

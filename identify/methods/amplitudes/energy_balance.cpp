@@ -183,4 +183,16 @@ Estimate energy_balance(const Record& record, const KnownConstants& constants, c
   return of_histories(record, constants, options, std::move(estimate));
 }
 
+constinit const MethodEntry energy_balance_method{
+    "energy_balance",
+    "viscous damping and friction force from the work of the base, exact at any frequency",
+    "Coulomb and viscous friction, a harmonic base, two turning points in a period, a true phase; checked: "
+    "quadratic "
+    "term F-test, the bias where the mean square speed was not measured",
+    "pi k Y X_1 sin(phi) = 4 F0 x + c integral v^2 dt over a period",
+    "tomlinson1979, liang2006balancing",
+    RecordKind::states,
+    lacks_energy,
+    call_of<energy_balance>};
+
 }  // namespace dualdamp::identify

@@ -52,16 +52,6 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
 /// Two pairs with phases, or histories, are asked for.
 [[nodiscard]] std::string lacks_energy(const Record& record);
 
-inline constexpr MethodEntry energy_balance_method{
-    "energy_balance",
-    "viscous damping and friction force from the work of the base, exact at any frequency",
-    "Coulomb and viscous friction, a harmonic base, two turning points in a period, a true phase; checked: "
-    "quadratic "
-    "term F-test, the bias where the mean square speed was not measured",
-    "pi k Y X_1 sin(phi) = 4 F0 x + c integral v^2 dt over a period",
-    "tomlinson1979, liang2006balancing",
-    RecordKind::states,
-    lacks_energy,
-    call_of<energy_balance>};
+extern const MethodEntry energy_balance_method;
 
 }  // namespace dualdamp::identify

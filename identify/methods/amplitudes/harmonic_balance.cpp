@@ -1,6 +1,5 @@
 #include "identify/methods/amplitudes/harmonic_balance.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/interpolators/cubic_hermite.hpp>
 #include <boost/math/quadrature/gauss.hpp>
@@ -10,6 +9,7 @@
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -109,7 +109,7 @@ MonomialFit fit_monomials(const std::vector<Datum>& points, Eigen::Index terms) 
   for (Eigen::Index n = 0; n < terms; ++n) fit.columns.col(n) = monomial(points, fit.scale, n);
   Eigen::VectorXd values(fit.columns.rows());
   for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = points[static_cast<std::size_t>(i)].x;
-  fit.coefficients = Eigen::HouseholderQR<Eigen::MatrixXd>(fit.columns).solve(values);
+  fit.coefficients = linear_least_squares(fit.columns, values);
   fit.residuals = values - fit.columns * fit.coefficients;
   return fit;
 }
@@ -327,5 +327,17 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
                " steady states");
   return estimate;
 }
+
+constinit const MethodEntry harmonic_balance_method{
+    "harmonic_balance",
+    "viscous damping, friction force and the friction-velocity curve from the balance of the first harmonic",
+    "harmonic balance, no sticking, friction a function of velocity; checked: sticking pairs are left out, "
+    "quadratic "
+    "friction F-test, the bias of harmonic balance at the estimate, Abel inversion beside the fitted curve",
+    "k Y sin(phi) = sum_n C_n kappa_n (w X)^n, f(v) = sum_n C_n |v|^n sgn(v), C_0 = F0, C_1 = c",
+    "iourtchenko2002, tomlinson1980",
+    RecordKind::states,
+    lacks_pairs,
+    call_of<harmonic_balance>};
 
 }  // namespace dualdamp::identify

@@ -37,16 +37,6 @@ namespace dualdamp::identify {
 
 [[nodiscard]] Estimate harmonic_balance(const Record& record, const KnownConstants& constants);
 
-inline constexpr MethodEntry harmonic_balance_method{
-    "harmonic_balance",
-    "viscous damping, friction force and the friction-velocity curve from the balance of the first harmonic",
-    "harmonic balance, no sticking, friction a function of velocity; checked: sticking pairs are left out, "
-    "quadratic "
-    "friction F-test, the bias of harmonic balance at the estimate, Abel inversion beside the fitted curve",
-    "k Y sin(phi) = sum_n C_n kappa_n (w X)^n, f(v) = sum_n C_n |v|^n sgn(v), C_0 = F0, C_1 = c",
-    "iourtchenko2002, tomlinson1980",
-    RecordKind::states,
-    lacks_pairs,
-    call_of<harmonic_balance>};
+extern const MethodEntry harmonic_balance_method;
 
 }  // namespace dualdamp::identify

@@ -1,12 +1,12 @@
 #include "identify/methods/amplitudes/law_fit.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 
@@ -79,7 +79,7 @@ Eigen::VectorXd starting_point(const FundamentalLaw& law, const std::vector<LawP
       for (Eigen::Index j = 0; j < size; ++j) columns(i, j) = weight * terms[static_cast<std::size_t>(j)];
       values[i] = weight * across;
     }
-    Eigen::VectorXd coefficients = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).solve(values);
+    Eigen::VectorXd coefficients = pivoted_least_squares(columns, values);
     for (Eigen::Index j = 0; j < size; ++j)
       if (!law.coefficients[static_cast<std::size_t>(j)].signed_value)
         coefficients[j] = std::max(coefficients[j], 1e-3);

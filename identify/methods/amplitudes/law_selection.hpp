@@ -27,16 +27,6 @@ namespace dualdamp::identify {
 [[nodiscard]] Estimate law_selection(const Record& record, const KnownConstants& constants,
                                      const KnownDeviations& options = {});
 
-inline constexpr MethodEntry law_selection_method{
-    "law_selection",
-    "compares Coulomb + viscous friction with other laws on amplitude pairs",
-    "no sticking, errors in x alone, harmonic balance for the difference between laws; checked: sticking pairs are "
-    "left "
-    "out, F test of the best wider law; what amplitudes cannot tell apart is said",
-    "least squares in x of ((k - m w^2) X)^2 + Phi(w X, X)^2 = (k Y)^2, ranked by AICc or BIC",
-    "burnham2002, schwarz1978, denhartog1931",
-    RecordKind::states,
-    lacks_pairs,
-    call_of<law_selection>};
+extern const MethodEntry law_selection_method;
 
 }  // namespace dualdamp::identify

@@ -1,6 +1,5 @@
 #include "identify/methods/amplitudes/receptance.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +9,7 @@
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -44,7 +44,7 @@ Fit fit_states(const std::vector<Pair>& states, const Row& row) {
     fit.columns.row(i) = numbers.head<2>();
     values[i] = numbers[2];
   }
-  fit.coefficients = Eigen::HouseholderQR<Eigen::MatrixXd>(fit.columns).solve(values);
+  fit.coefficients = linear_least_squares(fit.columns, values);
   fit.residuals = values - fit.columns * fit.coefficients;
   return fit;
 }
@@ -271,5 +271,17 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
                " steady states");
   return estimate;
 }
+
+constinit const MethodEntry receptance_method{
+    "receptance",
+    "viscous damping and friction force from amplitude and phase over frequency",
+    "harmonic balance, no sticking, a true phase; checked: sticking pairs are left out, linear term F-test, the "
+    "bias "
+    "of harmonic balance at the estimate, the limacon where the input was constant",
+    "Im(k Y/X exp(i phi)) = c w + 4 F0/(pi X); Re = k - m w^2",
+    "tomlinson1980",
+    RecordKind::states,
+    lacks_receptance,
+    call_of<receptance>};
 
 }  // namespace dualdamp::identify

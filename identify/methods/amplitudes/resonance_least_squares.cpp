@@ -12,4 +12,15 @@ Estimate resonance_least_squares(const Record& record, const KnownConstants& con
   return estimate_by_line({resonance_least_squares_method.name, errors_in_x_alone}, record, constants, options);
 }
 
+constinit const MethodEntry resonance_least_squares_method{
+    "resonance_least_squares",
+    "damping ratio and friction force from a straight line through amplitude pairs",
+    "excitation at w = wn, zeta small, no sticking, errors in x alone; checked: sticking pairs are left out, "
+    "quadratic friction F-test, what the method would make of its own estimate by the exact law",
+    "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn",
+    "liang2004identifying",
+    RecordKind::pairs,
+    lacks_resonance_pairs,
+    call_of<resonance_least_squares>};
+
 }  // namespace dualdamp::identify

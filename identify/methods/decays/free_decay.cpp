@@ -1,7 +1,6 @@
 #include "identify/methods/decays/free_decay.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/methods/decays/extremes.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -54,7 +54,7 @@ class DecayModel {
     build(R, columns, dp);
     Fit fit;
     fit.R = R;
-    fit.coefficients = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).solve(e_);
+    fit.coefficients = linear_least_squares(columns, e_);
     fit.residual = e_ - columns * fit.coefficients;
     // The coefficients are at their minimum, so only the explicit dependence on R counts.
     fit.slope = -fit.residual.dot(dp * -fit.coefficients[1]);
@@ -308,5 +308,17 @@ Estimate free_decay(const Record& record, const KnownConstants& constants, const
                std::to_string(record.decay->extremes.size()) + " extremes");
   return estimate;
 }
+
+constinit const MethodEntry free_decay_method{
+    "free_decay",
+    "damping ratio and friction force from the decrements of a free vibration",
+    "linear spring, zeta < 1, the mass moves through every half swing; checked: extremes alternate, extremes after "
+    "the stop are left out, half period against mass and stiffness, cubic term F-test",
+    "X_(i+1) = R X_i - x_f (1 + R), R = exp(-pi zeta/sqrt(1 - zeta^2)); R = -(e_3 - e_1)/(e_2 - e_0) of signed "
+    "extremes e about any offset",
+    "feeny1996decrement, liang1998decrement",
+    RecordKind::decay,
+    lacks_decay,
+    call_of<free_decay>};
 
 }  // namespace dualdamp::identify

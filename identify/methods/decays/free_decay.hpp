@@ -36,16 +36,6 @@ struct FreeDecayOptions {
 [[nodiscard]] Estimate free_decay(const Record& record, const KnownConstants& constants,
                                   const FreeDecayOptions& options = {});
 
-inline constexpr MethodEntry free_decay_method{
-    "free_decay",
-    "damping ratio and friction force from the decrements of a free vibration",
-    "linear spring, zeta < 1, the mass moves through every half swing; checked: extremes alternate, extremes after "
-    "the stop are left out, half period against mass and stiffness, cubic term F-test",
-    "X_(i+1) = R X_i - x_f (1 + R), R = exp(-pi zeta/sqrt(1 - zeta^2)); R = -(e_3 - e_1)/(e_2 - e_0) of signed "
-    "extremes e about any offset",
-    "feeny1996decrement, liang1998decrement",
-    RecordKind::decay,
-    lacks_decay,
-    call_of<free_decay>};
+extern const MethodEntry free_decay_method;
 
 }  // namespace dualdamp::identify

@@ -270,4 +270,15 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   return estimate;
 }
 
+constinit const MethodEntry acceleration_velocity_displacement_method{
+    "acceleration_velocity_displacement",
+    "mass, stiffness and friction by regressing the forces on acceleration, velocity and displacement",
+    "constant sample rate; mass, stiffness or force known; white noise; checked: condition of the "
+    "columns, a term v|v|, agreement of several cut-off frequencies",
+    "k (y - x) + f = m a + c v + F0 sgn v + offset, least squares over samples with |v| > least speed",
+    "chen1996, janot2019",
+    RecordKind::history,
+    lacks_histories,
+    call_of<acceleration_velocity_displacement>};
+
 }  // namespace dualdamp::identify

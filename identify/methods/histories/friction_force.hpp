@@ -23,16 +23,6 @@ namespace dualdamp::identify {
 [[nodiscard]] Estimate friction_force(const Record& record, const KnownConstants& constants,
                                       const RegressionOptions& options = {});
 
-inline constexpr MethodEntry friction_force_method{
-    "friction_force",
-    "friction force over velocity and displacement, contact stiffness and transition velocity",
-    "mass and stiffness known, signals without lag or gain error, white noise; checked: a term in "
-    "x, "
-    "which gain errors and wrong constants leave",
-    "F = k (y - x) + f - m a; F = c v + F0 sgn v + offset for |v| > least speed",
-    "liang2004identifying",
-    RecordKind::history,
-    lacks_histories,
-    call_of<friction_force>};
+extern const MethodEntry friction_force_method;
 
 }  // namespace dualdamp::identify

@@ -23,15 +23,6 @@ namespace dualdamp::identify {
 [[nodiscard]] Estimate output_error(const Record& record, const KnownConstants& constants,
                                     const RegressionOptions& options = {});
 
-inline constexpr MethodEntry output_error_method{
-    "output_error",
-    "friction with which a simulated motion comes closest to the measured displacement",
-    "linear spring, Coulomb and viscous friction, white noise; checked: v|v| term "
-    "t-test, residuals that are alike from sample to sample",
-    "min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2, m x'' + c x' + k x + F0 sgn x' = k y + f",
-    "ljung1999, leine2004",
-    RecordKind::history,
-    lacks_histories,
-    call_of<output_error>};
+extern const MethodEntry output_error_method;
 
 }  // namespace dualdamp::identify

@@ -21,15 +21,6 @@ namespace dualdamp::identify {
 
 [[nodiscard]] Estimate random_decrement(const Record& record, const KnownConstants& constants);
 
-inline constexpr MethodEntry random_decrement_method{
-    "random_decrement",
-    "equivalent damping of a random response over its amplitude; not to be used for the Coulomb friction",
-    "long stationary response to a white excitation; the averaged stretches are taken for a free decay, which they "
-    "are not where there is dry friction: never usable",
-    "zeta_eq(a) = zeta + 2 F0/(pi k a) of the mean of stretches that begin at an extreme near a",
-    "cole1973",
-    RecordKind::history,
-    lacks_histories,
-    call_of<random_decrement>};
+extern const MethodEntry random_decrement_method;
 
 }  // namespace dualdamp::identify

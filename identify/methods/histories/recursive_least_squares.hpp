@@ -38,15 +38,6 @@ struct RecursiveOptions : RegressionOptions {
 [[nodiscard]] Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
                                                const RecursiveOptions& options = {});
 
-inline constexpr MethodEntry recursive_least_squares_method{
-    "recursive_least_squares",
-    "viscous and Coulomb friction followed over time, with forgetting",
-    "mass and stiffness known, white noise, friction that drifts slowly; checked: agreement of both "
-    "halves of the record where nothing is forgotten",
-    "z = k (y - x) + f - m a, psi = (v, sgn v), theta += P psi (z - psi^T theta)/(l + psi^T P psi)",
-    "liang2004identifying, ljung1999",
-    RecordKind::history,
-    lacks_histories,
-    call_of<recursive_least_squares>};
+extern const MethodEntry recursive_least_squares_method;
 
 }  // namespace dualdamp::identify

@@ -277,4 +277,15 @@ Estimate stochastic_averaging(const Record& record, const KnownConstants& consta
   return estimate;
 }
 
+constinit const MethodEntry stochastic_averaging_method{
+    "stochastic_averaging",
+    "friction from the distribution of the amplitude of a random response",
+    "long stationary response to an excitation that is white about the natural frequency, small damping; checked: "
+    "third moment of the amplitude, friction against the spring's force",
+    "p(A) = A exp(-alpha A - beta A^2)/Z, F0 = pi m D alpha/(8 W), c = m D beta/W^2",
+    "liang2004identifying, roberts1986",
+    RecordKind::history,
+    lacks_histories,
+    call_of<stochastic_averaging>};
+
 }  // namespace dualdamp::identify

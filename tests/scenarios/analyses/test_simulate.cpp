@@ -1,0 +1,23 @@
+#include "scenarios/analyses/simulate.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/scenarios/answers.hpp"
+
+using namespace dualdamp;
+using testing::answer_to;
+
+TEST_CASE("simulate: events alternate and the energy balance closes", "[scenarios][simulate]") {
+  const auto answer = answer_to("{type: simulate, cycles: 20, sample_rate: 100 Hz}");
+  const auto& events = answer.at("events");
+  REQUIRE(events.size() == 40);  // two reversals a period
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    CHECK(events[i].at("kind") == "reversal");
+    CHECK(events[i].at("t") > events[i - 1].at("t"));
+    CHECK(events[i].at("x").get<double>() * events[i - 1].at("x").get<double>() < 0.0);
+  }
+  // After twenty periods the motion is the steady one of Eq (3).
+  CHECK(events[39].at("x").get<double>() == Approx(-0.1860780979567862).epsilon(1e-9));
+  const auto& energy = answer.at("energy");
+  CHECK(std::abs(energy.at("defect").get<double>()) < 1e-12 * energy.at("input").get<double>());
+}
