@@ -84,7 +84,8 @@ class Comparison {
     collect(answer_.result, {}, mine);
     collect(other_.result, {}, theirs);
     size_up(mine);
-    // It follows from the multipliers, which are compared: of one on the unit circle rounding would decide it.
+    // It follows from the Floquet multipliers, which are compared: of one on the unit circle rounding would decide
+    // it.
     if (answer_.result.contains("multipliers")) {
       mine.erase("stable");
       theirs.erase("stable");

@@ -158,8 +158,8 @@ TEST_CASE("the response of a bilinear spring folds; the branch between is unstab
 }
 
 TEST_CASE("a Floquet multiplier passes -1 at a flip") {
-  const sim::Branch branch = continue_branch(compliant(0.0471012, 0.5, 0.193215, 1.21178, 11.47106),
-                                             BranchParameter::frequency, 0.5, 0.3);
+  const sim::Branch branch =
+      continue_branch(compliant(0.0471012, 0.5, 0.193215, 1.21178, 11.47106), BranchParameter::frequency, 0.5, 0.3);
   REQUIRE(branch.outcome.ok());
   const sim::BranchChange* flip = first(branch, ChangeKind::flip);
   REQUIRE(flip != nullptr);
