@@ -19,6 +19,8 @@ namespace {
 /// Largest ratio of a state to its size in a law: beyond, rounding of the position makes more than 1e-4 of the
 /// force.
 constexpr double most_digits = 1e12;
+/// The motion may grow from where it is refused: so much the advice allows for.
+constexpr double margin = 10.0;
 
 /// A position that is far larger than what matters of it to its law is not known well enough: a stiff spring is
 /// then stretched by the rounding of x. That ends the motion.
@@ -32,11 +34,11 @@ core::Outcome check_digits(const friction::Law& law, const friction::Memory& mem
     const double excess = std::abs(memory.state[k]) / (most_digits * sizes[k]);
     if (!(excess > 1.0) || !std::isfinite(excess)) continue;
     const auto number = [](double value) { return core::format_number(value, 3); };
-    return {core::OutcomeKind::not_finite, "friction law " + std::to_string(index + 1) +
-                                               " is too stiff for double precision at t = " + number(time) +
-                                               " s: it yields within " + number(sizes[k]) +
-                                               " m, at a position of " + number(std::abs(memory.state[k])) +
-                                               " m; a stiffness " + number(excess) + " times smaller would do"};
+    return {core::OutcomeKind::not_finite,
+            "friction law " + std::to_string(index + 1) +
+                " is too stiff for double precision at t = " + number(time) + " s: it yields within " +
+                number(sizes[k]) + " m, at a position of " + number(std::abs(memory.state[k])) +
+                " m; a stiffness " + number(margin * excess) + " times smaller would do"};
   }
   return {};
 }
