@@ -85,9 +85,8 @@ std::optional<OtherWay> SteadyStateQuestion::other_way(const RunContext& context
   } else if (!transient.settled) {
     other.answer = failed("it has not settled");
   } else {
-    other.answer.result = {{"peak", finite(transient.peak)},
-                           {"trough", finite(transient.trough)},
-                           {"stops_per_cycle", transient.stops}};
+    other.answer.result = {
+        {"peak", transient.peak}, {"trough", transient.trough}, {"stops_per_cycle", transient.stops}};
   }
   return other;
 }

@@ -14,11 +14,11 @@
 namespace dualdamp::scenarios {
 
 /// JSON knows no infinity; a number that does not exist is null.
-inline Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+inline Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-inline Json finite(const std::vector<double>& values) {
+inline Json finite_or_null(const std::vector<double>& values) {
   Json list = Json::array();
-  for (const double value : values) list.push_back(finite(value));
+  for (const double value : values) list.push_back(finite_or_null(value));
   return list;
 }
 

@@ -11,12 +11,15 @@ namespace dualdamp::scenarios {
 namespace {
 
 Json parameters_json(const identify::ParameterSet& set) {
-  return {{"zeta", finite(set.zeta)}, {"c", finite(set.c)}, {"x_f", finite(set.x_f)}, {"F0", finite(set.F0)}};
+  return {{"zeta", finite_or_null(set.zeta)},
+          {"c", finite_or_null(set.c)},
+          {"x_f", finite_or_null(set.x_f)},
+          {"F0", finite_or_null(set.F0)}};
 }
 
 Json interval_json(const identify::ParameterIntervals& intervals) {
   const auto pair = [](const std::array<double, 2>& ends) {
-    return Json::array({finite(ends[0]), finite(ends[1])});
+    return Json::array({finite_or_null(ends[0]), finite_or_null(ends[1])});
   };
   return {{"zeta", pair(intervals.zeta)},
           {"c", pair(intervals.c)},
@@ -26,39 +29,40 @@ Json interval_json(const identify::ParameterIntervals& intervals) {
 
 Json lack_of_fit_json(const identify::LackOfFit& test) {
   return {{"test", test.test},
-          {"statistic", finite(test.statistic)},
+          {"statistic", finite_or_null(test.statistic)},
           {"freedom", test.freedom},
-          {"p_value", finite(test.p_value)},
-          {"effect", finite(test.effect)},
+          {"p_value", finite_or_null(test.p_value)},
+          {"effect", finite_or_null(test.effect)},
           {"fired", test.fired},
           {"level", test.level},
           {"least_effect", test.least_effect}};
 }
 
 Json line_json(const identify::LineFit& line) {
-  return {{"slope", finite(line.slope)},
-          {"intercept", finite(line.intercept)},
-          {"residual_deviation", finite(line.residual_deviation)},
-          {"G", finite(line.G)},
-          {"residuals", finite(line.residuals)}};
+  return {{"slope", finite_or_null(line.slope)},
+          {"intercept", finite_or_null(line.intercept)},
+          {"residual_deviation", finite_or_null(line.residual_deviation)},
+          {"G", finite_or_null(line.G)},
+          {"residuals", finite_or_null(line.residuals)}};
 }
 
 Json decay_json(const identify::DecayFit& decay) {
-  return {{"R", finite(decay.R)},
-          {"first_amplitude", finite(decay.first_amplitude)},
-          {"offset", finite(decay.offset)},
-          {"residual_deviation", finite(decay.residual_deviation)},
-          {"residuals", finite(decay.residuals)}};
+  return {{"R", finite_or_null(decay.R)},
+          {"first_amplitude", finite_or_null(decay.first_amplitude)},
+          {"offset", finite_or_null(decay.offset)},
+          {"residual_deviation", finite_or_null(decay.residual_deviation)},
+          {"residuals", finite_or_null(decay.residuals)}};
 }
 
 Json others_json(const std::vector<identify::FurtherParameter>& parameters) {
   Json list = Json::array();
   for (const identify::FurtherParameter& parameter : parameters) {
-    Json item = {{"name", parameter.name}, {"unit", parameter.unit}, {"value", finite(parameter.value)}};
-    item["std"] = parameter.std ? finite(*parameter.std) : Json(nullptr);
-    item["interval95"] = parameter.interval95
-                             ? Json::array({finite((*parameter.interval95)[0]), finite((*parameter.interval95)[1])})
-                             : Json(nullptr);
+    Json item = {{"name", parameter.name}, {"unit", parameter.unit}, {"value", finite_or_null(parameter.value)}};
+    item["std"] = parameter.std ? finite_or_null(*parameter.std) : Json(nullptr);
+    item["interval95"] =
+        parameter.interval95
+            ? Json::array({finite_or_null((*parameter.interval95)[0]), finite_or_null((*parameter.interval95)[1])})
+            : Json(nullptr);
     list.push_back(std::move(item));
   }
   return list;
@@ -69,10 +73,10 @@ Json candidates_json(const std::vector<identify::LawCandidate>& candidates) {
   for (const identify::LawCandidate& candidate : candidates)
     list.push_back({{"law", candidate.law},
                     {"parameters", others_json(candidate.parameters)},
-                    {"residual_deviation", finite(candidate.residual_deviation)},
-                    {"AICc", finite(candidate.AICc)},
-                    {"BIC", finite(candidate.BIC)},
-                    {"weight", finite(candidate.weight)}});
+                    {"residual_deviation", finite_or_null(candidate.residual_deviation)},
+                    {"AICc", finite_or_null(candidate.AICc)},
+                    {"BIC", finite_or_null(candidate.BIC)},
+                    {"weight", finite_or_null(candidate.weight)}});
   return list;
 }
 
@@ -97,9 +101,10 @@ Json diagnostics_json(const identify::Estimate& estimate) {
     json["excluded"].push_back({{"number", exclusion.number}, {"reason", exclusion.reason}});
   if (estimate.covariance) {
     const Eigen::Matrix2d& c = *estimate.covariance;
-    json["covariance"] = {{finite(c(0, 0)), finite(c(0, 1))}, {finite(c(1, 0)), finite(c(1, 1))}};
+    json["covariance"] = {{finite_or_null(c(0, 0)), finite_or_null(c(0, 1))},
+                          {finite_or_null(c(1, 0)), finite_or_null(c(1, 1))}};
   }
-  if (estimate.correlation) json["correlation"] = finite(*estimate.correlation);
+  if (estimate.correlation) json["correlation"] = finite_or_null(*estimate.correlation);
   if (estimate.lack_of_fit) json["lack_of_fit"] = lack_of_fit_json(*estimate.lack_of_fit);
   if (!estimate.subsets.empty()) {
     json["subsets"] = Json::array();
@@ -241,12 +246,12 @@ Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::
       points.push_back({{"number", pair.number},
                         {"Y", pair.Y},
                         {"x", pair.x},
-                        {"fitted", finite(chosen->line->intercept + chosen->line->slope * pair.Y)}});
+                        {"fitted", finite_or_null(chosen->line->intercept + chosen->line->slope * pair.Y)}});
   } else if (chosen->decay && record.decay) {
     const std::vector<double>& extremes = record.decay->extremes;
     const std::vector<double> fitted = fitted_extremes(*chosen->decay, chosen->value.x_f, extremes.size());
     for (std::size_t i = 0; i < extremes.size(); ++i)
-      points.push_back({{"number", i + 1}, {"x", extremes[i]}, {"fitted", finite(fitted[i])}});
+      points.push_back({{"number", i + 1}, {"x", extremes[i]}, {"fitted", finite_or_null(fitted[i])}});
   }
   return {{"method", chosen->method}, {"points", points}};
 }

@@ -74,7 +74,7 @@ TEST_CASE("run: the keys of the results are those of the contract", "[scenarios]
   const json map = result_of(
       scenarios::run(scenario_of("{type: regime_map, frequencies: [10 rad/s, 2 Hz], amplitudes: [0.05, 0.1]}")));
   CHECK(map.at("points").size() == 4);
-  CHECK(keys(map.at("points").at(0)) == std::vector<std::string>{"Y", "omega", "sticks", "stops", "x"});
+  CHECK(keys(map.at("points").at(0)) == std::vector<std::string>{"Y", "omega", "regime", "sticks", "stops", "x"});
   const json branch =
       result_of(scenarios::run(scenario_of("{type: xy_branch, amplitudes: {from: 0.1 m, to: 0.03 m}}")));
   CHECK(keys(branch.at("points").at(0)) ==

@@ -50,10 +50,10 @@ Json parameter_functions(const Json& arguments) {
   const sim::analytic::DenHartog functions =
       sim::analytic::den_hartog(zeta, number(arguments.at("frequency_ratio")));
   const bool defined = !functions.singular;
-  return {{"G", defined ? finite(functions.G) : Json(nullptr)},
-          {"H", defined ? finite(functions.H) : Json(nullptr)},
+  return {{"G", defined ? finite_or_null(functions.G) : Json(nullptr)},
+          {"H", defined ? finite_or_null(functions.H) : Json(nullptr)},
           {"q", functions.q},
-          {"approximate_G", zeta > 0.0 ? finite(sim::analytic::approximate_G(zeta)) : Json(nullptr)}};
+          {"approximate_G", zeta > 0.0 ? finite_or_null(sim::analytic::approximate_G(zeta)) : Json(nullptr)}};
 }
 
 Json stiffness_transfer(const Json& arguments) {
