@@ -25,7 +25,7 @@ Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length
     const friction::Memory& memory = state.memories[i];
     std::vector<double> scales(memory.state.size());
     model.friction[i].scales(memory, scales);
-    for (std::size_t k = 0; k < scales.size(); ++k) list.push_back(scales[k] > 0.0 ? scales[k] : length);
+    for (const double scale : scales) list.push_back(scale > 0.0 ? scale : length);
   }
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }

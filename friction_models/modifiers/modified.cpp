@@ -28,8 +28,6 @@ class Parts {
                   .course = memory.course};
     power_ = memory.state.back();
   }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
 
   [[nodiscard]] const Memory& inner() const { return own_ ? *own_ : whole_; }
   [[nodiscard]] const ModifierCourse& course() const { return whole_.course; }
