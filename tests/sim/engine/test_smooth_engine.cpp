@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "friction_models/registry.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/standard_system.hpp"
 
 namespace {
@@ -20,13 +20,7 @@ namespace {
 using namespace dualdamp;
 using friction::ParameterValues;
 using sim::SolverKind;
-
-friction::Law law(std::string_view name, ParameterValues values) {
-  const friction::LawEntry* entry = friction::find_law(name);
-  REQUIRE(entry != nullptr);
-  REQUIRE(friction::complete(entry->parameters, values).empty());
-  return entry->make(values).front();
-}
+using test::law;
 
 sim::Model system_with(std::string_view name, const ParameterValues& values, SolverKind kind, double tolerance) {
   sim::Model model = test::standard_system(law(name, values));

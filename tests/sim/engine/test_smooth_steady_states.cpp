@@ -7,23 +7,17 @@
 #include <numbers>
 #include <vector>
 
-#include "friction_models/registry.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/standard_system.hpp"
 
 namespace {
 
 using namespace dualdamp;
 using friction::ParameterValues;
-
-friction::Law law(std::string_view name, ParameterValues values) {
-  const friction::LawEntry* entry = friction::find_law(name);
-  REQUIRE(entry != nullptr);
-  REQUIRE(friction::complete(entry->parameters, values).empty());
-  return entry->make(values).front();
-}
+using test::law;
 
 friction::Law falling(const char* form, double exponent) {
   ParameterValues values{{"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.05}, {"form", form}};

@@ -13,6 +13,7 @@
 #include "friction_models/registry.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
 
 namespace {
@@ -23,10 +24,7 @@ using sim::ForcingPeriod;
 using sim::Monodromy;
 
 void add_law(sim::Model& model, std::string_view name, ParameterValues values) {
-  const friction::LawEntry* entry = friction::find_law(name);
-  REQUIRE(entry != nullptr);
-  REQUIRE(friction::complete(entry->parameters, values).empty());
-  for (friction::Law& law : entry->make(values)) model.friction.push_back(std::move(law));
+  for (friction::Law& law : test::laws_of(name, std::move(values))) model.friction.push_back(std::move(law));
 }
 
 /// The steady orbit of this model sticks at a static limit that falls with |x|.

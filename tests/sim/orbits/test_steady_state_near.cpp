@@ -6,20 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "friction_models/registry.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/standard_system.hpp"
 
 namespace {
 
 using namespace dualdamp;
 using friction::ParameterValues;
-
-friction::Law law(std::string_view name, ParameterValues values) {
-  const friction::LawEntry* entry = friction::find_law(name);
-  REQUIRE(entry != nullptr);
-  REQUIRE(friction::complete(entry->parameters, values).empty());
-  return entry->make(values).front();
-}
+using test::law;
 
 std::vector<sim::Model> models() {
   return {test::standard_system(law("coulomb", {{"kinetic", 2.0}})),
