@@ -7,8 +7,8 @@
 const charts = [];
 
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-/** Of a series: by number, or a colour of the page by its name. */
-const colour = (which) => `var(${typeof which === "string" ? which : `--c${which % 7}`})`;
+/** Of a series: by number, a colour of the page by its name, or any other of CSS. */
+const colour = (which) => (typeof which === "number" ? `var(--c${which % 7})` : which.startsWith("--") ? `var(${which})` : which);
 
 const isNumber = (value) => value !== null && Number.isFinite(value);
 
