@@ -1,10 +1,11 @@
-# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]): the library of one folder.
+# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]
+# [PRECOMPILED ...]): the library of one folder.
 # HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
 # A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
 # say PAIRS, the test ROOM/test_NAME.cpp: one line for each law, method or analysis.
-# PUBLIC and PRIVATE are what it links.
+# PUBLIC and PRIVATE are what it links. PRECOMPILED are headers of libraries that most of its sources would read anew.
 function(dualdamp_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE;PRECOMPILED")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dualdamp_module(${name}): unexpected ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -25,6 +26,9 @@ function(dualdamp_module name)
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:dualdamp_options>)
+  if(arg_PRECOMPILED)
+    target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILED})
+  endif()
   if(name IN_LIST DUALDAMP_LINK_TIME_FOLDERS)
     target_compile_options(${target} PRIVATE "$<${DUALDAMP_LINK_TIME}:-flto=auto;-ffat-lto-objects;${DUALDAMP_SHORT_LOOPS}>")
   endif()

@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <utility>
 
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
@@ -130,8 +130,7 @@ std::optional<LackOfFit> correlated_term_test(const Eigen::MatrixXd& columns, co
   test.freedom = static_cast<int>(fit->freedom());
   test.effect = std::abs(gain) * extra.norm() / std::sqrt(static_cast<double>(term.size())) / range;
   test.statistic = variance > 0.0 ? gain * gain / variance : 0.0;
-  test.p_value =
-      boost::math::cdf(boost::math::complement(boost::math::fisher_f(1.0, test.freedom), test.statistic));
+  test.p_value = f_test_p_value(test.statistic, 1.0, test.freedom);
   test.fired = test.p_value < test.level && test.effect > test.least_effect;
   return test;
 }

@@ -1,22 +1,14 @@
 #include "identify/statistics/statistics.hpp"
 
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
-
-double quantile95(double freedom) {
-  constexpr double upper = 0.975;
-  if (std::isinf(freedom)) return boost::math::quantile(boost::math::normal(), upper);
-  return boost::math::quantile(boost::math::students_t(freedom), upper);
-}
 
 std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
                                          const Eigen::VectorXd& term, double range, std::string name, int spent) {
@@ -37,7 +29,7 @@ std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian, const 
   test.test = std::move(name);
   test.freedom = freedom;
   test.statistic = explained_square / (left / freedom);
-  test.p_value = boost::math::cdf(boost::math::complement(boost::math::fisher_f(1.0, freedom), test.statistic));
+  test.p_value = f_test_p_value(test.statistic, 1.0, freedom);
   test.effect = std::sqrt(explained_square / static_cast<double>(count)) / range;
   test.fired = test.p_value < test.level && test.effect > test.least_effect;
   return test;

@@ -13,10 +13,6 @@
 
 namespace dualdamp::identify {
 
-/// Half width of a two-sided 95 % interval in standard errors: Student's t with `freedom` > 0 degrees of freedom,
-/// the normal value 1.96 for infinitely many.
-[[nodiscard]] double quantile95(double freedom);
-
 /// Does one more term explain more of the residuals than chance would? F test of a fit with the columns `jacobian`
 /// against the same fit with `term` added, both linearised at the estimate. `range` is that of the data: the scale
 /// of `effect`, and of the rounding below which residuals carry no information. Nothing when no degree of freedom

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/cancellation.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/synthetic_record.hpp"
 

@@ -1,7 +1,6 @@
 #include "identify/methods/amplitudes/law_selection.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -13,6 +12,7 @@
 #include "identify/methods/amplitudes/law_fit.hpp"
 #include "identify/methods/amplitudes/resonance_line.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
@@ -189,9 +189,7 @@ std::optional<LackOfFit> widening_test(const std::vector<LawFit>& fits, const Te
                 " laws with one more parameter";
   result.freedom = static_cast<int>(best->freedom());
   result.statistic = gain / left;
-  const boost::math::fisher_f distribution(1.0, best->freedom());
-  result.p_value =
-      std::min(1.0, compared * boost::math::cdf(boost::math::complement(distribution, result.statistic)));
+  result.p_value = std::min(1.0, compared * f_test_p_value(result.statistic, 1.0, best->freedom()));
   result.effect = std::sqrt(gain / static_cast<double>(best->residuals.size())) / test.range;
   result.fired = result.p_value < result.level && result.effect > result.least_effect;
   return result;

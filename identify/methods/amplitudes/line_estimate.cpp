@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identify/methods/amplitudes/bootstrap.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
 #include "identify/statistics/statistics.hpp"
 

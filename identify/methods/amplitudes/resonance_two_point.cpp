@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/resonance_line.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

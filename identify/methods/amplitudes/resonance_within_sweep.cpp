@@ -1,7 +1,6 @@
 #include "identify/methods/amplitudes/resonance_within_sweep.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,6 +8,7 @@
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
@@ -126,9 +126,8 @@ void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
   const double gain = lines.sum_of_squares - separate;
   const double range = lines.slope * std::sqrt(lines.S_YY);
   if (!(gain > 1e-6 * range * range)) return;  // of no weight, as with noiseless data
-  const boost::math::fisher_f distribution(spent, freedom);
   const double F = gain / spent / std::max(separate / freedom, 1e-24 * range * range);
-  const double p = boost::math::cdf(boost::math::complement(distribution, F));
+  const double p = f_test_p_value(F, spent, freedom);
   constexpr double level = 0.05;
   if (p < level)
     warnings.push_back("the lines of the sweeps are not parallel (F test, p = " + core::format_number(p, 2) +

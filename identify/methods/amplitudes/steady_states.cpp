@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 

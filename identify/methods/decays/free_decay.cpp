@@ -13,6 +13,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/methods/decays/extremes.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 

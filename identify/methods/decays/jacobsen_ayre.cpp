@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "identify/methods/decays/extremes.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

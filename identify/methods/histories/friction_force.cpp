@@ -10,6 +10,7 @@
 #include "identify/methods/histories/friction_samples.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/correlated_regression.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
 

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
 #include "identify/uncertainty/random_response.hpp"
@@ -146,8 +146,7 @@ LackOfFit third_moment_test(const Blocks& blocks, const std::array<double, 7>& m
   test.test = "third moment of the amplitude t-test";
   test.freedom = Blocks::count - 1;
   test.statistic = excess * excess / variance;
-  test.p_value =
-      boost::math::cdf(boost::math::complement(boost::math::fisher_f(1.0, test.freedom), test.statistic));
+  test.p_value = f_test_p_value(test.statistic, 1.0, test.freedom);
   test.effect = std::abs(excess) / m[3];
   test.level = 0.01;
   test.least_effect = 0.02;

@@ -7,6 +7,7 @@
 
 #include "identify/methods/amplitudes/resonance_deming.hpp"
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"

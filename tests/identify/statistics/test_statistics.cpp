@@ -3,19 +3,11 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
-
-TEST_CASE("Half widths of 95 % intervals are those of the tables") {
-  CHECK(quantile95(1.0) == Approx(12.7062).epsilon(1e-5));
-  CHECK(quantile95(2.0) == Approx(4.30265).epsilon(1e-5));
-  CHECK(quantile95(10.0) == Approx(2.22814).epsilon(1e-5));
-  CHECK(quantile95(std::numeric_limits<double>::infinity()) == Approx(1.959964).epsilon(1e-6));
-}
 
 TEST_CASE("The F test of an added term fires as often as its level says, and sees a term that is there") {
   // Straight lines with normal errors, no curvature: 4000 tests at 5 % fire 200 times, give or take 14; four times

@@ -1,0 +1,14 @@
+#pragma once
+/// The distributions that intervals and tests refer to.
+
+namespace dualdamp::identify {
+
+/// Half width of a two-sided 95 % interval in standard errors: Student's t with `freedom` > 0 degrees of freedom,
+/// the normal value 1.96 for infinitely many.
+[[nodiscard]] double quantile95(double freedom);
+
+/// The p-value of an F test: the probability of at least `statistic` with `numerator` and `denominator` > 0 degrees
+/// of freedom.
+[[nodiscard]] double f_test_p_value(double statistic, double numerator, double denominator);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,18 @@
+#include "identify/statistics/distributions.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+using namespace dualdamp::identify;
+
+TEST_CASE("Half widths of 95 % intervals are those of the tables") {
+  CHECK(quantile95(1.0) == Approx(12.7062).epsilon(1e-5));
+  CHECK(quantile95(2.0) == Approx(4.30265).epsilon(1e-5));
+  CHECK(quantile95(10.0) == Approx(2.22814).epsilon(1e-5));
+  CHECK(quantile95(std::numeric_limits<double>::infinity()) == Approx(1.959964).epsilon(1e-6));
+}
+
+TEST_CASE("The p-values of F tests are those of the tables") {
+  CHECK(f_test_p_value(4.10282, 2.0, 10.0) == Approx(0.05).epsilon(1e-5));
+  CHECK(f_test_p_value(10.0443, 1.0, 10.0) == Approx(0.01).epsilon(1e-5));
+}
