@@ -117,7 +117,7 @@ class Parser {
         ->type_name("");
     command
         .add_option("--mass", identify_.mass,
-                    "Mass, such as '1.042 kg'; without it only methods that do not need it are used")
+                    "Mass, such as '1.042 kg' or '1.042 kg +- 5 g'; without it only methods that do not need it are used")
         ->type_name("QUANTITY");
     command
         .add_option("--stiffness", identify_.stiffness,
@@ -138,6 +138,11 @@ class Parser {
         .add_option("--column", identify_.columns, "Name or number of a column in the file: --column x='LVDT 2'")
         ->allow_extra_args(false)
         ->type_name("COLUMN=NAME");
+    command
+        .add_option("--gain-uncertainty", identify_.gain_uncertainties,
+                    "Standard uncertainty of a sensor's gain: --gain-uncertainty x='1 %'")
+        ->allow_extra_args(false)
+        ->type_name("SIGNAL=SHARE");
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }
 

@@ -49,6 +49,7 @@ struct IdentifyCommand {
   std::vector<std::string> methods;
   std::vector<std::string> units;    ///< x=mm
   std::vector<std::string> columns;  ///< x=LVDT 2
+  std::vector<std::string> gain_uncertainties;  ///< x=1 %
   std::string out;
   bool json = false;
   bool quiet = false;

@@ -316,6 +316,8 @@ Scenario scenario_of(const IdentifyCommand& command) {
                                  quoted(sign < text.size() ? text.substr(sign + 1) : std::string()),
                              option});
     }
+  for (const std::string& text : command.gain_uncertainties)
+    options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
   if (!command.methods.empty()) {
     std::string names;
     for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);

@@ -128,6 +128,20 @@ void check_verification(CheckedFile& file, const Analysis& analysis, const Analy
                 joined(names));
 }
 
+/// An uncertainty that no number of the result would carry is not taken in silence.
+void check_uncertainties(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
+  if (analysis.uses_uncertainties) return;
+  std::vector<std::string> names;
+  for (const Analysis* other : analyses)
+    if (other->uses_uncertainties) names.emplace_back(other->name);
+  for (const auto& [section, key] : {std::pair{"system", "mass"}, {"system", "stiffness"}, {"excitation", "frequency"}})
+    if (file.has(section, uncertainty_key(key)))
+      file.complain(std::string(section) + "." + uncertainty_key(key),
+                    std::string("'") + section + "." + key + "' states an uncertainty, and " + file.subject() +
+                        " does not use it",
+                    "with analysis.type " + joined(names));
+}
+
 }  // namespace
 
 Checked check(const Document& document, Reading& reading, const Section& format, const AnalysisList& analyses,
@@ -145,6 +159,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
     check_excitation(file);
     if (!file.needs()->excitations.empty()) check_verification(file, *analysis, analyses);
   }
+  if (file.needs() != nullptr) check_uncertainties(file, *analysis, analyses);
   resolve_damping(file);
   resolve_frequency(file);
   if (analysis->check != nullptr) analysis->check(file);

@@ -180,7 +180,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   scenario.analysis_name = std::string(checked.analysis->name);
   scenario.result_fields = result_fields(*checked.analysis, section);
   scenario.question =
-      checked.analysis->ask({section, values.value("system", Json()), scenario.model, std::move(checked.data)});
+      checked.analysis->ask({section, values.value("system", Json()), values.value("excitation", Json()),
+                             scenario.model, std::move(checked.data)});
   scenario.expect = expectations(values, document, reading);
   return scenario;
 }

@@ -11,10 +11,13 @@ Section system_section() {
       choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
   friction.listed = true;
   friction.max_items = 16;
-  return {{quantity("mass", {"kg"}, "sliding mass m; optional with measured data").above(0),
+  return {{quantity("mass", {"kg"}, "sliding mass m; optional with measured data").above(0).with_uncertainty(),
+           uncertainty_of("mass", {"kg"}),
            quantity("stiffness", {"N/m"},
                     "spring k between mass and base; with measured data it is optional, or 0 for a mass on a rail")
-               .at_least(0),
+               .at_least(0)
+               .with_uncertainty(),
+           uncertainty_of("stiffness", {"N/m"}),
            quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
            quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
            quantity("cubic_stiffness", {"N/m^3"}, "coefficient of the cube of the spring's elongation; any sign")

@@ -40,6 +40,9 @@ std::string quantity_pattern(const friction::Range& range, const std::string& un
   return "^" + number_pattern(range) + " *(" + units + ")$";
 }
 
+/// The forms of core/uncertain_quantity.hpp, as far as a pattern can tell them.
+std::string uncertain_pattern() { return "^\\(?[0-9.eE+-]+[^±+]*(±|\\+/?-) *[0-9].*$"; }
+
 void add_range(Json& schema, const friction::Range& range) {
   if (std::isfinite(range.low)) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
   if (std::isfinite(range.high)) schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
@@ -65,6 +68,7 @@ Json quantity_schema(const Field& field) {
     bare = bare || unit != "rad/s";
     forms.push_back({{"type", "string"}, {"pattern", quantity_pattern(field.range, unit)}});
   }
+  if (field.takes_uncertainty) forms.push_back({{"type", "string"}, {"pattern", uncertain_pattern()}});
   if (bare) forms.push_back(number_schema(field.range));
   return forms.size() == 1 ? forms.front() : Json{{"anyOf", forms}};
 }

@@ -79,7 +79,8 @@ class Campaign {
 /// What `ask` makes a question of: values without problems.
 struct CheckedValues {
   const Json& analysis;
-  const Json& system;  ///< null without one
+  const Json& system;      ///< null without one
+  const Json& excitation;  ///< null without one
   const sim::Model& model;
   std::optional<identify::MeasuredRecord> data;
 };
@@ -90,7 +91,8 @@ struct Analysis {
   Section keys;              ///< of `analysis`, beside its type
   std::vector<Needs> needs;  ///< of the other sections
   std::vector<ResultField> results;
-  bool verifiable = false;  ///< the result follows from the model: another engine can compute it again
+  bool uses_uncertainties = false;  ///< those of the system's constants and of the frequency
+  bool verifiable = false;          ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.
   void (*check)(CheckedFile& file) = nullptr;
   std::unique_ptr<const Question> (*ask)(CheckedValues&& values) = nullptr;

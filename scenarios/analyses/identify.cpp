@@ -17,11 +17,22 @@ namespace dualdamp::scenarios {
 
 namespace {
 
+/// Of the gains of sensors: calibration leaves one, which noise does not show.
+Field gain_uncertainty_field() {
+  Section signals;
+  for (const char* name : {"y", "x", "v", "a", "force"})
+    signals.fields.push_back(
+        quantity(name, {"1"}, std::string("relative standard uncertainty of the gain of ") + name).at_least(0));
+  return section("gain_uncertainty", std::move(signals),
+                 "how well the gains of the sensors are known: {x: 1 %}; y is that of Y too");
+}
+
 Section keys() {
   std::vector<Field> fields = data_fields();
   std::ranges::move(measurement_fields(), std::back_inserter(fields));
   fields.push_back(methods_key("all that fit the data"));
   std::ranges::move(method_option_fields(), std::back_inserter(fields));
+  fields.push_back(gain_uncertainty_field());
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
@@ -59,6 +70,23 @@ void check(CheckedFile& file) {
   check_method_options(file, record->pairs ? record->pairs->pairs.size() : 0);
 }
 
+identify::ConstantUncertainties uncertainties_of(const CheckedValues& values) {
+  identify::ConstantUncertainties uncertainties;
+  for (const auto& [section, key, value] : {std::tuple{&values.system, "mass", &uncertainties.mass},
+                                            {&values.system, "stiffness", &uncertainties.stiffness},
+                                            {&values.excitation, "frequency", &uncertainties.frequency}})
+    if (section->is_object()) *value = number_or(*section, uncertainty_key(key), 0.0);
+  if (!values.analysis.contains("gain_uncertainty")) return uncertainties;
+  const Json& gains = values.analysis.at("gain_uncertainty");
+  for (const auto& [key, value] : {std::pair{"y", &uncertainties.gain_y},
+                                   {"x", &uncertainties.gain_x},
+                                   {"v", &uncertainties.gain_v},
+                                   {"a", &uncertainties.gain_a},
+                                   {"force", &uncertainties.gain_force}})
+    *value = number_or(gains, key, 0.0);
+  return uncertainties;
+}
+
 std::unique_ptr<const Question> ask(CheckedValues&& values) {
   const Json& section = values.analysis;
   const sim::Model& model = values.model;
@@ -68,6 +96,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
        // A measurement at several frequencies needs none of the excitation's own, which is then zero.
        model.excitation.is_harmonic() && model.excitation.frequency > 0.0 ? model.excitation.frequency
                                                                           : identify::unknown},
+      uncertainties_of(values),
       method_options(section)};
   if (values.data) return std::make_unique<IdentifyQuestion>(std::move(*values.data), std::move(methods));
   IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), model)};
@@ -107,7 +136,8 @@ Answer IdentifyQuestion::run(const RunContext& context) const {
   std::ranges::move(unused_options(methods_.options, methods_.list), std::back_inserter(warnings));
   std::vector<identify::Estimate> estimates;
   for (const identify::MethodEntry* method : methods_.list)
-    estimates.push_back(method->run(data, methods_.constants, method->own(methods_.options)));
+    estimates.push_back(identify::run_with_uncertainties(*method, data, methods_.constants, methods_.uncertainties,
+                                                         method->own(methods_.options)));
   Answer answer = answer_of(estimates, data);
   answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
   return answer;
@@ -120,6 +150,7 @@ const Analysis& identify_analysis() {
       .keys = keys(),
       .needs = needs(),
       .results = estimate_fields(),
+      .uses_uncertainties = true,
       .check = check,
       .ask = ask,
       .length_of = length_of};

@@ -8,6 +8,7 @@
 
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
+#include "identify/uncertainty/uncertain_constants.hpp"
 #include "scenarios/analyses/analysis.hpp"
 #include "scenarios/measurements/measure.hpp"
 
@@ -24,6 +25,7 @@ class IdentifyQuestion final : public Question {
   struct Methods {
     std::vector<const identify::MethodEntry*> list;
     identify::KnownConstants constants;
+    identify::ConstantUncertainties uncertainties;
     identify::OptionValues options;
   };
 

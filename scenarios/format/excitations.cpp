@@ -18,7 +18,9 @@ std::vector<Field> harmonic_fields(const std::string& unit) {
       quantity("amplitude", {unit}, "amplitude A of A cos(w t + phase)").at_least(0),
       quantity("frequency", {"rad/s"}, "forcing frequency w; natural: sqrt(k/m); damped: natural sqrt(1 - zeta^2)")
           .above(0)
-          .or_words({"natural", "damped"}),
+          .or_words({"natural", "damped"})
+          .with_uncertainty(),
+      uncertainty_of("frequency", {"rad/s"}),
       quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
       section_list("harmonics", harmonic, "further harmonics of a distorted drive")
           .items(1, static_cast<std::size_t>(sim::max_harmonics))};

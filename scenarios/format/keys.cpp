@@ -94,6 +94,11 @@ Field&& Field::above(double low) && {
   return std::move(*this);
 }
 
+Field&& Field::with_uncertainty() && {
+  takes_uncertainty = true;
+  return std::move(*this);
+}
+
 Field&& Field::at_least(double low) && {
   range.low = low;
   return std::move(*this);
@@ -164,6 +169,14 @@ Field quantity(std::string name, std::vector<std::string> units, std::string mea
   Field field = make(Kind::quantity, std::move(name), std::move(meaning));
   field.units = std::move(units);
   return field;
+}
+
+std::string uncertainty_key(const std::string& name) { return name + "_uncertainty"; }
+
+Field uncertainty_of(const std::string& name, std::vector<std::string> units) {
+  return quantity(uncertainty_key(name), std::move(units),
+                  "standard uncertainty of '" + name + "', which may stand beside its value: 2 +- 1 %")
+      .at_least(0);
 }
 
 Field quantities(std::string name, std::vector<std::string> units, std::string meaning) {

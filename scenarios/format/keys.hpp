@@ -55,6 +55,8 @@ struct Field {
   std::shared_ptr<const Choice> choice;
   bool listed = false;       ///< choice: a list of maps is accepted
   bool only_listed = false;  ///< choice: nothing but a list is accepted
+  /// quantity: its text may state an uncertainty, which goes to the key `uncertainty_key(name)`.
+  bool takes_uncertainty = false;
 
   Field&& required() &&;
   Field&& with_fallback(Json value) &&;
@@ -63,6 +65,7 @@ struct Field {
   Field&& at_least(double low) &&;
   Field&& at_most(double high) &&;
   Field&& items(std::size_t least, std::size_t most) &&;
+  Field&& with_uncertainty() &&;
 };
 
 /// Keys of which a section takes exactly one, or at most one.
@@ -107,6 +110,12 @@ struct Choice {
 [[nodiscard]] Field word_list(std::string name, std::vector<std::string> list, std::string meaning);
 [[nodiscard]] Field scalar(std::string name, std::string meaning);
 [[nodiscard]] Field quantity(std::string name, std::vector<std::string> units, std::string meaning);
+/// "mass_uncertainty"
+[[nodiscard]] std::string uncertainty_key(const std::string& name);
+
+/// The key beside a quantity that takes its uncertainty.
+[[nodiscard]] Field uncertainty_of(const std::string& name, std::vector<std::string> units);
+
 [[nodiscard]] Field quantities(std::string name, std::vector<std::string> units, std::string meaning);
 [[nodiscard]] Field grid(std::string name, std::vector<std::string> units, std::string meaning);
 [[nodiscard]] Field section(std::string name, Section section, std::string meaning);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/numbers.hpp"
+#include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/format/law_values.hpp"
@@ -47,6 +48,7 @@ class Reader {
         if (stands_beside_other_form(node, field, *entry, field_path)) continue;
         Json value = this->value(entry->value, field, field_path);
         if (!value.is_null()) values[field.name] = std::move(value);
+        if (field.takes_uncertainty) uncertainty(node, *entry, field, field_path, values);
       } else if (field.is_required) {
         complain_about_missing(node, section, field, field_path);
       } else if (!field.fallback.is_null()) {
@@ -205,6 +207,10 @@ class Reader {
     return open ? field.units.front() : amplitude_unit_;
   }
 
+  static Json in_json(double value, const std::string& unit) {
+    return unit == "rad/s" ? Json(core::format_number(value) + " rad/s") : Json(value);
+  }
+
   Json quantity(const Node& node, const Field& field, const std::string& path) {
     if (std::ranges::find(field.words, node.text) != field.words.end()) return node.text;
     const std::string unit = unit_of(field);
@@ -216,7 +222,11 @@ class Reader {
                shown(node));
       return nullptr;
     }
-    const core::QuantityText text = core::parse_quantity(node.text, unit);
+    const core::UncertainQuantityText text = core::parse_uncertain_quantity(node.text, unit);
+    if (text.uncertainty && !field.takes_uncertainty) {
+      complain(node.place, "'" + path + "' takes no uncertainty", allowed, shown(node));
+      return nullptr;
+    }
     if (!text.value) {
       const bool is_word = !field.words.empty() && !is_number_like(node.text);
       complain(node.place, "'" + path + "': " + text.fault, allowed, shown(node),
@@ -224,7 +234,22 @@ class Reader {
       return nullptr;
     }
     if (!in_range(node, field, path, *text.value, unit)) return nullptr;
-    return unit == "rad/s" ? Json(core::format_number(*text.value) + " rad/s") : Json(*text.value);
+    return in_json(*text.value, unit);
+  }
+
+  /// The uncertainty that the text of a quantity states goes to the key of its own.
+  void uncertainty(const Node& section, const Entry& entry, const Field& field, const std::string& path,
+                   Json& values) {
+    if (entry.value.kind != Node::Kind::scalar) return;
+    const std::string unit = unit_of(field);
+    const core::UncertainQuantityText text = core::parse_uncertain_quantity(entry.value.text, unit);
+    if (!text.uncertainty) return;
+    const std::string key = uncertainty_key(field.name);
+    if (const Entry* other = section.find(key))
+      return complain(other->place, "the uncertainty of '" + path + "' is stated twice", "one of the two",
+                      shown(entry.value) + " in line " + std::to_string(entry.place.line) + " as well");
+    reading_.places.emplace(path.substr(0, path.size() - field.name.size()) + key, entry.value.place);
+    values[key] = in_json(*text.uncertainty, unit);
   }
 
   bool in_range(const Node& node, const Field& field, const std::string& path, double value,

@@ -1,0 +1,23 @@
+#pragma once
+/// Quantities that state their uncertainty: `1.042 kg ± 0.5 %`, `1568 N/m +- 8 N/m`, `(1.042 ± 0.005) kg`.
+///
+/// What follows `±`, `+-` or `+/-` is the standard uncertainty (one standard deviation), in percent of the value, in
+/// a unit of its dimension, or without unit in that of the value. Either side may leave its unit to the other.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dualdamp::core {
+
+struct UncertainQuantityText {
+  std::optional<double> value;        ///< SI
+  std::optional<double> uncertainty;  ///< SI, one standard deviation, >= 0; nothing where the text states none
+  std::string fault;                  ///< why there is no value, a sentence without final stop
+  std::string suggestion;             ///< a quantity that was perhaps meant; may be empty
+};
+
+/// A quantity of the dimension of `si_unit` (core/units.hpp), with or without its uncertainty.
+[[nodiscard]] UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit);
+
+}  // namespace dualdamp::core

@@ -1,0 +1,222 @@
+#include "identify/uncertainty/uncertain_constants.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "core/numbers.hpp"
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// What is measured, with the constants it is read with.
+struct Input {
+  Record record;
+  KnownConstants constants;
+};
+
+using Signal = std::vector<double> History::*;
+
+void multiply(std::vector<double>& values, double factor) {
+  for (double& value : values) value *= factor;
+}
+
+void multiply(Record& record, Signal signal, double factor) {
+  for (History& history : record.histories) multiply(history.*signal, factor);
+}
+
+void multiply_frequency(Input& input, double factor) {
+  if (input.record.pairs)
+    for (Pair& pair : input.record.pairs->pairs)
+      if (is_same_frequency(pair.omega, input.constants.frequency)) pair.omega *= factor;
+  input.constants.frequency *= factor;
+}
+
+void multiply_y(Input& input, double factor) {
+  if (input.record.pairs)
+    for (Pair& pair : input.record.pairs->pairs) pair.Y *= factor;
+  multiply(input.record, &History::y, factor);
+}
+
+void multiply_x(Input& input, double factor) {
+  if (input.record.pairs)
+    for (Pair& pair : input.record.pairs->pairs) {
+      pair.x *= factor;
+      pair.fundamental *= factor;
+    }
+  if (input.record.decay) multiply(input.record.decay->extremes, factor);
+  multiply(input.record, &History::x, factor);
+}
+
+/// A speed that was read off v changes with the gain of v.
+void multiply_v(Input& input, double factor) {
+  if (input.record.pairs)
+    for (Pair& pair : input.record.pairs->pairs) pair.mean_square_speed *= factor * factor;
+  multiply(input.record, &History::v, factor);
+}
+
+/// One constant that may be off, and how an input looks when it is `factor` times as large.
+struct Constant {
+  std::string_view name;
+  void (*multiply)(Input& input, double factor);
+  double (*relative)(const ConstantUncertainties& uncertainties, const KnownConstants& constants);
+};
+
+constexpr std::array<Constant, 8> all_constants = {{
+    {"mass", [](Input& input, double factor) { input.constants.mass *= factor; },
+     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.mass / known.mass; }},
+    {"stiffness", [](Input& input, double factor) { input.constants.stiffness *= factor; },
+     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.stiffness / known.stiffness; }},
+    {"frequency", multiply_frequency,
+     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.frequency / known.frequency; }},
+    {"gain of y", multiply_y, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_y; }},
+    {"gain of x", multiply_x, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_x; }},
+    {"gain of v", multiply_v, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_v; }},
+    {"gain of a", [](Input& input, double factor) { multiply(input.record, &History::a, factor); },
+     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_a; }},
+    {"gain of force", [](Input& input, double factor) { multiply(input.record, &History::force, factor); },
+     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_force; }},
+}};
+
+/// The estimates with one constant lower and higher than stated; where one of them fails, that as stated stands in.
+struct Bracket {
+  const Estimate* low = nullptr;
+  const Estimate* high = nullptr;
+  double step = 0.0;  ///< from low to high, in the constant's deviation
+};
+
+/// A method read again with one constant off.
+class Variation {
+ public:
+  Variation(const MethodEntry& method, const Input& input, const OptionValues& values, const Estimate& stated)
+      : method_(method), input_(input), values_(values), stated_(stated) {}
+
+  /// The estimates at both sides, `deviation` being relative.
+  [[nodiscard]] std::optional<Bracket> at(const Constant& constant, double deviation) {
+    low_ = run(constant, 1.0 - deviation);
+    high_ = run(constant, 1.0 + deviation);
+    const bool has_low = low_.outcome.ok();
+    const bool has_high = high_.outcome.ok();
+    if (!has_low && !has_high) return std::nullopt;
+    return Bracket{has_low ? &low_ : &stated_, has_high ? &high_ : &stated_, (has_low ? 1.0 : 0.0) + (has_high ? 1.0 : 0.0)};
+  }
+
+ private:
+  Estimate run(const Constant& constant, double factor) const {
+    Input input = input_;
+    constant.multiply(input, factor);
+    return method_.run(input.record, input.constants, values_);
+  }
+
+  const MethodEntry& method_;
+  const Input& input_;
+  const OptionValues& values_;
+  const Estimate& stated_;
+  Estimate low_;
+  Estimate high_;
+};
+
+double difference(const Bracket& bracket, double ParameterSet::* member) {
+  return (bracket.high->value.*member - bracket.low->value.*member) / bracket.step;
+}
+
+/// By the name of the parameter; nothing where one of the estimates lacks it.
+std::optional<double> difference(const Bracket& bracket, const std::string& name) {
+  const auto find = [&name](const Estimate& estimate) {
+    return std::ranges::find(estimate.others, name, &FurtherParameter::name);
+  };
+  const auto low = find(*bracket.low);
+  const auto high = find(*bracket.high);
+  if (low == bracket.low->others.end() || high == bracket.high->others.end()) return std::nullopt;
+  return (high->value - low->value) / bracket.step;
+}
+
+void widen(std::array<double, 2>& interval, double value, double change) {
+  const double centre = std::clamp(value, interval[0], interval[1]);
+  const double added = quantile95(std::numeric_limits<double>::infinity()) * change;
+  interval = {centre - std::hypot(centre - interval[0], added), centre + std::hypot(interval[1] - centre, added)};
+}
+
+void add(const Bracket& bracket, Estimate& estimate) {
+  const ParameterSet change = {difference(bracket, &ParameterSet::zeta), difference(bracket, &ParameterSet::c),
+                               difference(bracket, &ParameterSet::x_f), difference(bracket, &ParameterSet::F0)};
+  for (const auto& [member, interval] :
+       {std::pair{&ParameterSet::zeta, &ParameterIntervals::zeta}, {&ParameterSet::c, &ParameterIntervals::c},
+        {&ParameterSet::x_f, &ParameterIntervals::x_f}, {&ParameterSet::F0, &ParameterIntervals::F0}}) {
+    if (estimate.std) (*estimate.std).*member = std::hypot((*estimate.std).*member, change.*member);
+    if (estimate.interval95) widen((*estimate.interval95).*interval, estimate.value.*member, change.*member);
+  }
+  if (estimate.covariance) {
+    const Eigen::Vector2d both(change.zeta, change.F0);
+    *estimate.covariance += both * both.transpose();
+    const Eigen::Matrix2d& c = *estimate.covariance;
+    if (estimate.correlation) estimate.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
+  }
+  for (FurtherParameter& other : estimate.others) {
+    const std::optional<double> moved = difference(bracket, other.name);
+    if (!moved) continue;
+    if (other.std) *other.std = std::hypot(*other.std, *moved);
+    if (other.interval95) widen(*other.interval95, other.value, *moved);
+  }
+}
+
+/// As a share of `value`; zero where it is zero.
+double relative(double change, double value) { return value == 0.0 ? 0.0 : change / value; }
+
+}  // namespace
+
+bool ConstantUncertainties::any() const {
+  return mass > 0.0 || stiffness > 0.0 || frequency > 0.0 || gain_y > 0.0 || gain_x > 0.0 || gain_v > 0.0 ||
+         gain_a > 0.0 || gain_force > 0.0;
+}
+
+Estimate run_with_uncertainties(const MethodEntry& method, const Record& record, const KnownConstants& constants,
+                                const ConstantUncertainties& uncertainties, const OptionValues& values) {
+  const Estimate stated = method.run(record, constants, values);
+  if (!stated.outcome.ok() || !uncertainties.any()) return stated;
+  const Input input{record, constants};
+  Variation variation(method, input, values, stated);
+  Estimate estimate = stated;
+  for (const Constant& constant : all_constants) {
+    const double deviation = constant.relative(uncertainties, constants);
+    if (!(deviation > 0.0)) continue;
+    if (const std::optional<Bracket> bracket = variation.at(constant, deviation))
+      add(*bracket, estimate);
+    else
+      estimate.warnings.push_back("the uncertainty of the " + std::string(constant.name) +
+                                  " is not in the intervals: with a value off by " +
+                                  core::format_number(100.0 * deviation, 3) + " % there is no estimate");
+  }
+  return estimate;
+}
+
+std::vector<Sensitivity> sensitivities(const MethodEntry& method, const Record& record,
+                                       const KnownConstants& constants, const OptionValues& values) {
+  constexpr double deviation = 0.01;
+  const Estimate stated = method.run(record, constants, values);
+  std::vector<Sensitivity> list;
+  if (!stated.outcome.ok()) return list;
+  const Input input{record, constants};
+  Variation variation(method, input, values, stated);
+  for (const Constant& constant : all_constants) {
+    const std::optional<Bracket> bracket = variation.at(constant, deviation);
+    if (!bracket) continue;
+    const Sensitivity found{std::string(constant.name),
+                            relative(difference(*bracket, &ParameterSet::zeta), stated.value.zeta),
+                            relative(difference(*bracket, &ParameterSet::F0), stated.value.F0)};
+    // A constant that the method does not use moves nothing.
+    constexpr double nothing = 1e-6;
+    if (std::abs(found.zeta_change) > nothing || std::abs(found.F0_change) > nothing) list.push_back(found);
+  }
+  std::ranges::sort(list, std::ranges::greater{}, [](const Sensitivity& one) {
+    return std::max(std::abs(one.zeta_change), std::abs(one.F0_change));
+  });
+  return list;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,48 @@
+#pragma once
+/// What the uncertainty of stated constants does to an estimate.
+///
+/// A mass, a stiffness, a frequency or the gain of a sensor that is off by its standard uncertainty u moves an
+/// estimate theta by d = (theta(+u) - theta(-u))/2: the method reads the record twice more for each of them. They
+/// are off once for the whole record, so that no number of readings averages them out. The constants err
+/// independently: variances d^2 add to those that the readings leave, and each side of a 95 % interval becomes
+/// sqrt(side^2 + sum (1.96 d)^2).
+/// Source: gum2008, 5.1.2. Cost: two runs of the method for each uncertain constant.
+
+#include <string>
+#include <vector>
+
+#include "identify/method.hpp"
+
+namespace dualdamp::identify {
+
+/// Standard uncertainties (one standard deviation), >= 0; 0: none is stated.
+struct ConstantUncertainties {
+  double mass = 0.0;       ///< kg
+  double stiffness = 0.0;  ///< N/m
+  double frequency = 0.0;  ///< rad/s
+  /// Relative, of the gain of each sensor. `gain_y` is that of Y and y.
+  double gain_y = 0.0, gain_x = 0.0, gain_v = 0.0, gain_a = 0.0, gain_force = 0.0;
+
+  [[nodiscard]] bool any() const;
+};
+
+/// How an estimate answers to one constant that is 1 % higher.
+struct Sensitivity {
+  std::string constant;      ///< "mass", "stiffness", "frequency", "gain of x", ...
+  double zeta_change = 0.0;  ///< relative
+  double F0_change = 0.0;    ///< relative
+};
+
+/// The estimate of `method`, with the uncertainties of the constants in its standard errors, covariance and
+/// intervals. A warning says where a method gives no estimate for constants that are off by their uncertainty.
+[[nodiscard]] Estimate run_with_uncertainties(const MethodEntry& method, const Record& record,
+                                              const KnownConstants& constants,
+                                              const ConstantUncertainties& uncertainties,
+                                              const OptionValues& values = {});
+
+/// How the estimate of `method` answers to each constant that it depends on, the strongest first. Empty when the
+/// method gives none.
+[[nodiscard]] std::vector<Sensitivity> sensitivities(const MethodEntry& method, const Record& record,
+                                                     const KnownConstants& constants, const OptionValues& values = {});
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,120 @@
+#include "identify/uncertainty/uncertain_constants.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "identify/methods.hpp"
+#include "tests/identify/records.hpp"
+
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr double mass = 1.042;
+constexpr double stiffness = 1568.0;
+constexpr KnownConstants constants{mass, stiffness, unknown};
+
+/// X_(i+1) = R X_i - x_f (1 + R) about an offset of zero, with noise.
+Record decay(double R, double x_f, double noise, std::uint64_t seed) {
+  Normal normal(seed);
+  std::vector<double> values;
+  double amplitude = 0.02;
+  for (int i = 0; i < 9; ++i) {
+    values.push_back((i % 2 == 0 ? amplitude : -amplitude) + noise * normal());
+    amplitude = R * amplitude - x_f * (1.0 + R);
+  }
+  return extremes(values);
+}
+
+const MethodEntry& free_decay_method() { return *find_method("free_decay"); }
+
+/// Half width of an interval, squared.
+double square(const std::array<double, 2>& interval) {
+  const double half = 0.5 * (interval[1] - interval[0]);
+  return half * half;
+}
+
+}  // namespace
+
+TEST_CASE("Uncertain constants widen the intervals by what they do to the estimate") {
+  // zeta and x_f follow from the extremes alone; F0 = k x_f and c = 2 zeta sqrt(m k).
+  const Record record = decay(0.9, 2e-4, 2e-5, 1);
+  const Estimate exact = free_decay_method().run(record, constants);
+  const ConstantUncertainties uncertainties{.mass = 0.02 * mass, .stiffness = 0.03 * stiffness};
+  const Estimate wide = run_with_uncertainties(free_decay_method(), record, constants, uncertainties);
+  REQUIRE(exact.interval95);
+  REQUIRE(wide.interval95);
+  CHECK(wide.value.F0 == exact.value.F0);
+  CHECK(wide.interval95->zeta == exact.interval95->zeta);
+  CHECK(wide.interval95->x_f == exact.interval95->x_f);
+  const double F0 = exact.value.F0;
+  const double c = exact.value.c;
+  CHECK(wide.std->F0 == Approx(std::hypot(exact.std->F0, 0.03 * F0)).epsilon(1e-6));
+  CHECK(wide.std->c == Approx(std::hypot(exact.std->c, 0.01 * c, 0.015 * c)).epsilon(1e-3));
+  const double normal = 1.959964;
+  CHECK(square(wide.interval95->F0) ==
+        Approx(square(exact.interval95->F0) + std::pow(normal * 0.03 * F0, 2)).epsilon(1e-5));
+  CHECK((*wide.covariance)(1, 1) == Approx((*exact.covariance)(1, 1) + std::pow(0.03 * F0, 2)).epsilon(1e-6));
+}
+
+TEST_CASE("The gain of a sensor that is uncertain makes lengths uncertain") {
+  const Record record = decay(0.9, 2e-4, 2e-5, 2);
+  const Estimate exact = free_decay_method().run(record, constants);
+  const Estimate wide = run_with_uncertainties(free_decay_method(), record, constants, {.gain_x = 0.05});
+  CHECK(wide.interval95->zeta[1] == Approx(exact.interval95->zeta[1]).epsilon(1e-6));
+  CHECK(wide.std->x_f == Approx(std::hypot(exact.std->x_f, 0.05 * exact.value.x_f)).epsilon(1e-6));
+}
+
+TEST_CASE("Intervals with stated uncertainties hold the truth as often as they say") {
+  constexpr int records = 400;
+  const double R = 0.9;
+  const double x_f = 2e-4;
+  const double L = -std::log(R) / std::numbers::pi;
+  const double zeta = L / std::sqrt(1.0 + L * L);
+  const double c = 2.0 * zeta * std::sqrt(mass * stiffness);
+  int with_F0 = 0;
+  int with_c = 0;
+  int with_F0_unstated = 0;
+  const ConstantUncertainties uncertainties{.mass = 0.1 * mass, .stiffness = 0.1 * stiffness, .gain_x = 0.05};
+  const auto holds = [](const std::array<double, 2>& interval, double truth) {
+    return interval[0] <= truth && truth <= interval[1] ? 1 : 0;
+  };
+  for (int seed = 0; seed < records; ++seed) {
+    Normal normal(static_cast<std::uint64_t>(5000 + seed));
+    const KnownConstants stated{mass * (1.0 + 0.1 * normal()), stiffness * (1.0 + 0.1 * normal()), unknown};
+    const double gain = 1.0 + 0.05 * normal();
+    Record record = decay(R, x_f, 3e-6, static_cast<std::uint64_t>(9000 + seed));
+    for (double& extreme : record.decay->extremes) extreme *= gain;
+    const Estimate estimate = run_with_uncertainties(free_decay_method(), record, stated, uncertainties);
+    REQUIRE(estimate.interval95);
+    with_F0 += holds(estimate.interval95->F0, stiffness * x_f);
+    with_c += holds(estimate.interval95->c, c);
+    with_F0_unstated += holds(free_decay_method().run(record, stated).interval95->F0, stiffness * x_f);
+  }
+  CHECK(with_F0 >= 0.92 * records);
+  CHECK(with_F0 <= 0.98 * records);
+  CHECK(with_c >= 0.92 * records);
+  CHECK(with_c <= 0.98 * records);
+  CHECK(with_F0_unstated < 0.7 * records);
+}
+
+TEST_CASE("Sensitivities say what one percent of each constant would do") {
+  const std::vector<Sensitivity> list = sensitivities(free_decay_method(), decay(0.9, 2e-4, 0.0, 3), constants);
+  REQUIRE(list.size() == 2);
+  for (const Sensitivity& one : list) {
+    CAPTURE(one.constant);
+    CHECK((one.constant == "stiffness" || one.constant == "gain of x"));
+    CHECK(one.F0_change == Approx(0.01).epsilon(1e-6));
+    CHECK(one.zeta_change == Approx(0.0).margin(1e-9));
+  }
+}
+
+TEST_CASE("Where a constant cannot be lower by its uncertainty, the higher one alone counts") {
+  const Record record = decay(0.9, 2e-4, 2e-5, 4);
+  const Estimate exact = free_decay_method().run(record, constants);
+  const Estimate wide = run_with_uncertainties(free_decay_method(), record, constants, {.mass = 1.2 * mass});
+  const double change = (std::sqrt(2.2) - 1.0) * exact.value.c;
+  CHECK(wide.std->c == Approx(std::hypot(exact.std->c, change)).epsilon(1e-6));
+}
