@@ -77,44 +77,12 @@ class ExplicitStepper final : public Stepper {
     step.method.calc_state(part * step.h, x, step.start, step.start_rates, 0.0, x, step.end_rates, step.h);
   }
 
-  /// By central differences of displaced steps. Linearised stages would not do: where a force has an infinite slope
-  /// at v = 0 only the step as a whole varies moderately.
-  [[nodiscard]] bool carry(const VectorField& field, std::span<const double> sizes,
-                           std::span<double> columns) override {
-    constexpr double displacement = 1e-5;
-    const std::size_t n = sizes.size();
-    for (std::size_t first = 0; first < columns.size(); first += n) {
-      const std::span<double> column = columns.subspan(first, n);
-      double size = 0.0;
-      for (std::size_t k = 0; k < n; ++k) size = std::max(size, std::abs(column[k]) / sizes[k]);
-      if (size == 0.0) continue;
-      const double step = displacement / size;
-      end_of_displaced(field, column, step, above_);
-      end_of_displaced(field, column, -step, below_);
-      for (std::size_t k = 0; k < n; ++k) column[k] = (above_[k] - below_[k]) / (2.0 * step);
-    }
-    return all_finite(columns);
-  }
-
   [[nodiscard]] int order() const override { return 4; }
   [[nodiscard]] double stiffness() const override { return stiffness_; }
 
  private:
-  /// The last step from its start displaced along a column.
-  void end_of_displaced(const VectorField& field, std::span<const double> column, double step, State& end) {
-    const Step& last = steps_[last_];
-    for (std::size_t k = 0; k < column.size(); ++k) displaced_.start[k] = last.start[k] + step * column[k];
-    field.evaluate(displaced_.start, last.t, displaced_.start_rates);
-    const auto rates = [&](const State& x, State& dx, double t) { field.evaluate(x, t, dx); };
-    displaced_.method.do_step(rates, displaced_.start, displaced_.start_rates, last.t, end, displaced_.end_rates,
-                              last.h);
-  }
-
   void resize(std::size_t size) {
     for (Step& step : steps_) step.resize(size);
-    displaced_.resize(size);
-    above_.resize(size);
-    below_.resize(size);
     stage_.resize(size);
     stage_rates_.resize(size);
   }
@@ -136,9 +104,6 @@ class ExplicitStepper final : public Stepper {
 
   std::array<Step, 2> steps_;
   std::size_t last_ = 0;
-  Step displaced_;
-  State above_;
-  State below_;
   State stage_;
   State stage_rates_;
   double stiffness_ = 0.0;

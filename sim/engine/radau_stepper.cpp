@@ -48,7 +48,6 @@ class RadauStepper final : public Stepper {
         jacobian_(n * n),
         factored_jacobian_(n * n),
         real_factors_(n),
-        stage_factors_(n * stages),
         pair_factors_(make_pair_factors(n, std::make_index_sequence<pairs>{})) {}
 
   [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
@@ -78,19 +77,6 @@ class RadauStepper final : public Stepper {
     for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_, k);
   }
 
-  /// The derivative u of the polynomial: sum_j slopes_ij u_j = h J_i (column + u_i) in every stage i.
-  [[nodiscard]] bool carry(const VectorField& field, std::span<const double>, std::span<double> columns) override {
-    linearise(field);
-    Vector right(n_() * stages);
-    for (std::size_t first = 0; first < columns.size(); first += n_()) {
-      const std::span<double> column = columns.subspan(first, n_());
-      for (std::size_t i = 0; i < stages; ++i) multiply(i, column, std::span(right).subspan(i * n_(), n_()));
-      stage_factors_.solve(right.data());
-      for (std::size_t k = 0; k < n_(); ++k) column[k] += right[(stages - 1) * n_() + k];
-    }
-    return std::ranges::all_of(columns, [](double value) { return std::isfinite(value); });
-  }
-
   [[nodiscard]] int order() const override { return stages; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
 
@@ -98,32 +84,6 @@ class RadauStepper final : public Stepper {
   template <std::size_t... k>
   static std::array<LuFactors<Complex, N>, pairs> make_pair_factors(std::size_t n, std::index_sequence<k...>) {
     return {((void)k, LuFactors<Complex, N>(n))...};
-  }
-
-  /// Jacobians h J_i of the last step's stages, and the factors of the equations for its derivative.
-  void linearise(const VectorField& field) {
-    const std::size_t size = n_() * stages;
-    stage_jacobians_.resize(stages * n_() * n_());
-    Vector matrix(size * size);  // with the other sign: the factors are those of 0 - matrix
-    for (std::size_t i = 0; i < stages; ++i) {
-      for (std::size_t k = 0; k < n_(); ++k) state_[k] = start_[k] + polynomial_[i * n_() + k];
-      const std::span<double> jacobian = std::span(stage_jacobians_).subspan(i * n_() * n_(), n_() * n_());
-      field.jacobian(state_, t_ + radau_.nodes[i] * h_, jacobian);
-      for (double& entry : jacobian) entry *= h_;
-      for (std::size_t j = 0; j < stages; ++j)
-        for (std::size_t k = 0; k < n_(); ++k) matrix[(j * n_() + k) * size + i * n_() + k] = -radau_.slopes[i][j];
-      for (std::size_t j = 0; j < n_(); ++j)
-        for (std::size_t k = 0; k < n_(); ++k)
-          matrix[(i * n_() + j) * size + i * n_() + k] += jacobian[j * n_() + k];
-    }
-    stage_factors_.compute(0.0, matrix);
-  }
-
-  /// h J_i times a column.
-  void multiply(std::size_t i, std::span<const double> column, std::span<double> product) const {
-    std::ranges::fill(product, 0.0);
-    for (std::size_t j = 0; j < n_(); ++j)
-      for (std::size_t k = 0; k < n_(); ++k) product[k] += stage_jacobians_[(i * n_() + j) * n_() + k] * column[j];
   }
 
   /// sum_j weights_j states_j, component k.
@@ -284,9 +244,6 @@ class RadauStepper final : public Stepper {
   Vector jacobian_;
   Vector factored_jacobian_;
   LuFactors<double, N> real_factors_;
-  // The derivative.
-  Vector stage_jacobians_;
-  LuFactors<double, N * stages> stage_factors_;
   std::array<LuFactors<Complex, N>, pairs> pair_factors_;
 };
 
@@ -300,10 +257,6 @@ class ImplicitStepper final : public Stepper {
   }
 
   void at(double part, std::span<double> x) const override { method_->at(part, x); }
-  [[nodiscard]] bool carry(const VectorField& field, std::span<const double> sizes,
-                           std::span<double> columns) override {
-    return method_->carry(field, sizes, columns);
-  }
   [[nodiscard]] int order() const override { return stages; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
 

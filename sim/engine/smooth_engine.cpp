@@ -95,6 +95,7 @@ void SmoothEngine::begin_motion() {
   h_ = 0.0;
   x_scale_ = 0.0;
   counted_to_ = 0.0;
+  follows_event_ = false;
   if (tracking_) reset_sensitivity();
 }
 
@@ -309,9 +310,14 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   describe_step();
   if (tracking_) {
     track_step();
-    if (found && !at_once) carry_to_event(hit.watch);
-    if (is_over && by_schedule) delay_of_event_.setZero(columns_.cols());
+    if (found && !at_once) {
+      carry_to_event(hit.watch);
+    } else if ((is_over && by_schedule) || (at_once && !follows_event_)) {
+      // A guard that an interval finds violated at its begin was not crossed: nothing delays that.
+      drop_lead();
+    }
   }
+  follows_event_ = found || (is_over && by_schedule);
   const Ending ending = found ? watches_[hit.watch].ending : Ending{};
   take_over(found && is<SlipEnd>(ending));
   pass_time(to_period_end && is_over && !by_schedule);
@@ -319,11 +325,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
     return nullptr;
   }
-  if (!found && !(is_over && by_schedule)) {
-    // A guard that the next interval finds violated was not crossed at an event: nothing delays it.
-    delay_of_event_.setZero();
-    return interval_.get();
-  }
+  if (!follows_event_) return interval_.get();
   if (found) {
     ended_at_once_ = !at_once && taken_ == 0.0 && is<SlipEnd>(ending);
     interval_->ending = act(ending);

@@ -1,7 +1,12 @@
-// The derivative of a motion of the smooth engine by its start. Columns are perturbations of the start: d(x, v,
-// states)(now). Over a step the derivative of the step as computed carries them on; at an event they come late or
-// early by `delay_of_event_`, and are carried to the crossing with the motion before it, through the mode changes,
-// and back with the motion after it (leine2004).
+// The derivative of a motion of the smooth engine by its start. A perturbation is kept in two parts,
+//
+//   d(x, v, states)(now) = columns + f(now) lead,
+//
+// a change of the state and a time by which the perturbed motion is ahead. Both are exact together for every choice
+// of `lead`; the choice says what an error of the variational equation does. Where v passes zero a force may turn
+// over within less than rounding (rate_state, a steep dashpot): what a velocity is there says nothing, but the time
+// at which it is zero does. So near v = 0 the columns have no velocity, and an event leaves its delay in `lead`
+// instead of what it would be under the acceleration at that very instant (leine2004).
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +21,16 @@ namespace {
 /// Relative displacement of states and guards in central differences.
 constexpr double displacement = 1e-5;
 
+/// A state whose own size is far below its value (a turning point among stiff contacts) is displaced by no less
+/// than this part of the value in place of its size: by a hundred million times its rounding.
+constexpr double least_size = 1e-2;
+
+/// Within this part of the shortest period before and after a stop the columns have no velocity.
+constexpr double near_stop = 1e-3;
+
+/// Part of the shortest period over which the field's change with time is a difference.
+constexpr double part_for_rate = 1e-6;
+
 Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -26,8 +41,24 @@ void SmoothEngine::reset_sensitivity() {
   Eigen::Index n = 2;
   for (const friction::Memory& memory : memories_) n += static_cast<Eigen::Index>(memory.state.size());
   columns_ = Eigen::MatrixXd::Identity(n, n);
-  delay_of_event_ = Eigen::RowVectorXd::Zero(n);
+  lead_ = Eigen::RowVectorXd::Zero(n);
   changes_.clear();
+}
+
+Eigen::MatrixXd SmoothEngine::sensitivity() const {
+  if (lead_.isZero(0.0)) return columns_;
+  return columns_ + rates_now() * lead_;
+}
+
+/// Of the motion that begins now.
+Eigen::VectorXd SmoothEngine::rates_now() const {
+  Flow flow(model_, drive_, past_);
+  flow.freeze(memories_, direction_, time() - local_time_);
+  std::vector<double> X;
+  flow.gather(x_, v_, memories_, X);
+  std::vector<double> rates(X.size());
+  flow.evaluate(X, local_time_, rates);
+  return as_vector(rates);
 }
 
 void SmoothEngine::jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) {
@@ -37,42 +68,75 @@ void SmoothEngine::jumped(std::size_t law, const friction::Memory& before, frict
 /// Over the step taken last.
 void SmoothEngine::track_step() {
   if (taken_ == 0.0) return;
-  if (stepper_->carry(flow_, flow_.scales(), {columns_.data(), static_cast<std::size_t>(columns_.size())})) return;
-  columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  lead_near_stop();
+  const auto size = static_cast<std::size_t>(columns_.rows());
+  if (variation_size_ != size) variation_ = make_variation(size);
+  variation_size_ = size;
+  Eigen::VectorXd late(columns_.rows());
+  const TakenStep step{*stepper_, local_time_, taken_, part_for_rate * shortest_period()};
+  if (!variation_->pass(flow_, step, {columns_.data(), static_cast<std::size_t>(columns_.size())},
+                        {late.data(), size}))
+    columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  columns_ -= late * lead_;
 }
 
-/// How late each perturbation comes to the crossing at end_.
-void SmoothEngine::carry_to_event(std::size_t watch) {
-  const double t = local_time_ + taken_;
-  const double rate = guard_rate(watch, end_, t);
+/// Near a stop, at the begin of a step: the perturbed motion is where the velocity is the same.
+void SmoothEngine::lead_near_stop() {
+  if (direction_ == friction::Direction::none) return;
+  flow_.evaluate(X_, local_time_, rates_);
+  if (!(std::abs(X_[1]) < near_stop * shortest_period() * std::abs(rates_[1]))) return;
+  const Eigen::RowVectorXd ahead = columns_.row(1) / rates_[1];
+  columns_ -= as_vector(rates_) * ahead;
+  columns_.row(1).setZero();
+  lead_ += ahead;
+}
+
+/// At a time that does not depend on the motion every perturbation is a change of the state.
+void SmoothEngine::drop_lead() {
+  flow_.evaluate(end_, local_time_ + taken_, rates_);
+  columns_ += as_vector(rates_) * lead_;
+  lead_.setZero();
+}
+
+/// Of a guard at end_, by the state; `by_time`: by the time alone, which a guard has where it asks for the drive.
+Eigen::RowVectorXd SmoothEngine::guard_gradient(std::size_t watch, double t, double& by_time) const {
   Eigen::RowVectorXd gradient(columns_.rows());
   std::vector<double> displaced = end_;
   std::vector<double> values;
+  const auto value = [&](double at) {
+    evaluate_guards(displaced, at, values);
+    return values[watch];
+  };
   for (std::size_t k = 0; k < end_.size(); ++k) {
-    const double step = displacement * flow_.scales()[k];
+    const double step = displacement * std::max(flow_.scales()[k], least_size * std::abs(end_[k]));
     displaced[k] = end_[k] + step;
-    evaluate_guards(displaced, t, values);
-    const double above = values[watch];
+    const double above = value(t);
     displaced[k] = end_[k] - step;
-    evaluate_guards(displaced, t, values);
-    gradient[static_cast<Eigen::Index>(k)] = (above - values[watch]) / (2.0 * step);
+    gradient[static_cast<Eigen::Index>(k)] = (above - value(t)) / (2.0 * step);
     displaced[k] = end_[k];
   }
-  delay_of_event_ = -(gradient * columns_) / rate;
+  const double later = part_for_rate * shortest_period();
+  by_time = (value(t + later) - value(t - later)) / (2.0 * later);
+  return gradient;
 }
 
-/// Through the mode changes and back to the common time. An event that follows another at once came as late as
-/// that one.
-void SmoothEngine::carry_from_event() {
-  flow_.evaluate(end_, local_time_, rates_);
-  const Eigen::MatrixXd at_crossing = columns_ + as_vector(rates_) * delay_of_event_;
-  judge_.freeze(memories_, direction_, time() - local_time_);
-  std::vector<double> X;
-  judge_.gather(x_, v_, memories_, X);
-  std::vector<double> rates(X.size());
-  judge_.evaluate(X, local_time_, rates);
-  columns_ = jump_derivative() * at_crossing - as_vector(rates) * delay_of_event_;
+/// To the crossing at end_, on the motion before it. A lead is one along the motion and not in time: it brings the
+/// crossing no nearer as far as the guard changes with time alone.
+void SmoothEngine::carry_to_event(std::size_t watch) {
+  const double t = local_time_ + taken_;
+  const double rate = guard_rate(watch, end_, t);
+  // A guard that only touches zero has no crossing to shift.
+  if (rate == 0.0) return drop_lead();
+  double by_time = 0.0;
+  const Eigen::RowVectorXd gradient = guard_gradient(watch, t, by_time);
+  const Eigen::RowVectorXd ahead = (by_time * lead_ - gradient * columns_) / rate;
+  flow_.evaluate(end_, t, rates_);
+  columns_ += as_vector(rates_) * ahead;
+  lead_ -= ahead;
 }
+
+/// Through the mode changes. The motion after them begins with the same lead.
+void SmoothEngine::carry_from_event() { columns_ = jump_derivative() * columns_; }
 
 /// The derivative of a law's states after a mode change, from `states`, that of those before it.
 Eigen::MatrixXd SmoothEngine::through(const Change& change, const Eigen::MatrixXd& states) const {

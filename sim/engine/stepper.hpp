@@ -41,11 +41,6 @@ class Stepper {
   /// the ends.
   virtual void at(double part, std::span<double> x) const = 0;
 
-  /// Carries perturbations of x over that step: `columns`, states one after the other, become the derivative of its
-  /// end along them, which is that of the step as computed. `sizes`: of each state. False: a value is not finite.
-  [[nodiscard]] virtual bool carry(const VectorField& field, std::span<const double> sizes,
-                                   std::span<double> columns) = 0;
-
   /// The error estimate falls as h^(order() + 1).
   [[nodiscard]] virtual int order() const = 0;
 

@@ -1,0 +1,40 @@
+#pragma once
+/// The derivative of a step: the variational equation along its dense output, by Radau IIA with five stages.
+///
+///   u' = J u           u: a perturbation of the state, J = df/dx on the motion
+///   d' = J d + df/dt   d: what a later begin changes beside the shift in time, d = 0 at the begin
+///
+/// It is the derivative of the motion, not of the method that computed it: a perturbation that decays within an
+/// explicit step decays here too. The nodes of a step by Radau IIA are its own stages.
+///
+/// Errors: order 9 in the step; J is as exact as the field gives it. Cost: five Jacobians, ten evaluations of the
+/// field, LU factors of five times as many rows as the state has.
+
+#include <memory>
+#include <span>
+
+#include "sim/engine/stepper.hpp"
+
+namespace dualdamp::sim {
+
+/// A step that a stepper has taken last.
+struct TakenStep {
+  const Stepper& stepper;
+  double t = 0.0;          ///< its begin [s]
+  double h = 0.0;          ///< its length [s]
+  double increment = 0.0;  ///< over which df/dt is a difference [s]
+};
+
+class Variation {
+ public:
+  virtual ~Variation() = default;
+  /// `columns`: perturbations at the begin of the step, one after the other; become those at its end. `late`: d at
+  /// its end. False: a value is not finite.
+  [[nodiscard]] virtual bool pass(const VectorField& field, const TakenStep& step, std::span<double> columns,
+                                  std::span<double> late) = 0;
+};
+
+/// For states of `size` components.
+[[nodiscard]] std::unique_ptr<Variation> make_variation(std::size_t size);
+
+}  // namespace dualdamp::sim

@@ -1,0 +1,100 @@
+/// Monodromy matrices of the smooth engine against central differences of its period map, where the derivative of
+/// the steps as computed is not that of the motion.
+
+#include <catch2/catch.hpp>
+#include <string_view>
+#include <utility>
+
+#include "sim/orbits/period_map.hpp"
+#include "tests/support/make_law.hpp"
+
+using namespace dualdamp;
+using friction::ParameterValues;
+using sim::ForcingPeriod;
+using sim::Monodromy;
+
+namespace {
+
+void add_law(sim::Model& model, std::string_view name, ParameterValues values) {
+  for (friction::Law& law : test::laws_of(name, std::move(values))) model.friction.push_back(std::move(law));
+}
+
+/// The third forcing period from (x, v) on.
+ForcingPeriod third_period(sim::PeriodMap& map, double x, double v) {
+  (void)map.from_start(x, v, Monodromy::without);
+  const sim::State start = map.next(Monodromy::without).end;
+  return map.from(start, Monodromy::with);
+}
+
+/// Column `j`, by a change of the start by `step` to both sides.
+Eigen::VectorXd quotient(sim::PeriodMap& map, const ForcingPeriod& period, Eigen::Index j, double step) {
+  const Eigen::VectorXd change = step * Eigen::VectorXd::Unit(sim::coordinates(period.begin).size(), j);
+  const sim::State above = map.from(sim::displaced(period.begin, change), Monodromy::without).end;
+  const sim::State below = map.from(sim::displaced(period.begin, -change), Monodromy::without).end;
+  return (sim::coordinates(above) - sim::coordinates(below)) / (2.0 * step);
+}
+
+}  // namespace
+
+TEST_CASE("smooth engine: a perturbation passes a reversal at which the force turns over at once",
+          "[sim][smooth][derivative]") {
+  // rate_state: the force turns over within exp(-mu0/a) = 1e-28 of the reference velocity, far below any rounding
+  // of the motion's. Differences of 1e-5 of the motion are smooth, and good to 1e-6 of the column at a tolerance of
+  // 1e-11.
+  sim::Model model;
+  model.oscillator = {.mass = 0.058, .stiffness = 92.8, .damping = 0.0933};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.0122, .frequency = 11.4, .phase = 0.633};
+  ParameterValues values = {
+      {"normal_force", 0.0268},       {"mu0", 0.4617}, {"a", 0.00707}, {"b", 0.00823}, {"slip_distance", 0.00255},
+      {"reference_velocity", 6.49e-4}};
+  values.set("evolution", "slip");
+  add_law(model, "rate_state", std::move(values));
+  for (const sim::SolverKind kind : {sim::SolverKind::automatic, sim::SolverKind::implicit_steps}) {
+    model.solver.kind = kind;
+    sim::PeriodMap map(model);
+    const ForcingPeriod period = third_period(map, 0.01998, -0.618);
+    for (const Eigen::Index j : {0, 1}) {
+      const double step = 1e-5 * period.size * (j == 0 ? 1.0 : 40.0);
+      const Eigen::VectorXd expected = quotient(map, period, j, step);
+      CAPTURE(j, period.monodromy.col(j).transpose(), expected.transpose());
+      CHECK((period.monodromy.col(j) - expected).norm() < 1e-5 * expected.norm());
+    }
+  }
+}
+
+TEST_CASE("smooth engine: perturbations of turning points among stiff contacts are not lost in rounding",
+          "[sim][smooth][derivative]") {
+  // The contacts slip after 3e-10 m, 3e-7 of the motion: the size of the states that remember turning points.
+  sim::Model model;
+  model.oscillator = {.mass = 15.6,
+                      .stiffness = 24.2,
+                      .damping = 61.5,
+                      .damper_to = sim::DamperTo::base,
+                      .cubic_stiffness = -2.69e6};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 1.348e-4, .frequency = 15.65, .phase = 3.05};
+  add_law(model, "friction_lag",
+          {{"kinetic", 1.476e-4}, {"static", 2.855e-4}, {"stribeck_velocity", 1.246e-5}, {"lag", 0.367}});
+  add_law(model, "iwan", {{"stiffness", 152646.0}, {"limit", 6.127e-4}, {"count", 14.0}});
+  sim::PeriodMap map(model);
+  const ForcingPeriod period = third_period(map, -0.001293, 0.0003387);
+  const Eigen::VectorXd expected = quotient(map, period, 0, 1e-5 * period.size);
+  CAPTURE(period.monodromy.col(0).transpose(), expected.transpose());
+  CHECK((period.monodromy.col(0) - expected).norm() < 1e-6 * expected.norm());
+}
+
+TEST_CASE("smooth engine: a perturbation that decays within one explicit step is gone after it",
+          "[sim][smooth][derivative]") {
+  // The spring of bouc_wen yields within 1e-6 m and moves by 1e-3 m: exp(-1000) of what its state was is left. The
+  // stability function of the steps as taken would leave some per cent.
+  sim::Model model;
+  model.oscillator = {.mass = 0.00715, .stiffness = 0.0427, .damping = -6.69e-4};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.0055, .frequency = 1933.0};
+  add_law(model, "bouc_wen", {{"limit", 4.99e-9}, {"stiffness", 0.00559}, {"exponent", 1.996}, {"ratio", 0.453}});
+  model.solver.kind = sim::SolverKind::explicit_steps;
+  sim::PeriodMap map(model);
+  const ForcingPeriod period = third_period(map, 0.00154, -0.0143);
+  REQUIRE(period.monodromy.rows() == 3);
+  CHECK(std::abs(period.monodromy(2, 2)) < 1e-9);
+}
