@@ -110,7 +110,8 @@ void SmoothEngine::restore_past(const State& state) {
 void SmoothEngine::set_scales() {
   const double wn = natural_frequency(model_.oscillator);
   if (x_scale_ == 0.0) {
-    double force = drive_.force_scale();
+    // A ramp that begins at zero has the size of what it reaches in the time of the oscillator.
+    double force = drive_.force_scale() + std::abs(drive_.force_ramp()) / wn;
     // With the direction of the motion: against it a force that falls with speed is beyond all sizes.
     const Direction direction = direction_ == Direction::none ? Direction::forward : direction_;
     for (std::size_t i = 0; i < memories_.size(); ++i)

@@ -282,3 +282,24 @@ TEST_CASE("smooth engine: free hardening spring", "[sim][smooth]") {
     CHECK(std::abs(std::abs(decay.peaks[i].x) - A) < 1e-10);
   }
 }
+
+TEST_CASE("smooth engine: a motion that a ramp begins from rest is as exact in every unit", "[sim][smooth]") {
+  // Neither the spring nor the contact is stretched at first: the size of the motion is that of what the ramp
+  // reaches. In forces and lengths 2^-30 times as large all numbers of the motion are, and its times are the same.
+  const auto times = [](double unit) {
+    sim::Model model;
+    model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.5};
+    model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = 0.01 * unit};
+    model.friction = {
+        law("contact_compliance", {{"kinetic", 2.0 * unit}, {"static", 3.0 * unit}, {"contact_stiffness", 1e4}})};
+    model.solver.kind = sim::SolverKind::explicit_steps;
+    const std::unique_ptr<sim::Engine> engine = sim::make_engine(model);
+    std::vector<double> result;
+    while (const sim::Interval* interval = engine->next(6.0))
+      if (interval->ending) result.push_back(interval->end());
+    return result;
+  };
+  const std::vector<double> large = times(1.0);
+  CHECK(large.size() > 5);
+  CHECK(large == times(0x1p-30));
+}
