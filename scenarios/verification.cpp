@@ -323,7 +323,7 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
   Verification result = compare_answers(answer, other.answer, scenario.result_fields);
   result.engine = words;
   const std::optional<OtherWay> more =
-      scenario.question->other_way({scenario.model, scenario.tolerance, scenario.resolved, options});
+      scenario.question->other_way({scenario.model, scenario.tolerance, scenario.resolved, options}, answer);
   if (!more) return result;
   if (more->answer.result.is_null()) {
     result.engine += "; not by " + more->words + ": " + more->answer.failure;

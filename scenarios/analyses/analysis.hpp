@@ -58,7 +58,8 @@ class Question {
   /// A number that does not exist is null in the answer; no result at all has a reason.
   [[nodiscard]] virtual Answer run(const RunContext& context) const = 0;
   /// For a verification: what can also be computed by a method that run() does not use; none: nothing.
-  [[nodiscard]] virtual std::optional<OtherWay> other_way(const RunContext& /*context*/) const {
+  [[nodiscard]] virtual std::optional<OtherWay> other_way(const RunContext& /*context*/,
+                                                          const Answer& /*answer*/) const {
     return std::nullopt;
   }
 };

@@ -74,11 +74,13 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   return answer;
 }
 
-std::optional<OtherWay> SteadyStateQuestion::other_way(const RunContext& context) const {
+std::optional<OtherWay> SteadyStateQuestion::other_way(const RunContext& context, const Answer& answer) const {
   constexpr int most_exact = 2000;
   constexpr int most_smooth = 300;  // each of them costs a thousand times as much
   const int most = sim::is_exact(context.model) ? most_exact : most_smooth;
-  const sim::Transient transient = sim::follow_transient(context.model, {.max_periods = most});
+  const int ratio = answer.result.at("period_ratio").get<int>();
+  const sim::Transient transient =
+      sim::follow_transient(context.model, {.max_periods = most, .period_ratio = ratio});
   OtherWay other{"the transient over " + std::to_string(transient.periods) + " periods", {}};
   if (!transient.outcome.ok()) {
     other.answer = failed(transient.outcome.reason);

@@ -8,8 +8,8 @@ namespace dualdamp::scenarios {
 class SteadyStateQuestion final : public Question {
  public:
   [[nodiscard]] Answer run(const RunContext& context) const override;
-  /// The transient from the initial state, which takes no step of Newton's method.
-  [[nodiscard]] std::optional<OtherWay> other_way(const RunContext& context) const override;
+  /// The transient from the initial state over the periods of the answer, which takes no step of Newton's method.
+  [[nodiscard]] std::optional<OtherWay> other_way(const RunContext& context, const Answer& answer) const override;
 };
 
 [[nodiscard]] const Analysis& steady_state_analysis();

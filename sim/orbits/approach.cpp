@@ -21,10 +21,9 @@ constexpr double creeping = 1e-3;
 /// Deviations from an orbit below this part of the motion are none.
 constexpr double arrived = 1e-9;
 
-/// A motion that has not come back after so many periods is asked whether its neighbours run away from it.
-constexpr long time_to_tell = 1000;
-constexpr long time_to_tell_exact = 8000;  // where a period costs microseconds
+/// A perturbation is followed over so many forcing periods.
 constexpr int periods_of_divergence = 200;
+constexpr int least_periods_of_divergence = 20;
 /// Mean logarithmic growth of a perturbation in one forcing period: more is no rounding and no slow transient.
 constexpr double diverging = 0.03;
 
@@ -48,8 +47,9 @@ Approach::Approach(const Model& model, const SteadyStateOptions& options, Period
       has_past_(map.engine().has_past()),
       recurrence_(omega_),
       growth_(options.max_periods),
-      time_to_tell_(map.engine().accuracy() > 0.0 ? time_to_tell : time_to_tell_exact),
+      patience_(patience_with(map.engine().accuracy())),
       next_trial_(first_trial) {
+  solver_.limit(patience_.work);
   level_.fill(near_longer_orbit);
   level_[1] = near_orbit;
 }
@@ -65,6 +65,7 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
     recurrence_.add(period.end, period.size);
     orbit = look(period, result);
     if (orbit || growth_.is_endless() || passed_ >= options_.max_periods || divergence_ > diverging) break;
+    if (work_done() >= patience_.work) break;
     period = map_.next(Monodromy::without);
   }
   if (!orbit && map_.outcome().ok()) orbit = nearly_there(result);
@@ -85,8 +86,19 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
   }
   if (has_arrived(period.end)) return at_start(*candidate_);
   if (!has_past_) try_candidate(period.end);
-  if (passed_ == time_to_tell_ && !has_past_) divergence_ = divergence(period.end);
+  if (is_time_to_tell()) {
+    is_told_ = true;
+    divergence_ = divergence(period.end);
+  }
   return std::nullopt;
+}
+
+/// By the motion, and by all attempts to find an orbit beside it.
+long Approach::work_done() const { return work(map_.engine().count()) + work(solver_.count()); }
+
+bool Approach::is_time_to_tell() const {
+  if (is_told_ || has_past_) return false;
+  return passed_ >= patience_.periods || work_done() >= patience_.work / 2;
 }
 
 /// The motion has come back to rounding; after one forcing period whether the orbit attracts is not asked.
@@ -129,8 +141,10 @@ int Approach::worth_trying() {
 
 void Approach::try_candidate(const State& state) {
   int periods = worth_trying();
-  if (periods == 0 && passed_ == next_trial_ && !candidate_) periods = 1;
-  if (passed_ == next_trial_) next_trial_ *= 4;
+  // In another mode than a period ago (it rings) Newton's method has no step.
+  const bool is_due = passed_ >= next_trial_ && std::isfinite(recurrence_.closure(1));
+  if (periods == 0 && is_due && !candidate_) periods = 1;
+  if (is_due) next_trial_ = 4 * passed_;
   if (periods == 0) return;
   double& level = level_[static_cast<std::size_t>(periods)];
   level = 0.1 * std::min(level, recurrence_.closure(periods));
@@ -168,7 +182,9 @@ double Approach::divergence(const State& state) {
   Eigen::VectorXd perturbation = Eigen::VectorXd::Ones(period.monodromy.cols());
   perturbation[1] = omega_;
   double sum = 0.0;
-  for (int i = 0; i < periods_of_divergence && map.outcome().ok(); ++i) {
+  int count = 0;
+  const long limit = work_done() + patience_.work / 8;  // with derivatives a step takes several times as long
+  while (count < periods_of_divergence && map.outcome().ok() && work_done() < limit) {
     if (period.monodromy.cols() != perturbation.size() || !period.monodromy.allFinite()) return 0.0;
     const auto size = [&](const Eigen::VectorXd& d) { return std::hypot(d[0], d[1] / omega_); };
     const Eigen::VectorXd grown = period.monodromy * perturbation;
@@ -176,8 +192,9 @@ double Approach::divergence(const State& state) {
     sum += std::log(size(grown) / size(perturbation));
     perturbation = grown / size(grown);
     period = map.next(Monodromy::with);
+    ++count;
   }
-  return sum / periods_of_divergence;
+  return count < least_periods_of_divergence ? 0.0 : sum / count;
 }
 
 /// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.
@@ -189,7 +206,7 @@ core::Outcome Approach::failure() const {
   if (divergence_ > diverging) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the motion from the initial state is aperiodic: it has not come back within " +
-                std::to_string(time_to_tell_) + " forcing periods, and neighbouring motions run away from it"};
+                std::to_string(passed_) + " forcing periods, and neighbouring motions run away from it"};
   }
   if (motions_ == Motions::meet_sliding) {
     return {
@@ -197,7 +214,13 @@ core::Outcome Approach::failure() const {
         "no steady state found: there is one, but the motion creeps towards it too slowly, or it moves the mass by "
         "hardly more than rounding"};
   }
-  const std::string after = " after " + std::to_string(options_.max_periods) + " forcing periods";
+  if (work_done() >= patience_.work) {
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state found: the motion from the initial state has not become periodic within " +
+                std::to_string(passed_) +
+                " forcing periods, and it has so many events or steps in each that it is followed no longer"};
+  }
+  const std::string after = " after " + std::to_string(passed_) + " forcing periods";
   if (recurrence_.closure(1) < creeping) {
     return {
         core::OutcomeKind::not_unique,

@@ -13,6 +13,7 @@
 #include "sim/orbits/growth.hpp"
 #include "sim/orbits/monotone_model.hpp"
 #include "sim/orbits/orbit_solver.hpp"
+#include "sim/orbits/patience.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/orbits/recurrence.hpp"
 #include "sim/orbits/steady_state.hpp"
@@ -45,6 +46,8 @@ class Approach {
   [[nodiscard]] Orbit at_start(const Candidate& candidate);
   [[nodiscard]] std::optional<Orbit> nearly_there(SteadyState& result);
   [[nodiscard]] double divergence(const State& state);
+  [[nodiscard]] long work_done() const;
+  [[nodiscard]] bool is_time_to_tell() const;
   [[nodiscard]] core::Outcome failure() const;
 
   const Model& model_;
@@ -60,10 +63,11 @@ class Approach {
   std::array<int, longest_period + 1> streak_{};  ///< for how many periods it has closed so well
   std::optional<Candidate> candidate_;
   std::vector<Orbit> others_;
-  long passed_ = 0;      ///< forcing periods since the start
-  long time_to_tell_;    ///< when a motion that has not come back is asked whether it is aperiodic
+  long passed_ = 0;  ///< forcing periods since the start
+  Patience patience_;
   long next_trial_ = 0;  ///< when Newton's method is tried whatever the closure
   double divergence_ = 0.0;
+  bool is_told_ = false;  ///< divergence_ was asked for
 };
 
 }  // namespace dualdamp::sim

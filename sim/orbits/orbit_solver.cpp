@@ -1,5 +1,6 @@
 #include "sim/orbits/orbit_solver.hpp"
 
+#include "sim/orbits/patience.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {
@@ -28,6 +29,8 @@ core::SearchCount OrbitSolver::count() const {
 
 std::optional<Orbit> OrbitSolver::attracting(const State& state, int periods) {
   PeriodMap& map = map_over(periods);
+  if (work(count()) >= most_work_) return std::nullopt;
+  options_.most_work = most_work_ - work(searched_);
   Orbit orbit{map.from(state, Monodromy::with), periods};
   const NewtonResult newton = close_orbit(map, options_, orbit.period);
   newton_steps_ += newton.steps;

@@ -1,6 +1,7 @@
 #pragma once
 /// Orbits that attract, found by Newton's method from a state near one, over one forcing period or several.
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -37,6 +38,8 @@ class OrbitSolver {
 
   [[nodiscard]] int newton_steps() const { return newton_steps_; }
   [[nodiscard]] core::SearchCount count() const;
+  /// How much work (`patience.hpp`) there may be all in all; beyond it no orbit is found.
+  void limit(long work) { most_work_ = work; }
 
  private:
   [[nodiscard]] std::optional<Orbit> attracting(const State& state, int periods);
@@ -46,6 +49,7 @@ class OrbitSolver {
   std::unique_ptr<PeriodMap> map_;
   core::SearchCount searched_;  ///< by maps that are gone
   int newton_steps_ = 0;
+  long most_work_ = std::numeric_limits<long>::max();
 };
 
 }  // namespace dualdamp::sim

@@ -39,13 +39,14 @@ class Closing {
 Transient follow_transient(const Model& model, const TransientOptions& options) {
   constexpr double rounding = 4e-15;
   Transient result;
-  PeriodMap map(valid_harmonic(model, "follow_transient"));
+  PeriodMap map(valid_harmonic(model, "follow_transient"), options.period_ratio);
   PeriodEvents events;
   ForcingPeriod period = map.from_start(model.initial.position, model.initial.velocity, Monodromy::without);
   Closing closing(std::max(rounding, map.engine().accuracy()), options.settled);
-  for (result.periods = 1; result.periods < options.max_periods && map.outcome().ok();) {
+  result.periods = options.period_ratio;
+  while (result.periods < options.max_periods && map.outcome().ok()) {
     period = map.from(period.end, Monodromy::without, &events);
-    ++result.periods;
+    result.periods += options.period_ratio;
     result.closure = period.closure(model.excitation.frequency);
     result.settled = closing.add(result.closure);
     if (result.settled || (options.give_up && options.give_up())) break;

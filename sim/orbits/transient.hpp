@@ -17,7 +17,8 @@
 namespace dualdamp::sim {
 
 struct TransientOptions {
-  int max_periods = 2000;
+  int max_periods = 2000;           ///< forcing periods
+  int period_ratio = 1;             ///< forcing periods after which the motion is expected to repeat itself
   double settled = 1e-9;            ///< relative to the size of the motion
   std::function<bool()> give_up{};  ///< asked after every period; may be absent
 };
@@ -25,8 +26,8 @@ struct TransientOptions {
 struct Transient {
   core::Outcome outcome;  ///< of the engine
   bool settled = false;
-  int periods = 0;
-  double closure = 0.0;  ///< of the last period, relative to the size of the motion
+  int periods = 0;       ///< forcing periods
+  double closure = 0.0;  ///< of the last period of the motion, relative to the size of the motion
   double peak = 0.0;     ///< max x of the last period [m]
   double trough = 0.0;   ///< min x of the last period [m]
   int stops = 0;         ///< in the last period

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
@@ -289,4 +290,24 @@ TEST_CASE("one period of samples closes and shows the numbers of its steady stat
     CHECK(peak == Approx(state.peak).epsilon(1e-5));
     CHECK(fastest == Approx(state.max_speed).epsilon(1e-5));
   }
+}
+
+TEST_CASE(
+    "a contact that chatters is followed for so many periods as its events allow, and the reason says how many") {
+  // 1,260 searches for events in a forcing period: 8,000 periods would take half a minute.
+  sim::Model model;
+  model.oscillator = {.mass = 25.8854440222061, .stiffness = 29.464560568384144, .damping = -0.526931409706663};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.0002442174311547273,
+                      .frequency = 0.07415230919184149};
+  model.excitation.harmonics = {{.order = 4, .amplitude = 3.3769694588216337e-07, .phase = 3.267410907817765}};
+  model.friction = {friction::Law(
+      friction::ContactCompliance(0.00554379499995696, 0.009153992635209725, 65803.55565032351, 0.0))};
+  model.initial = {0.0017438533177979965, -7.102567474888547e-05};
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE_FALSE(state.outcome.ok());
+  CHECK(state.transient_periods < 2000);
+  CHECK_THAT(state.outcome.reason,
+             Catch::Contains("within " + std::to_string(state.transient_periods) + " forcing periods"));
+  CHECK(state.certificate.panels < 6'000'000);
 }

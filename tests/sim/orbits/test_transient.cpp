@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/diagnostics.hpp"
+#include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/orbits/steady_state.hpp"
 
@@ -42,6 +43,26 @@ TEST_CASE("transient: a motion that sticks stops as often as its steady state", 
   CHECK(state.stops_per_cycle > 0);
   CHECK(transient.stops == state.stops_per_cycle);
   CHECK(transient.peak == Approx(state.peak).epsilon(1e-12));
+}
+
+TEST_CASE("transient: a subharmonic motion settles over its own period, not over a forcing period", "[transient]") {
+  Model subharmonic;
+  subharmonic.oscillator = {.mass = 0.008529171435, .stiffness = 0.09238674538297, .damping = 8.673479922e-4};
+  subharmonic.excitation = {.type = ExcitationType::base_harmonic,
+                            .amplitude = 0.3272648471676,
+                            .frequency = 0.22099544102879,
+                            .phase = 4.9645380994};
+  subharmonic.friction = {
+      friction::Law(friction::ContactCompliance(0.006211558892169, 0.01112964547049, 0.4251325299917, 0.0))};
+  const SteadyState state = steady_state(subharmonic);
+  REQUIRE(state.outcome.ok());
+  REQUIRE(state.period_ratio == 3);
+  CHECK_FALSE(follow_transient(subharmonic, {.max_periods = 300}).settled);
+  const Transient transient = follow_transient(subharmonic, {.max_periods = 300, .period_ratio = 3});
+  CHECK(transient.settled);
+  CHECK(transient.periods % 3 == 0);
+  CHECK(transient.peak == Approx(state.peak).epsilon(1e-9));
+  CHECK(transient.trough == Approx(state.trough).epsilon(1e-9));
 }
 
 TEST_CASE("transient: a motion that grows does not settle", "[transient]") {
