@@ -116,8 +116,9 @@ class Parser {
         ->required()
         ->type_name("");
     command
-        .add_option("--mass", identify_.mass,
-                    "Mass, such as '1.042 kg' or '1.042 kg +- 5 g'; without it only methods that do not need it are used")
+        .add_option(
+            "--mass", identify_.mass,
+            "Mass, such as '1.042 kg' or '1.042 kg +- 5 g'; without it only methods that do not need it are used")
         ->type_name("QUANTITY");
     command
         .add_option("--stiffness", identify_.stiffness,

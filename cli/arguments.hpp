@@ -47,8 +47,8 @@ struct IdentifyCommand {
   std::string data;
   std::string mass, stiffness, frequency;
   std::vector<std::string> methods;
-  std::vector<std::string> units;    ///< x=mm
-  std::vector<std::string> columns;  ///< x=LVDT 2
+  std::vector<std::string> units;               ///< x=mm
+  std::vector<std::string> columns;             ///< x=LVDT 2
   std::vector<std::string> gain_uncertainties;  ///< x=1 %
   std::string out;
   bool json = false;

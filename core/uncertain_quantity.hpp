@@ -1,8 +1,8 @@
 #pragma once
 /// Quantities that state their uncertainty: `1.042 kg ± 0.5 %`, `1568 N/m +- 8 N/m`, `(1.042 ± 0.005) kg`.
 ///
-/// What follows `±`, `+-` or `+/-` is the standard uncertainty (one standard deviation), in percent of the value, in
-/// a unit of its dimension, or without unit in that of the value. Either side may leave its unit to the other.
+/// What follows `±`, `+-` or `+/-` is the standard uncertainty (one standard deviation), in percent of the value,
+/// in a unit of its dimension, or without unit in that of the value. Either side may leave its unit to the other.
 
 #include <optional>
 #include <string>

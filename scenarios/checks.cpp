@@ -134,7 +134,8 @@ void check_uncertainties(CheckedFile& file, const Analysis& analysis, const Anal
   std::vector<std::string> names;
   for (const Analysis* other : analyses)
     if (other->uses_uncertainties) names.emplace_back(other->name);
-  for (const auto& [section, key] : {std::pair{"system", "mass"}, {"system", "stiffness"}, {"excitation", "frequency"}})
+  for (const auto& [section, key] :
+       {std::pair{"system", "mass"}, {"system", "stiffness"}, {"excitation", "frequency"}})
     if (file.has(section, uncertainty_key(key)))
       file.complain(std::string(section) + "." + uncertainty_key(key),
                     std::string("'") + section + "." + key + "' states an uncertainty, and " + file.subject() +

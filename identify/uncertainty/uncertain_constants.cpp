@@ -103,7 +103,8 @@ class Variation {
     const bool has_low = low_.outcome.ok();
     const bool has_high = high_.outcome.ok();
     if (!has_low && !has_high) return std::nullopt;
-    return Bracket{has_low ? &low_ : &stated_, has_high ? &high_ : &stated_, (has_low ? 1.0 : 0.0) + (has_high ? 1.0 : 0.0)};
+    return Bracket{has_low ? &low_ : &stated_, has_high ? &high_ : &stated_,
+                   (has_low ? 1.0 : 0.0) + (has_high ? 1.0 : 0.0)};
   }
 
  private:
@@ -145,9 +146,10 @@ void widen(std::array<double, 2>& interval, double value, double change) {
 void add(const Bracket& bracket, Estimate& estimate) {
   const ParameterSet change = {difference(bracket, &ParameterSet::zeta), difference(bracket, &ParameterSet::c),
                                difference(bracket, &ParameterSet::x_f), difference(bracket, &ParameterSet::F0)};
-  for (const auto& [member, interval] :
-       {std::pair{&ParameterSet::zeta, &ParameterIntervals::zeta}, {&ParameterSet::c, &ParameterIntervals::c},
-        {&ParameterSet::x_f, &ParameterIntervals::x_f}, {&ParameterSet::F0, &ParameterIntervals::F0}}) {
+  for (const auto& [member, interval] : {std::pair{&ParameterSet::zeta, &ParameterIntervals::zeta},
+                                         {&ParameterSet::c, &ParameterIntervals::c},
+                                         {&ParameterSet::x_f, &ParameterIntervals::x_f},
+                                         {&ParameterSet::F0, &ParameterIntervals::F0}}) {
     if (estimate.std) (*estimate.std).*member = std::hypot((*estimate.std).*member, change.*member);
     if (estimate.interval95) widen((*estimate.interval95).*interval, estimate.value.*member, change.*member);
   }

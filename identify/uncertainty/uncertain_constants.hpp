@@ -43,6 +43,7 @@ struct Sensitivity {
 /// How the estimate of `method` answers to each constant that it depends on, the strongest first. Empty when the
 /// method gives none.
 [[nodiscard]] std::vector<Sensitivity> sensitivities(const MethodEntry& method, const Record& record,
-                                                     const KnownConstants& constants, const OptionValues& values = {});
+                                                     const KnownConstants& constants,
+                                                     const OptionValues& values = {});
 
 }  // namespace dualdamp::identify

@@ -20,8 +20,7 @@ std::vector<Field> harmonic_fields(const std::string& unit) {
           .above(0)
           .or_words({"natural", "damped"})
           .with_uncertainty(),
-      uncertainty_of("frequency", {"rad/s"}),
-      quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
+      uncertainty_of("frequency", {"rad/s"}), quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
       section_list("harmonics", harmonic, "further harmonics of a distorted drive")
           .items(1, static_cast<std::size_t>(sim::max_harmonics))};
 }

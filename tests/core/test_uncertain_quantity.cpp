@@ -6,8 +6,9 @@
 using dualdamp::core::parse_uncertain_quantity;
 
 TEST_CASE("A quantity may state its uncertainty in percent, in its own unit or in another of its dimension") {
-  for (const char* text : {"1.042 kg ± 0.5 %", "1.042 kg +- 5.21 g", "1.042 kg +/- 0.00521 kg", "(1.042 ± 0.00521) kg",
-                           "1.042 ± 0.00521 kg", "1.042 kg ± 0.00521", "1.042 ± 0.5 %", "1042 g±5.21 g"}) {
+  for (const char* text :
+       {"1.042 kg ± 0.5 %", "1.042 kg +- 5.21 g", "1.042 kg +/- 0.00521 kg", "(1.042 ± 0.00521) kg",
+        "1.042 ± 0.00521 kg", "1.042 kg ± 0.00521", "1.042 ± 0.5 %", "1042 g±5.21 g"}) {
     CAPTURE(text);
     const auto quantity = parse_uncertain_quantity(text, "kg");
     CHECK(quantity.fault.empty());
@@ -39,7 +40,8 @@ TEST_CASE("A negative value has a positive uncertainty, and zero is one") {
 TEST_CASE("An uncertainty that cannot be read is refused with the reason") {
   CHECK(parse_uncertain_quantity("1 kg ± 5 mm", "kg").fault == "the uncertainty: 'mm' is not a unit of a mass");
   CHECK(parse_uncertain_quantity("1 kg ± -5 g", "kg").fault == "the uncertainty is negative");
-  for (const char* text : {"1 kg ±", "± 5 g", "1 kg ± ± 5 g", "1 kg ± 5 g ± 2 g", "(1 ± 2 kg", "1 kg ± nan", "kg ± 1 %"}) {
+  for (const char* text :
+       {"1 kg ±", "± 5 g", "1 kg ± ± 5 g", "1 kg ± 5 g ± 2 g", "(1 ± 2 kg", "1 kg ± nan", "kg ± 1 %"}) {
     CAPTURE(text);
     const auto quantity = parse_uncertain_quantity(text, "kg");
     CHECK_FALSE(quantity.value);

@@ -30,7 +30,8 @@ TEST_CASE("identify: stated uncertainties of constants are in the intervals", "[
   CHECK(std_of(gains, "F0") > std_of(exact, "F0"));
   const std::string system =
       "schema: dualdamp/1\n"
-      "system: {mass: 1 kg +- 2 g, stiffness: 100 N/m ± 2 %, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}\n"
+      "system: {mass: 1 kg +- 2 g, stiffness: 100 N/m ± 2 %, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 "
+      "N}}\n"
       "excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s ± 0.01}\nanalysis: ";
   const auto scenario = scenarios::parse_scenario(system + analysis + "}\n", "test.yaml");
   const auto resolved = nlohmann::json::parse(scenario.resolved);
