@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -108,7 +109,7 @@ class DecayReader {
     for (std::size_t i = 0; i + 1 < turns.size(); ++i)
       if (turns[i] > 0 && !is_held(turns[i])) add(result, turns[i]);
     add_last(result, turns.back());
-    if (!decays(result.record.extremes)) return {};
+    if (!keep_decay(result)) return {};
     return result;
   }
 
@@ -190,16 +191,40 @@ class DecayReader {
     if (rests && first > 0 && turn + 1 >= first) put_mean(result, first, x_.size(), first);
   }
 
-  /// Extremes of a free decay alternate, and their swings shrink.
-  static bool decays(const std::vector<double>& extremes) {
+  /// Extremes of a free decay alternate, and their swings shrink. Before the release, or while a blow pushes the
+  /// mass, they may grow; in the noise at the end they may too. False where neither explains the growth.
+  bool keep_decay(DerivedDecay& result) const {
+    const std::vector<double>& extremes = result.record.extremes;
     if (extremes.size() < 3) return false;
-    double last = std::abs(extremes[1] - extremes[0]);
-    for (std::size_t i = 2; i < extremes.size(); ++i) {
-      const double swing = std::abs(extremes[i] - extremes[i - 1]);
-      if (swing >= last) return false;
-      last = swing;
-    }
+    const auto swing = [&extremes](std::size_t i) { return std::abs(extremes[i] - extremes[i - 1]); };
+    std::size_t largest = 1;
+    for (std::size_t i = 2; i < extremes.size(); ++i)
+      if (swing(i) > swing(largest)) largest = i;
+    std::size_t end = largest + 1;
+    while (end < extremes.size() && swing(end) < swing(end - 1)) ++end;
+    // What is left of the swings where they grow again; more of it is another release, or a drive.
+    constexpr double most_left = 0.25;
+    const bool grows = end < extremes.size();
+    if (grows && swing(end) > most_left * swing(largest)) return false;
+    constexpr std::size_t longest_start = 3;
+    if (end - (largest - 1) < 3 || largest - 1 > longest_start) return false;
+    if (grows)
+      result.warnings.push_back(
+          "the swings of the free vibration grow again at t = " + core::format_number(result.record.times[end], 4) +
+          " s, where " + core::format_number(100.0 * swing(end - 1) / swing(largest), 2) +
+          " % of the largest is left: the extremes before are used");
+    if (largest > 1)
+      result.warnings.push_back("the free vibration is taken from its largest swing on, t = " +
+                                core::format_number(result.record.times[largest - 1], 4) + " s");
+    cut(result, largest - 1, end);
     return true;
+  }
+
+  static void cut(DerivedDecay& result, std::size_t first, std::size_t last) {
+    for (std::vector<double>* list : {&result.record.extremes, &result.record.times, &result.standard_errors}) {
+      list->erase(list->begin() + static_cast<std::ptrdiff_t>(last), list->end());
+      list->erase(list->begin(), list->begin() + static_cast<std::ptrdiff_t>(first));
+    }
   }
 
   static constexpr Eigen::Index start_columns = 5;

@@ -1,5 +1,6 @@
 #include "identify/records/derived_records.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace dualdamp::identify {
@@ -11,12 +12,19 @@ std::vector<std::string> complete(Record& record, double frequency) {
     record.pairs = std::move(driven.record);
     return std::move(driven.warnings);
   }
-  const History& only = record.histories.front();
-  if (record.histories.size() == 1 && !only.x.empty() && only.force.empty() && only.y.empty()) {
-    DerivedDecay decay = decay_of(only);
+  const auto is_free = [](const History& history) {
+    return !history.x.empty() && history.force.empty() && history.y.empty();
+  };
+  if (!std::ranges::all_of(record.histories, is_free)) return {};
+  if (record.histories.size() == 1) {
+    DerivedDecay decay = decay_of(record.histories.front());
     if (!decay.record.extremes.empty()) record.decay = std::move(decay.record);
+    return std::move(decay.warnings);
   }
-  return {};
+  return {
+      "the file holds " + std::to_string(record.histories.size()) +
+      " free vibrations: methods that read histories use them together; methods that read extremes take one, from "
+      "a file of its own"};
 }
 
 }  // namespace dualdamp::identify

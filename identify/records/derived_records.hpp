@@ -32,9 +32,11 @@ struct DerivedPairs {
 struct DerivedDecay {
   DecayRecord record;                   ///< empty where the history is no free decay
   std::vector<double> standard_errors;  ///< of the extremes [m], from the noise of x
+  std::vector<std::string> warnings;    ///< what was left out before the release and in the noise at the end
 };
 
-/// Turning points of x, from the first after its release to where the mass comes to rest or the record ends.
+/// Turning points of x, from the first after its release to where the mass comes to rest, where the swings grow
+/// again in noise, or where the record ends.
 [[nodiscard]] DerivedDecay decay_of(const History& history);
 
 /// Adds to a record that holds nothing but histories what can be derived from them: pairs where they are driven, a
