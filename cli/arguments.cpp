@@ -132,19 +132,46 @@ class Parser {
         .add_option("--method", identify_.methods, "A method to use; default: all methods that can read the data")
         ->allow_extra_args(false)
         ->type_name("NAME");
-    command.add_option("--unit", identify_.units, "Unit of a column, if the file does not state it: --unit x=mm")
-        ->allow_extra_args(false)
-        ->type_name("COLUMN=UNIT");
     command
-        .add_option("--column", identify_.columns, "Name or number of a column in the file: --column x='LVDT 2'")
-        ->allow_extra_args(false)
-        ->type_name("COLUMN=NAME");
+        .add_option("--sigma-x", identify_.sigma_x,
+                    "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'")
+        ->type_name("QUANTITY");
+    command.add_option("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude")
+        ->type_name("QUANTITY");
     command
         .add_option("--gain-uncertainty", identify_.gain_uncertainties,
                     "Standard uncertainty of a sensor's gain: --gain-uncertainty x='1 %'")
         ->allow_extra_args(false)
         ->type_name("SIGNAL=SHARE");
+    add_file_options(command);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
+  }
+
+  /// What a data file does not say of itself.
+  void add_file_options(CLI::App& command) {
+    const auto add = [&command](const char* name, std::vector<std::string>& list, const char* text,
+                                const char* type) {
+      command.add_option(name, list, text)->allow_extra_args(false)->type_name(type);
+    };
+    add("--unit", identify_.units, "Unit of a column, if the file does not state it: --unit x=mm", "COLUMN=UNIT");
+    add("--column", identify_.columns,
+        "Name or number of a column in the file: --column x='LVDT 2'; in a .mat file also a field (run.x) or a "
+        "part of "
+        "a matrix ('data(:,2)')",
+        "COLUMN=NAME");
+    add("--scale", identify_.scales,
+        "What the numbers of a column are multiplied by: --scale x='2.5 mm/V'; the sensitivity of a sensor, "
+        "--scale "
+        "a='100 mV/g'; or a plain factor, --scale force=35.15",
+        "COLUMN=SCALE");
+    command.add_option("--decimal", identify_.decimal, "Decimal mark of a CSV file, . or , (default: .)")
+        ->type_name("MARK");
+    command.add_flag("--no-header", identify_.no_header,
+                     "The CSV file begins with numbers; --column t=1 --column x=2 say which column is which");
+    command.footer(
+        "Units are those of the file (x [mm], x (mm), x_mm, or a row of units below the names), else those of "
+        "--unit, else\n"
+        "SI with a warning. What files may look like, and what is refused: docs/data-files.md.");
   }
 
   void add_report() {

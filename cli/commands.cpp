@@ -12,11 +12,11 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <tuple>
 
 #include "bench/analyses.hpp"
 #include "bench/processes.hpp"
 #include "cli/conformance.hpp"
+#include "cli/identify_scenario.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
 #include "cli/print.hpp"
@@ -288,45 +288,6 @@ int execute(const CheckCommand& command) {
                   return checked(scenarios::load_scenario(command.files[i], {.analyses = bench::analyses()}), {});
                 }));
   return finish(reports.worst());
-}
-
-/// A text as YAML, whatever characters a file name holds.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
-  return result + "'";
-}
-
-/// The command line as a scenario: same checks, same messages, same results.
-Scenario scenario_of(const IdentifyCommand& command) {
-  LoadOptions options;
-  options.data_anywhere = true;
-  options.set = {{"analysis.data=" + quoted(command.data), "DATA"}};
-  if (!command.mass.empty()) options.set.push_back({"system.mass=" + command.mass, "--mass"});
-  if (!command.stiffness.empty()) options.set.push_back({"system.stiffness=" + command.stiffness, "--stiffness"});
-  if (!command.frequency.empty()) {
-    options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
-    options.set.push_back({"excitation.frequency=" + command.frequency, "--frequency"});
-  }
-  for (const auto& [option, key, list] :
-       {std::tuple{"--unit", "units", &command.units}, {"--column", "columns", &command.columns}})
-    for (const std::string& text : *list) {
-      const std::size_t sign = std::min(text.find('='), text.size());
-      options.set.push_back({std::string("analysis.") + key + "." + text.substr(0, sign) + "=" +
-                                 quoted(sign < text.size() ? text.substr(sign + 1) : std::string()),
-                             option});
-    }
-  for (const std::string& text : command.gain_uncertainties)
-    options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
-  if (!command.methods.empty()) {
-    std::string names;
-    for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);
-    options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
-  }
-  Scenario scenario = scenarios::parse_scenario("schema: dualdamp/1\nsystem: {}\nanalysis: {type: identify}\n",
-                                                "command line", options);
-  scenario.file = command.data;
-  return scenario;
 }
 
 int execute(const IdentifyCommand& command) {

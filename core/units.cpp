@@ -41,7 +41,7 @@ const std::vector<Dimension>& dimensions() {
        "4 N.s/m",
        {"N.s/m", "N*s/m", "N s/m", "kN.s/m", "mN.s/m", "N.s/mm", "N.s/cm", "kg/s", "lbf.s/in"}},
       {"m/s", "a velocity", "0.1 m/s", {"m/s", "mm/s", "um/s", "µm/s", "cm/s", "km/h", "in/s", "ft/s"}},
-      {"m/s^2", "an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2", "m/s2", "mm/s2"}},
+      {"m/s^2", "an acceleration", "9.81 m/s^2", {"m/s^2", "mm/s^2", "m/s2", "mm/s2", "g_n", "g"}},
       {"N/s", "a force rate", "0.5 N/s", {"N/s", "mN/s", "kN/s", "N/ms"}},
       {"N/m^3", "a cubic stiffness", "2000 N/m^3", {"N/m^3", "kN/m^3", "MN/m^3", "N/m3", "N/mm^3", "N/mm3"}},
       {"1/s", "a rate", "1 kHz", {"1/s", "Hz", "mHz", "kHz", "MHz", "1/ms", "1/min", "1/h"}},
@@ -71,9 +71,9 @@ struct Factor {
 constexpr double pi = std::numbers::pi;
 
 std::optional<Factor> angle_factor(std::string_view unit) {
-  if (unit.empty() || unit == "rad") return Factor{};
+  if (unit.empty() || unit == "rad" || unit == "radian" || unit == "radians") return Factor{};
   if (unit == "mrad") return Factor{1.0, 1000.0};
-  if (unit == "deg") return Factor{pi, 180.0};
+  if (unit == "deg" || unit == "degree" || unit == "degrees") return Factor{pi, 180.0};
   return std::nullopt;
 }
 
@@ -292,6 +292,18 @@ std::string similar_unit(std::string_view unit, std::string_view si_unit) {
   return {};
 }
 
+/// Where an acceleration is asked for, g is no gram but standard gravity, as on the label of an accelerometer.
+std::string with_gravity(std::string_view unit) {
+  static constexpr std::array<std::array<std::string_view, 2>, 6> names = {{{"g", "gravity"},
+                                                                            {"g_n", "gravity"},
+                                                                            {"gn", "gravity"},
+                                                                            {"mg", "milligravity"},
+                                                                            {"mg_n", "milligravity"},
+                                                                            {"ug", "microgravity"}}};
+  const auto found = std::ranges::find(names, unit, [](const auto& name) { return name[0]; });
+  return std::string(found == names.end() ? unit : (*found)[1]);
+}
+
 struct UnitAnswer {
   std::optional<Factor> factor;
   std::string fault;
@@ -313,7 +325,8 @@ UnitAnswer factor_of(std::string_view text, std::string_view si_unit) {
     return {std::nullopt,
             quoted(trimmed(text)) +
                 " is not a unit: a product of unit names with integer powers is needed, such as 'N.s/m'"};
-  const UnitSystem::Answer answer = UnitSystem::instance().factor(unit, std::string(si_unit));
+  const UnitSystem::Answer answer =
+      UnitSystem::instance().factor(si_unit == "m/s^2" ? with_gravity(unit) : unit, std::string(si_unit));
   if (answer.factor) return {answer.factor, {}};
   if (!answer.known) return {std::nullopt, "the unit " + quoted(trimmed(text)) + " is not known"};
   const Dimension* dimension = find_dimension(si_unit);

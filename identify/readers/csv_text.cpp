@@ -1,7 +1,5 @@
 #include "identify/readers/csv_text.hpp"
 
-#include <charconv>
-
 namespace dualdamp::identify {
 
 std::string_view trimmed(std::string_view text) {
@@ -11,14 +9,25 @@ std::string_view trimmed(std::string_view text) {
 }
 
 char separator_of(std::string_view header) {
-  for (const char candidate : {'\t', ';'}) {
+  for (const char candidate : {'\t', ';', ','}) {
     bool inside = false;
     for (const char c : header) {
       if (c == '"') inside = !inside;
       if (c == candidate && !inside) return candidate;
     }
   }
-  return ',';
+  const std::string_view words = trimmed(header);
+  return words.find(' ') == std::string_view::npos || words.starts_with('"') ? ',' : ' ';
+}
+
+/// Where blanks separate, a unit in brackets belongs to the name before it: `x [mm]`.
+std::size_t Fields::end_of_field() const {
+  std::size_t end = std::min(line_.find_first_of(ends_, at_), line_.size());
+  if (separator_ != ' ' || end == line_.size()) return end;
+  const std::size_t next = line_.find_first_not_of(" \t", end);
+  if (next == std::string_view::npos || (line_[next] != '[' && line_[next] != '(')) return end;
+  const std::size_t close = line_.find_first_of("])", next);
+  return close == std::string_view::npos ? end : std::min(line_.find_first_of(ends_, close), line_.size());
 }
 
 void Fields::read_quoted() {
@@ -30,46 +39,25 @@ void Fields::read_quoted() {
     if (!closed) unquoted_ += line_[at_];
     if (doubled) ++at_;
   }
-  const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
+  const std::size_t end = std::min(line_.find_first_of(ends_, at_), line_.size());
   is_unclosed = is_unclosed || !closed || !trimmed(line_.substr(at_, end - at_)).empty();
-  text = unquoted_;
+  text = trimmed(unquoted_);
   at_ = end;
 }
 
-Heading parse_heading(std::string_view text, int column) {
-  Heading heading{std::string(text), std::string(trimmed(text)), {}, column, true};
-  const std::size_t open = text.find_first_of("[(");
-  if (open == std::string_view::npos) {
-    heading.well_formed = text.find_first_of("])") == std::string_view::npos;
-    return heading;
-  }
-  const std::string_view rest = text.substr(open + 1);
-  const std::size_t close = rest.find(text[open] == '[' ? ']' : ')');
-  heading.name = trimmed(text.substr(0, open));
-  if (close != std::string_view::npos) heading.unit = trimmed(rest.substr(0, close));
-  heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
-  return heading;
+std::vector<std::string> fields_of(std::string_view line, char separator) {
+  std::vector<std::string> result;
+  Fields fields(line, separator);
+  while (fields.next()) result.emplace_back(fields.text);
+  return result;
 }
 
-Digits digits_of(std::string_view text) {
-  Digits digits;
-  bool point = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '.') point = true;
-    if (c >= '0' && c <= '9') {
-      if (c != '0' || digits.significant > 0) ++digits.significant;
-      if (point) ++digits.decimals;
-    }
-    if (c == 'e' || c == 'E') {
-      int exponent = 0;
-      const std::size_t sign = i + 1 < text.size() && text[i + 1] == '+' ? 1 : 0;
-      std::from_chars(text.data() + i + 1 + sign, text.data() + text.size(), exponent);
-      digits.decimals -= exponent;
-      return digits;
-    }
-  }
-  return digits;
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t longest = 200;
+  if (text.size() <= longest) return std::string(text);
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // inside a character
+  return std::string(text.substr(0, end));
 }
 
 }  // namespace dualdamp::identify

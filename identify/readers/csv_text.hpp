@@ -1,11 +1,11 @@
 #pragma once
-/// The text of a CSV file taken apart: lines, fields, headings and the digits of its numbers. What they mean is
-/// said by the reader.
+/// The text of a CSV file taken apart: lines and fields. What they mean is said by the reader.
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dualdamp::identify {
 
@@ -38,7 +38,7 @@ class Lines {
   SourceLine next() {
     const std::size_t end = std::min(text_.find(end_mark_, start_), text_.size());
     std::string_view line = text_.substr(start_, end - start_);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     start_ = end + 1;
     return {line, ++number_};
   }
@@ -58,24 +58,29 @@ class Lines {
   char end_mark_ = '\n';
 };
 
-/// The separator that stands in the header: a tab, else a semicolon, else a comma.
+/// What separates the fields of a header: a tab, else a semicolon, else a comma, else blanks where there are any.
 [[nodiscard]] char separator_of(std::string_view header);
 
 /// The fields of a line from left to right; one in double quotes may hold the separator, and a quote as two quotes.
+/// A blank as separator stands for any number of blanks and tabs.
 class Fields {
  public:
-  Fields(std::string_view line, char separator) : line_(line), separator_(separator) {}
+  Fields(std::string_view line, char separator)
+      : line_(separator == ' ' ? trimmed(line) : line), separator_(separator), ends_(1, separator) {
+    if (separator == ' ') ends_ += '\t';
+    if (!line_.empty()) offset_ = static_cast<int>(line_.data() - line.data());
+  }
 
   /// False when there is no further field.
   bool next() {
     if (done_) return false;
     const bool tabs = separator_ == '\t';
     while (at_ < line_.size() && (line_[at_] == ' ' || (line_[at_] == '\t' && !tabs))) ++at_;
-    column = static_cast<int>(at_) + 1;
+    column = static_cast<int>(at_) + 1 + offset_;
     if (at_ < line_.size() && line_[at_] == '"') {
       read_quoted();
     } else {
-      const std::size_t end = std::min(line_.find(separator_, at_), line_.size());
+      const std::size_t end = end_of_field();
       text = trimmed(line_.substr(at_, end - at_));
       at_ = end;
     }
@@ -90,29 +95,21 @@ class Fields {
 
  private:
   void read_quoted();
+  [[nodiscard]] std::size_t end_of_field() const;
 
   std::string_view line_;
   char separator_;
+  std::string ends_;
+  int offset_ = 0;
   std::size_t at_ = 0;
   bool done_ = false;
   std::string unquoted_;
 };
 
-/// "x [mm]" or "x (mm)" taken apart.
-struct Heading {
-  std::string text;  ///< the whole of it
-  std::string name;
-  std::string unit;
-  int column = 1;
-  bool well_formed = true;
-};
-[[nodiscard]] Heading parse_heading(std::string_view text, int column);
+/// Fields of a line; those of an unclosed quote are what stands there.
+[[nodiscard]] std::vector<std::string> fields_of(std::string_view line, char separator);
 
-/// Significant digits and the place of the last one of a decimal number, written with or without exponent.
-struct Digits {
-  int significant = 0;
-  int decimals = 0;  ///< of the last digit: 3 means thousandths
-};
-[[nodiscard]] Digits digits_of(std::string_view text);
+/// The beginning of `text` that fits into a message, cut between characters.
+[[nodiscard]] std::string excerpt(std::string_view text);
 
 }  // namespace dualdamp::identify

@@ -117,6 +117,7 @@ MatContent content(Receiver& from) {
   if (content.tests.empty()) throw Nonsense{};
   if (from.number() != 0) content.row_labels = row_labels(from, content.tests);
   content.warnings = from.items([&from] { return from.text(); });
+  content.assumed = from.items([&from] { return from.text(); });
   from.expect_end();
   return content;
 }
@@ -152,7 +153,8 @@ void send(const MatContent& content, const ByteSink& sink) {
       to.put(run.label);
       to.put(std::uint64_t{run.first_row});
     });
-  to.put(content.warnings, [&to](const std::string& warning) { to.put(warning); });
+  for (const auto* texts : {&content.warnings, &content.assumed})
+    to.put(*texts, [&to](const std::string& text) { to.put(text); });
 }
 
 void send(const std::vector<core::Diagnostic>& problems, const ByteSink& sink) {

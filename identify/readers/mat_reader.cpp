@@ -10,21 +10,21 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/readers/column_factors.hpp"
+#include "identify/readers/csv_text.hpp"
 #include "identify/readers/isolated.hpp"
 #include "identify/readers/mat_content.hpp"
 #include "identify/readers/mat_structure.hpp"
+#include "identify/readers/mat_variable.hpp"
 #include "identify/readers/text.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
-
-constexpr std::size_t most_values = 20'000'000;
 
 using MatFile = std::unique_ptr<mat_t, decltype([](mat_t* file) { Mat_Close(file); })>;
 using Variable = std::unique_ptr<matvar_t, decltype([](matvar_t* variable) { Mat_VarFree(variable); })>;
@@ -42,62 +42,25 @@ bool is_whole_hdf5(const std::string& path) {
   return file >= 0;
 }
 
-std::string describe(const matvar_t& variable) {
-  std::string text;
-  for (int i = 0; i < variable.rank; ++i) text += (i == 0 ? "" : " x ") + std::to_string(variable.dims[i]);
-  return text;
-}
+/// A variable, a field of a struct, or a part of a matrix, by the name that the file or the caller gives it.
+struct Entry {
+  std::string name;
+  const matvar_t* variable = nullptr;
+  std::optional<Slice> slice = {};
+};
 
-std::size_t size_of(const matvar_t& variable) {
-  std::size_t size = 1;
-  for (int i = 0; i < variable.rank; ++i) size *= std::min(variable.dims[i], most_values + 1);
-  return variable.rank == 0 ? 0 : size;
-}
+/// What belongs to one test: the variables of the file, or the fields of an element of a struct.
+using Scope = std::vector<Entry>;
 
-template <typename Stored>
-std::vector<double> converted(const matvar_t& variable, std::size_t size) {
-  const auto* from = static_cast<const Stored*>(variable.data);
-  std::vector<double> values(size);
-  std::transform(from, from + size, values.begin(), [](Stored value) { return static_cast<double>(value); });
-  return values;
+bool is_number(const std::string& text) {
+  return !text.empty() && text.size() < 7 && text != "0" &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
-
-std::optional<std::vector<double>> numbers(const matvar_t& variable) {
-  const std::size_t size = size_of(variable);
-  if (variable.data == nullptr || variable.nbytes < size * Mat_SizeOf(variable.data_type)) return std::nullopt;
-  switch (variable.data_type) {
-    case MAT_T_DOUBLE:
-      return converted<double>(variable, size);
-    case MAT_T_SINGLE:
-      return converted<float>(variable, size);
-    case MAT_T_INT8:
-      return converted<std::int8_t>(variable, size);
-    case MAT_T_UINT8:
-      return converted<std::uint8_t>(variable, size);
-    case MAT_T_INT16:
-      return converted<std::int16_t>(variable, size);
-    case MAT_T_UINT16:
-      return converted<std::uint16_t>(variable, size);
-    case MAT_T_INT32:
-      return converted<std::int32_t>(variable, size);
-    case MAT_T_UINT32:
-      return converted<std::uint32_t>(variable, size);
-    case MAT_T_INT64:
-      return converted<std::int64_t>(variable, size);
-    case MAT_T_UINT64:
-      return converted<std::uint64_t>(variable, size);
-    default:
-      return std::nullopt;
-  }
-}
-
-/// Named variables of one test: those of the file, or the fields of an element of a struct.
-using Scope = std::vector<std::pair<std::string, const matvar_t*>>;
 
 class Reader {
  public:
   Reader(std::string path, const ReadOptions& options)
-      : path_(std::move(path)), file_(options.name), options_(options) {}
+      : path_(std::move(path)), file_(options.name), options_(options), factors_(options, problems_, warnings_) {}
 
   MatContent run() {
     read_variables();
@@ -108,7 +71,9 @@ class Reader {
       if (scopes.size() > 1 && content.tests.back().label.empty())
         content.tests.back().label = std::to_string(i + 1);
     }
+    report_missing(content);
     problems_.throw_if_any();
+    content.assumed = factors_.warn_of_assumptions();
     content.row_labels = std::move(row_labels_);
     content.warnings = std::move(warnings_);
     return content;
@@ -126,58 +91,117 @@ class Reader {
     while (true) {
       Variable variable(Mat_VarReadNextInfo(file.get()));
       if (!variable) break;
-      const bool is_struct = variable->class_type == MAT_C_STRUCT;
-      if (variable->name == nullptr || (!is_struct && !is_wanted(variable->name))) {
-        warnings_.push_back("variable '" + to_utf8(variable->name == nullptr ? "" : variable->name) +
-                            "' is not known and is ignored");
+      const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
+      listing_.push_back(name + " (" + describe(*variable) + ")");
+      if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
+        warnings_.push_back("variable '" + name + "' is not known and is ignored");
         continue;
       }
-      if (size_of(*variable) > most_values)
+      if (size_of(*variable) > most_mat_values)
         refuse_file(file_, "variable '" + std::string(variable->name) + "' holds more than 20 million numbers");
       if (size_of(*variable) > 0 && Mat_VarReadDataAll(file.get(), variable.get()) != 0) refuse_damaged_mat(file_);
       variables_.push_back(std::move(variable));
     }
   }
 
-  /// The column that a name of the file stands for; dt and fs stand for none and are wanted all the same.
-  [[nodiscard]] const KnownColumn* column_of(const std::string& name) const {
+  /// The column that a name of the file stands for, and its unit where the name holds one, as `x_mm` does.
+  [[nodiscard]] std::pair<const KnownColumn*, std::string> column_of(const std::string& name) const {
+    Heading heading{name, name, {}};
+    const KnownColumn* known = named_column(heading);
     for (const auto& [column, called] : options_.columns)
-      if (called == name) return known_column(column);
-    const KnownColumn* known = known_column(name);
-    if (known == nullptr) return nullptr;
-    const bool replaced =
-        options_.columns.contains(std::string(known->name)) || options_.columns.contains(std::string(known->alias));
-    return replaced ? nullptr : known;
+      if (called == name) return {known_column(column), known == known_column(column) ? heading.unit : ""};
+    if (known == nullptr || find_for(options_.columns, *known) != nullptr) return {nullptr, {}};
+    return {known, heading.unit};
+  }
+
+  /// `dt`, or a sample rate, beside the vectors.
+  [[nodiscard]] static bool is_sampling(const std::string& name) {
+    return name == "dt" || name == "fs" || name == "Fs";
   }
 
   [[nodiscard]] bool is_wanted(const std::string& name) const {
-    return name == "dt" || name == "fs" || column_of(name) != nullptr;
+    const auto holds = [&name](const auto& entry) {
+      const auto slice = parse_slice(entry.second);
+      return slice && slice->variable == name;
+    };
+    return is_sampling(name) || column_of(name).first != nullptr || std::ranges::any_of(options_.columns, holds);
+  }
+
+  /// Columns of the only matrix, by their numbers.
+  [[nodiscard]] bool wants_numbered() const {
+    return std::ranges::any_of(options_.columns, [](const auto& entry) { return is_number(entry.second); });
+  }
+
+  /// The parts of matrices that the caller asks for.
+  void add_slices(Scope& scope) {
+    std::vector<const matvar_t*> matrices;
+    for (const Entry& entry : scope)
+      if (is_matrix(*entry.variable)) matrices.push_back(entry.variable);
+    Scope slices;
+    for (const auto& [column, called] : options_.columns) {
+      if (const auto slice = parse_slice(called)) {
+        const auto of = std::ranges::find(scope, slice->variable, &Entry::name);
+        if (of != scope.end()) slices.push_back({called, of->variable, slice->slice});
+      } else if (is_number(called) && matrices.size() == 1) {
+        slices.push_back({called, matrices.front(), Slice{false, std::stoul(called) - 1}});
+      }
+    }
+    std::erase_if(scope, [this](const Entry& entry) {
+      return is_matrix(*entry.variable) && column_of(entry.name).first == nullptr;
+    });
+    scope.insert(scope.end(), slices.begin(), slices.end());
+  }
+
+  /// Every column that the caller asks for is there.
+  void report_missing(const MatContent& content) {
+    for (const auto& [column, called] : options_.columns) {
+      const KnownColumn* known = known_column(column);
+      const bool found = std::ranges::any_of(content.tests, [known](const TestColumns& test) {
+        return std::ranges::any_of(test.columns, [known](const DataColumn& c) { return c.known == known; });
+      });
+      if (!found && !known->unit.empty())
+        complain("there is no variable '" + called + "' to be used as " + column,
+                 "a vector of the file, a field of its struct, or a part of a matrix such as 'data(:,2)'",
+                 excerpt(listed(listing_)));
+    }
   }
 
   [[nodiscard]] bool holds_data(const Scope& scope) const {
-    return std::ranges::any_of(scope, [this](const auto& entry) {
-      const KnownColumn* known = column_of(entry.first);
+    return std::ranges::any_of(scope, [this](const Entry& entry) {
+      const KnownColumn* known = column_of(entry.name).first;
       return known != nullptr && (known->is_signal || known->name == "Y");
     });
   }
 
   std::vector<Scope> find_scopes() {
     Scope whole;
+    Scope fields;  // of plain structs, as `run.x`
     std::vector<std::vector<Scope>> structs;
     for (const Variable& variable : variables_) {
       if (variable->class_type != MAT_C_STRUCT) {
-        whole.emplace_back(variable->name, variable.get());
+        whole.push_back({variable->name, variable.get()});
         continue;
       }
       std::vector<Scope> elements = elements_of(*variable);
+      for (Scope& element : elements) {
+        for (const Entry& entry : element)
+          if (elements.size() == 1)
+            fields.push_back({std::string(variable->name) + "." + entry.name, entry.variable});
+        add_slices(element);
+      }
       if (!elements.empty() && holds_data(elements.front())) structs.push_back(std::move(elements));
     }
+    add_slices(whole);
+    const auto is_asked_for = [this](const Entry& entry) { return column_of(entry.name).first != nullptr; };
+    std::ranges::copy_if(fields, std::back_inserter(whole), is_asked_for);
     if (holds_data(whole)) return {whole};
     if (structs.size() == 1) return std::move(structs.front());
     refuse_file(file_,
                 structs.empty() ? "the MATLAB file holds no vector x and nothing else that could be used"
                                 : "several structs of the MATLAB file hold signals",
-                "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns));
+                "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
+                    "; others by --column x=NAME, --column x='data(:,2)', --column x=run.x",
+                listing_.empty() ? "no variables" : excerpt(listed(listing_)));
   }
 
   [[nodiscard]] static std::vector<Scope> elements_of(const matvar_t& variable) {
@@ -190,7 +214,7 @@ class Reader {
       Scope scope;
       for (unsigned field = 0; field < fields; ++field)
         if (const matvar_t* value = Mat_VarGetStructFieldByIndex(record, field, i))
-          scope.emplace_back(names[field], value);
+          scope.push_back({names[field], value});
       elements.push_back(std::move(scope));
     }
     return elements;
@@ -199,16 +223,16 @@ class Reader {
   TestColumns test(const Scope& scope) {
     TestColumns result;
     std::optional<double> step;
-    for (const auto& [name, variable] : scope) {
-      const KnownColumn* known = column_of(name);
-      if (name == "dt" || name == "fs") {
-        if (const auto value = scalar(name, *variable)) step = name == "dt" ? *value : 1.0 / *value;
-      } else if (known != nullptr && known->unit.empty()) {
-        take_label(name, *variable, result);
-      } else if (known != nullptr) {
-        take(name, *variable, *known, result);
+    for (const Entry& entry : scope) {
+      const auto& [known, unit] = column_of(entry.name);
+      if (is_sampling(entry.name)) {
+        if (const auto value = scalar(entry)) step = entry.name == "dt" ? *value : 1.0 / *value;
+      } else if (known == nullptr) {
+        warnings_.push_back("field '" + to_utf8(entry.name) + "' is not known and is ignored");
+      } else if (known->unit.empty()) {
+        take_label(entry, result);
       } else {
-        warnings_.push_back("field '" + to_utf8(name) + "' is not known and is ignored");
+        take(entry, *known, unit, result);
       }
     }
     problems_.throw_if_any();
@@ -218,8 +242,9 @@ class Reader {
   }
 
   /// Real numbers in a row or column; nothing after a problem.
-  std::optional<std::vector<double>> vector(const std::string& name, const matvar_t& variable) {
-    const std::string subject = "variable '" + name + "'";
+  std::optional<std::vector<double>> vector(const Entry& entry) {
+    const matvar_t& variable = *entry.variable;
+    const std::string subject = "variable '" + to_utf8(entry.name) + "'";
     const bool numeric = variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
     const auto long_sides =
         std::count_if(variable.dims, variable.dims + variable.rank, [](std::size_t side) { return side > 1; });
@@ -232,51 +257,57 @@ class Reader {
       fault = " is no vector of numbers";
     else if (variable.isComplex != 0)
       fault = " holds complex numbers";
-    else if (long_sides > 1)
+    else if (long_sides > 1 && !entry.slice)
       fault = " is a matrix";
+    else if (entry.slice && entry.slice->index >= variable.dims[entry.slice->is_row ? 0 : 1])
+      fault = " is beyond the last " + std::string(entry.slice->is_row ? "row" : "column");
     if (!fault.empty()) {
-      complain(subject + fault, "a vector of real numbers", variable.rank > 0 ? describe(variable) : std::string());
+      complain(
+          subject + fault,
+          long_sides > 1 ? "a vector of real numbers, such as --column x='data(:,2)'" : "a vector of real numbers",
+          variable.rank > 0 ? describe(variable) : std::string());
       return std::nullopt;
     }
     auto values = numbers(variable);
     if (!values) refuse_damaged_mat(file_);
+    if (entry.slice) values = part_of(*values, variable, *entry.slice);
     const auto bad = std::ranges::find_if(*values, [](double value) { return !std::isfinite(value); });
     if (bad == values->end()) return values;
-    complain("element " + std::to_string(bad - values->begin() + 1) + " of variable '" + name +
-                 "' is not a finite number",
+    complain("element " + std::to_string(bad - values->begin() + 1) + " of " + subject + " is not a finite number",
              "finite numbers");
     return std::nullopt;
   }
 
-  std::optional<double> scalar(const std::string& name, const matvar_t& variable) {
-    const auto values = vector(name, variable);
+  std::optional<double> scalar(const Entry& entry) {
+    const auto values = vector(entry);
     if (!values) return std::nullopt;
     if (values->size() == 1 && values->front() > 0.0) return values->front();
-    complain("variable '" + name + "' is not one number above zero");
+    complain("variable '" + entry.name + "' is not one number above zero");
     return std::nullopt;
   }
 
-  void take(const std::string& name, const matvar_t& variable, const KnownColumn& known, TestColumns& test) {
-    auto values = vector(name, variable);
+  void take(const Entry& entry, const KnownColumn& known, const std::string& unit, TestColumns& test) {
+    auto values = vector(entry);
     if (!values) return;
-    const auto factor = factor_of_caller(options_.units, known, file_, problems_);
-    if (!factor && name == "frequency")
-      complain("variable 'frequency' needs its unit, because Hz and rad/s differ by 2 pi",
-               "omega in rad/s, or the caller's unit");
+    core::Diagnostic where;
+    where.place.file = file_;
+    where.found = "variable '" + to_utf8(entry.name) + "'";
     if (std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; }))
-      complain("column " + std::string(known.name) + " stands there twice");
-    if (factor)
-      for (double& value : *values) value *= *factor;
+      return complain("column " + std::string(known.name) + " stands there twice", {}, where.found);
+    // The letter says what the word "frequency" does not: rad/s.
+    const double factor = factors_.factor_of(known, unit.empty() && entry.name == "omega" ? "rad/s" : unit, where);
+    for (double& value : *values) value *= factor;
     test.columns.push_back({&known, std::move(*values)});
   }
 
   /// A text or a number labels the test, a vector of numbers each row.
-  void take_label(const std::string& name, const matvar_t& variable, TestColumns& test) {
+  void take_label(const Entry& entry, TestColumns& test) {
+    const matvar_t& variable = *entry.variable;
     if (variable.class_type == MAT_C_CHAR && variable.data_type == MAT_T_UINT8 && variable.data != nullptr) {
       test.label = to_utf8({static_cast<const char*>(variable.data), size_of(variable)});
       return;
     }
-    const auto values = vector(name, variable);
+    const auto values = vector(entry);
     if (!values) return;
     if (values->size() == 1) {
       test.label = core::format_number(values->front());
@@ -308,7 +339,7 @@ class Reader {
     };
     if (!step || has("Y")) return;
     if (has("t")) {
-      warnings_.emplace_back("dt and fs are not used: there are times t");
+      warnings_.emplace_back("dt and Fs are not used: there are times t");
       return;
     }
     std::vector<double> times(test.columns.front().values.size());
@@ -321,6 +352,8 @@ class Reader {
   const ReadOptions& options_;
   Problems problems_;
   std::vector<std::string> warnings_;
+  ColumnFactors factors_;
+  std::vector<std::string> listing_;  ///< all variables with their sizes
   std::vector<Variable> variables_;
   std::optional<std::vector<LabelRun>> row_labels_;
   std::size_t label_count_ = 0;
@@ -359,8 +392,7 @@ IsolationLimits limits_of(const std::string& path) {
 
 DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
                    std::vector<std::string>& warnings) {
-  check_names(options.units, "unit", options.name, problems);
-  check_names(options.columns, "column", options.name, problems);
+  check_names(options, problems);
   problems.throw_if_any();
   const IsolatedResult result = run_isolated(limits_of(path), [&](const ByteSink& sink) {
     silence();
@@ -373,6 +405,7 @@ DataTable read_mat(const std::string& path, const ReadOptions& options, Problems
   std::optional<MatContent> content = result.end == IsolatedEnd::done ? receive(result.bytes) : std::nullopt;
   if (!content) refuse_unread(options.name, result.end);
   DataTable table = join(options.name, content->tests);
+  table.assumed = std::move(content->assumed);
   if (content->row_labels) table.sweeps = std::move(*content->row_labels);
   std::ranges::move(content->warnings, std::back_inserter(warnings));
   return table;

@@ -13,6 +13,7 @@
 #include "identify/readers/data_table.hpp"
 #include "identify/readers/mat_reader.hpp"
 #include "identify/readers/mat_structure.hpp"
+#include "identify/readers/record_assembly.hpp"
 #include "identify/readers/text.hpp"
 #include "identify/readers/universal_file_reader.hpp"
 
@@ -34,8 +35,7 @@ struct Foreign {
 };
 
 using namespace std::string_view_literals;
-constexpr std::string_view as_text = "a text file in UTF-8";
-constexpr std::array<Foreign, 9> foreign_formats = {
+constexpr std::array<Foreign, 8> foreign_formats = {
     {{"PK\x03\x04"sv, "the file is a workbook or an archive (zip)", "the sheet saved as CSV"},
      {"\xD0\xCF\x11\xE0"sv, "the file is an old Excel workbook", "the sheet saved as CSV"},
      {"\x1F\x8B"sv, "the file is compressed (gzip)", "the file unpacked"},
@@ -43,8 +43,7 @@ constexpr std::array<Foreign, 9> foreign_formats = {
      {"\x89HDF"sv, "the file is HDF5, but no MATLAB file", "a file saved by MATLAB with -v7.3"},
      {"%PDF"sv, "the file is a PDF document", "the data as CSV"},
      {"\x7F\x45LF"sv, "the file is a program", "a data file"},
-     {"\xFF\xFE"sv, "the text is not UTF-8 but UTF-16", as_text},
-     {"\xFE\xFF"sv, "the text is not UTF-8 but UTF-16", as_text}}};
+     {"<"sv, "the file is a page of the web, or XML", "the data as CSV"}}};
 
 /// What is no data file at all, such as an endless device, is not read to its end.
 void refuse_at_sight(std::string_view beginning, const std::string& name) {
@@ -52,7 +51,8 @@ void refuse_at_sight(std::string_view beginning, const std::string& name) {
     if (beginning.starts_with(format.magic))
       refuse_file(name, std::string(format.message), std::string(format.advice));
   const bool is_binary = beginning.find('\0') != std::string_view::npos;
-  if (is_binary && !is_mat(beginning) && !is_universal_file(beginning)) refuse_binary(beginning, name);
+  if (is_binary && !is_mat(beginning) && !is_universal_file(beginning) && !is_utf16(beginning))
+    refuse_binary(beginning, name);
 }
 
 /// The bytes of a file, or of a pipe until its end.
@@ -81,6 +81,7 @@ MeasuredRecord assemble(DataTable table, Problems& problems, std::vector<std::st
                         std::string_view bytes) {
   MeasuredRecord result;
   result.warnings = std::move(warnings);
+  result.assumed = table.assumed;
   result.record = record_of(std::move(table), problems, result.warnings);
   problems.throw_if_any();
   result.sha256 = core::sha256(bytes);
@@ -93,8 +94,12 @@ MeasuredRecord parse_record(std::string_view text, const ReadOptions& options) {
   Problems problems;
   std::vector<std::string> warnings;
   refuse_at_sight(text.substr(0, sample_size), options.name);
-  DataTable table = is_universal_file(text) ? parse_universal_file(text, options.name, options, problems, warnings)
-                                            : parse_csv(text, options.name, options, problems, warnings);
+  if (is_universal_file(text)) {
+    DataTable table = parse_universal_file(text, options, problems, warnings);
+    return assemble(std::move(table), problems, std::move(warnings), text);
+  }
+  const std::string utf8 = decoded(text, options.name, warnings);
+  DataTable table = parse_csv(utf8, options, problems, warnings);
   return assemble(std::move(table), problems, std::move(warnings), text);
 }
 

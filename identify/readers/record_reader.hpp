@@ -8,8 +8,8 @@
 /// * Y and x: x-Y pairs, with what else there is of a pair;
 /// * x alone, or t and x with every row turning back: extremes of a free vibration;
 /// * t and any of x, y, v, a, force: histories, one for each label of `sweep`. Times must be evenly spaced, within
-///   the rounding of the printed numbers and 1 % of a step; where there are gaps the longest uninterrupted stretch
-///   is used, with a warning.
+///   the rounding of the printed numbers and 1 % of a step; gaps, bursts and jitter are handled with a warning, or
+///   refused (identify/readers/time_base.hpp).
 ///
 /// Errors: whatever is wrong with the file, `core::InputError` with place, for the first 20 problems at once.
 /// Cost: linear, about 0.1 us a number. Files above 1 GiB or 20 million rows are refused before they are read
@@ -32,6 +32,10 @@ struct ReadOptions {
   std::map<std::string, std::string> units = {};
   /// Column -> what the file calls it, such as x -> "LVDT 2", or its number from 1.
   std::map<std::string, std::string> columns = {};
+  /// Column -> what its numbers are multiplied by, such as x -> "2.5 mm/V", a -> "100 mV/g", force -> "35.15".
+  std::map<std::string, std::string> scales = {};
+  char decimal = '.';      ///< decimal mark of a CSV file: a point or a comma
+  bool no_header = false;  ///< the first row of a CSV file holds numbers; `columns` says which is which
   /// Stands for the file in messages; empty: its path.
   std::string name = {};
 };
@@ -40,6 +44,7 @@ struct MeasuredRecord {
   Record record;
   std::vector<std::string> warnings;  ///< what was left out or taken for granted
   std::string sha256;                 ///< of the bytes of the file
+  std::vector<std::string> assumed;   ///< columns for which nobody stated a unit: taken in SI
 };
 
 [[nodiscard]] MeasuredRecord read_record(const std::string& path, const ReadOptions& options = {});

@@ -1,7 +1,13 @@
 #include "identify/readers/text.hpp"
 
+#include <iconv.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/diagnostics.hpp"
@@ -42,7 +48,86 @@ std::size_t length_of_text(std::string_view text) {
   return i;
 }
 
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
+constexpr std::string_view little_mark = "\xFF\xFE";
+constexpr std::string_view big_mark = "\xFE\xFF";
+
+/// Share of the even or odd bytes of a text's beginning that are zero.
+double zeros(std::string_view bytes, std::size_t first) {
+  const std::size_t length = std::min<std::size_t>(bytes.size(), 1000);
+  std::size_t count = 0;
+  for (std::size_t i = first; i < length; i += 2) count += bytes[i] == '\0' ? 1 : 0;
+  return length < 4 ? 0.0 : 2.0 * static_cast<double>(count) / static_cast<double>(length);
+}
+
+/// Name of the byte order of a text in UTF-16, as iconv knows it; nothing for other texts.
+const char* utf16_order(std::string_view bytes) {
+  constexpr double many = 0.6;
+  constexpr double few = 0.05;
+  if (bytes.starts_with(little_mark)) return "UTF-16LE";
+  if (bytes.starts_with(big_mark)) return "UTF-16BE";
+  if (zeros(bytes, 1) > many && zeros(bytes, 0) < few) return "UTF-16LE";
+  if (zeros(bytes, 0) > many && zeros(bytes, 1) < few) return "UTF-16BE";
+  return nullptr;
+}
+
+/// Nothing when the bytes are not of this encoding.
+std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
+  struct Close {
+    void operator()(void* descriptor) const { iconv_close(descriptor); }
+  };
+  const iconv_t raw = iconv_open("UTF-8", encoding);
+  if (raw == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: iconv's own sign of failure
+  const std::unique_ptr<void, Close> descriptor(raw);
+  std::string text;
+  std::array<char, 1U << 16U> buffer{};
+  char* from = const_cast<char*>(bytes.data());  // NOLINT(*-const-cast): iconv does not write there
+  std::size_t left = bytes.size();
+  while (left > 0) {
+    char* to = buffer.data();
+    std::size_t room = buffer.size();
+    const bool done = iconv(descriptor.get(), &from, &left, &to, &room) != static_cast<std::size_t>(-1);
+    const int fault = errno;
+    text.append(buffer.data(), buffer.size() - room);
+    if (!done && fault != E2BIG) return std::nullopt;
+  }
+  return text;
+}
+
+std::string without_mark(std::string text) {
+  if (text.starts_with(utf8_mark)) text.erase(0, utf8_mark.size());
+  return text;
+}
+
 }  // namespace
+
+bool is_utf16(std::string_view bytes) { return utf16_order(bytes) != nullptr; }
+
+std::string decoded(std::string_view bytes, const std::string& file, std::vector<std::string>& warnings) {
+  std::string text;
+  if (const char* const order = utf16_order(bytes)) {
+    std::optional<std::string> utf8 = converted(bytes, order);
+    if (!utf8)
+      throw core::InputError(
+          core::Diagnostic{{file, 0, 0, {}}, "the text is no sound UTF-16", "a text file in UTF-8", {}, {}});
+    text = without_mark(std::move(*utf8));
+  } else {
+    text = without_mark(std::string(bytes));
+    const std::size_t end = length_of_text(text);
+    const bool has_control = std::ranges::any_of(text, is_control);
+    if (end < text.size() && !has_control) {
+      if (std::optional<std::string> western = converted(text, "WINDOWS-1252")) {
+        const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n') + 1;
+        warnings.push_back(
+            "the text is not UTF-8 and is read as Windows-1252 (Latin-1); the first such letter is in line " +
+            std::to_string(line));
+        text = std::move(*western);
+      }
+    }
+  }
+  refuse_binary(text, file);
+  return text;
+}
 
 void refuse_binary(std::string_view text, const std::string& file) {
   const std::size_t end = length_of_text(text);

@@ -1,10 +1,20 @@
 #pragma once
-/// What bytes of a data file may go into messages and into JSON: UTF-8 without control characters.
+/// The text of a data file, in the encodings in which laboratories write it; what of it may go into messages and
+/// into JSON: UTF-8 without control characters.
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dualdamp::identify {
+
+/// The first bytes are those of a text in UTF-16: a byte order mark, or every other byte zero.
+[[nodiscard]] bool is_utf16(std::string_view bytes);
+
+/// The bytes as UTF-8 without byte order mark. UTF-16 is converted. What is no UTF-8 but has no control characters
+/// either is read as Windows-1252, the Latin letters of western Europe, with a warning. Errors: as `refuse_binary`.
+[[nodiscard]] std::string decoded(std::string_view bytes, const std::string& file,
+                                  std::vector<std::string>& warnings);
 
 /// Refuses what is not UTF-8, or holds control characters but tab and line ends: `core::InputError` with line and
 /// column.

@@ -11,7 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/units.hpp"
+#include "identify/readers/column_factors.hpp"
+#include "identify/readers/csv_text.hpp"
 #include "identify/readers/text.hpp"
 
 namespace dualdamp::identify {
@@ -19,12 +20,6 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr std::size_t most_values = 20'000'000;
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// Characters [from, from + width) of a line, without blanks around; less where the line is shorter.
 std::string_view cut(std::string_view line, std::size_t from, std::size_t width) {
@@ -305,12 +300,15 @@ class Scanner {
 
 class Mapping {
  public:
-  Mapping(std::string file, const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
-      : file_(std::move(file)), options_(options), problems_(problems), warnings_(warnings) {}
+  Mapping(const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
+      : file_(options.name),
+        options_(options),
+        problems_(problems),
+        warnings_(warnings),
+        factors_(options, problems, warnings) {}
 
   DataTable run(const std::vector<Function>& functions) {
-    check_names(options_.units, "unit", file_, problems_);
-    check_names(options_.columns, "column", file_, problems_);
+    check_names(options_, problems_);
     problems_.throw_if_any();
     std::vector<TestColumns> tests;
     for (std::size_t i = 0; i < functions.size(); ++i) {
@@ -318,9 +316,15 @@ class Mapping {
       if (known != nullptr) add(tests, functions[i], *known);
     }
     problems_.throw_if_any();
-    if (tests.empty()) refuse_file(file_, "no data set of the file is a signal that could be used", allowed());
+    if (tests.empty()) {
+      std::vector<std::string> names;
+      for (const Function& f : functions) names.push_back("'" + name_of(f) + "'");
+      refuse_file(file_, "no data set of the file is a signal that could be used", allowed(),
+                  "the data sets " + excerpt(listed(names)));
+    }
     for (std::size_t i = 0; tests.size() > 1 && i < tests.size(); ++i) tests[i].label = std::to_string(i + 1);
     DataTable table = join(file_, tests);
+    table.assumed = factors_.warn_of_assumptions();
     if (std::ranges::any_of(functions, [](const Function& f) { return !f.is_even; }))
       table.time_digits = 6;  // E13.5
     return table;
@@ -403,24 +407,20 @@ class Mapping {
   }
 
   double factor_of(const Function& f, const KnownColumn& known) {
-    if (const auto factor = factor_of_caller(options_.units, known, file_, problems_)) return *factor;
-    if (!f.ordinate.unit.empty()) {
-      const core::QuantityText factor = core::unit_factor(f.ordinate.unit, known.unit);
-      if (factor.value) return *factor.value;
-      problems_.add(
-          {{file_, f.line, 0, {}},
-           "the unit of data set '" + name_of(f) + "', used as " + std::string(known.name) + ": " + factor.fault,
-           core::describe_dimension(known.unit),
-           f.ordinate.unit,
-           factor.suggestion});
-    }
-    return 1.0 / f.divisor;
+    core::Diagnostic where;
+    where.place = {file_, f.line, 0, {}};
+    where.found = "data set '" + name_of(f) + "'" + (f.ordinate.unit.empty() ? "" : " in " + f.ordinate.unit);
+    // Without a unit of its own it is in those of data set 164, which are SI where there is none.
+    const bool in_units_of_file = f.ordinate.unit.empty() && find_for(options_.units, known) == nullptr &&
+                                  find_for(options_.scales, known) == nullptr;
+    return in_units_of_file ? 1.0 / f.divisor : factors_.factor_of(known, f.ordinate.unit, where);
   }
 
   std::string file_;
   const ReadOptions& options_;
   Problems& problems_;
   std::vector<std::string>& warnings_;
+  ColumnFactors factors_;
 };
 
 }  // namespace
@@ -437,12 +437,12 @@ bool is_universal_file(std::string_view text) {
   return !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-DataTable parse_universal_file(std::string_view text, const std::string& file, const ReadOptions& options,
-                               Problems& problems, std::vector<std::string>& warnings) {
-  const std::vector<Function> functions = Scanner(text, file, warnings).run();
+DataTable parse_universal_file(std::string_view text, const ReadOptions& options, Problems& problems,
+                               std::vector<std::string>& warnings) {
+  const std::vector<Function> functions = Scanner(text, options.name, warnings).run();
   if (functions.empty())
-    refuse_file(file, "the universal file holds no time response", "data sets 58 of function type 1");
-  return Mapping(file, options, problems, warnings).run(functions);
+    refuse_file(options.name, "the universal file holds no time response", "data sets 58 of function type 1");
+  return Mapping(options, problems, warnings).run(functions);
 }
 
 }  // namespace dualdamp::identify

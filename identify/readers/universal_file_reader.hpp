@@ -27,8 +27,7 @@ namespace dualdamp::identify {
 /// The text begins with the mark of a data set and its number.
 [[nodiscard]] bool is_universal_file(std::string_view text);
 
-[[nodiscard]] DataTable parse_universal_file(std::string_view text, const std::string& file,
-                                             const ReadOptions& options, Problems& problems,
+[[nodiscard]] DataTable parse_universal_file(std::string_view text, const ReadOptions& options, Problems& problems,
                                              std::vector<std::string>& warnings);
 
 }  // namespace dualdamp::identify

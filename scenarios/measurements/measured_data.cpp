@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "identify/records/derived_records.hpp"
+#include "identify/records/plausibility.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -46,10 +47,13 @@ std::optional<fs::path> safe_path(CheckedFile& file, const std::string& name) {
 identify::ReadOptions read_options(const CheckedFile& file, const std::string& name) {
   identify::ReadOptions options;
   options.name = name;
-  for (const auto& [key, map] : {std::pair{"units", &options.units}, {"columns", &options.columns}})
+  for (const auto& [key, map] :
+       {std::pair{"units", &options.units}, {"columns", &options.columns}, {"scale", &options.scales}})
     if (file.has("analysis", key))
       for (const auto& [column, text] : file.values().at("analysis").at(key).items())
         map->emplace(column, text.get<std::string>());
+  if (file.has("analysis", "decimal")) options.decimal = file.text_at("analysis", "decimal").front();
+  options.no_header = file.has("analysis", "no_header") && file.values().at("analysis").at("no_header").get<bool>();
   return options;
 }
 
@@ -61,18 +65,35 @@ Field for_columns(std::string name, std::string meaning, bool numbers_only) {
   return section(std::move(name), std::move(columns), std::move(meaning));
 }
 
+/// What the constants beside the data say of its units and columns.
+void refuse_gross_faults(CheckedFile& file, const identify::MeasuredRecord& data, double frequency,
+                         const std::string& name) {
+  if (file.has("system", "damper_to") && file.text_at("system", "damper_to") == "base") return;
+  const identify::KnownConstants constants{file.number_at("system", "mass").value_or(identify::unknown),
+                                           file.number_at("system", "stiffness").value_or(identify::unknown),
+                                           frequency};
+  file.take_over(identify::gross_faults(data.record, constants, data.assumed, name));
+}
+
 }  // namespace
 
 std::vector<Field> data_fields() {
-  return {text("data",
-               "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
-          for_columns("units", "units of columns for which the data file states none: {x: mm}", true),
-          for_columns("columns", "names or numbers of the columns in the data file: {x: LVDT 2}", false)};
+  return {
+      text("data",
+           "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
+      for_columns("units", "units of columns for which the data file states none: {x: mm}", true),
+      for_columns("columns", "names or numbers of the columns in the data file: {x: LVDT 2}", false),
+      for_columns("scale",
+                  "what the numbers of columns are multiplied by: {x: 2.5 mm/V}, the sensitivity of a sensor: {a: "
+                  "100 mV/g}, or a plain factor: {force: \"35.15\"}",
+                  true),
+      words("decimal", {".", ","}, "decimal mark of a CSV file"),
+      boolean("no_header", "the CSV file begins with numbers; 'columns' holds the numbers of the columns")};
 }
 
 void read_data(CheckedFile& file) {
   if (!file.has("analysis", "data")) {
-    for (const char* key : {"units", "columns"})
+    for (const char* key : {"units", "columns", "scale", "decimal", "no_header"})
       if (file.stands_in_file("analysis", key))
         file.complain(std::string("analysis.") + key,
                       std::string("'analysis.") + key + "' says how to read a data file, and there is none");
@@ -88,6 +109,7 @@ void read_data(CheckedFile& file) {
     const double frequency = known ? *file.number_at("excitation", "frequency") : identify::unknown;
     for (std::string& warning : identify::complete(data.record, frequency))
       data.warnings.push_back(std::move(warning));
+    refuse_gross_faults(file, data, frequency, name);
     file.data = std::move(data);
   } catch (const core::InputError& error) {
     file.take_over(error.diagnostics());

@@ -7,7 +7,7 @@
 
 namespace dualdamp::scenarios {
 
-/// `data`, `units`, `columns`.
+/// `data`, and what the file does not say of itself: `units`, `columns`, `scale`, `decimal`, `no_header`.
 [[nodiscard]] std::vector<Field> data_fields();
 
 /// Reads the record of `analysis.data`, if it is there, into `file.data`.

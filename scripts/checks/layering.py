@@ -81,6 +81,7 @@ LIBRARIES = {
     "yaml-cpp": (r"yaml-cpp/", ["scenarios"], SOURCES),
     "matio": (r"matio\.h", ["identify", "scenarios"], SOURCES),
     "HDF5": (r"hdf5\.h", ["identify"], SOURCES),
+    "iconv of the C library": (r"iconv\.h", ["identify"], SOURCES),
     "nlohmann-json": (r"nlohmann/", ["scenarios", "bench", "cli"], PUBLIC),
     "fmt": (r"fmt/", ABOVE_SIM, SOURCES),
     "CLI11": (r"CLI/", ["cli"], PUBLIC),

@@ -66,9 +66,6 @@ REFUSED = {
     "twice.csv": ("Y,x,position\n1,2,3\n", "stands there twice"),
     "negative.csv": ("Y,x\n1,-2\n", "is negative"),
     "open_quote.csv": ('Y,x\n1,"2\n', "does not end with its quote"),
-    "utf16.csv": (PAIRS.encode("utf-16"), "not UTF-8 but UTF-16"),
-    "utf16_without_mark.csv": (PAIRS.encode("utf-16-le"), "holds a control character"),
-    "latin1.csv": ("Y [µm],x\n1,2\n".encode("latin-1"), "not UTF-8"),
     "nul.csv": (b"Y,x\n1,2\n3,\x004\n", "holds a control character"),
     "random.bin": (random.Random(1).randbytes(100_000), "not UTF-8"),
     "workbook.xlsx": (b"PK\x03\x04" + bytes(1000), "a workbook or an archive"),
@@ -78,7 +75,6 @@ REFUSED = {
     "hdf5.h5": (b"\x89HDF\r\n\x1a\n" + bytes(1000), "no MATLAB file"),
     "unsorted.csv": (history(EVEN[:50] + [0.01] + EVEN[50:]), "the time does not increase"),
     "time_twice.csv": (history(EVEN[:50] + EVEN[49:]), "it stands there twice"),
-    "jitter.csv": (history([t + 1e-4 * math.sin(1e5 * t) for t in EVEN], "{:.9f}"), "the time steps are not constant"),
     "torn.csv": (history([t for i, t in enumerate(EVEN) if i % 6]), "no stretch between them is long enough"),
     "short.csv": ("t,x\n0,1\n1,2\n2,3\n", "too short"),
     "no_time.csv": ("x,v\n1,2\n2,3\n", "there is no column t"),
@@ -158,7 +154,7 @@ class DataFiles(unittest.TestCase):
 
     def test_gaps_are_told(self):
         times = [t for i, t in enumerate(EVEN) if i not in (10, 11)]
-        result = self.identify(self.write("gaps.csv", history(times)))
+        result = self.identify(self.write("gaps.csv", history(times).replace("t,x", "t,x [mm]")))
         self.assertIn("the longest uninterrupted stretch is used, 88 rows", result.stderr)
 
     def test_what_is_no_file(self):

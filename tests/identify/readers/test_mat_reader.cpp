@@ -87,7 +87,9 @@ TEST_CASE("MATLAB 4 files, of both byte orders") {
     CHECK(read.record.histories[0].sample_rate == Approx(250.0).epsilon(1e-14));
     CHECK(read.record.histories[0].x == ramp(40));
     CHECK(read.record.histories[0].v == ramp(40));
-    CHECK(read.warnings == std::vector<std::string>{"variable 'note' is not known and is ignored"});
+    REQUIRE(read.warnings.size() == 2);
+    CHECK(read.warnings[0] == "variable 'note' is not known and is ignored");
+    CHECK(mentions(read.warnings[1], "no unit is stated for x and v: read x in m and v in m/s"));
   }
 }
 
@@ -116,6 +118,33 @@ TEST_CASE("MATLAB 5 and 7.3 files") {
   }
 }
 
+TEST_CASE("Parts of matrices, fields of structs and names of the caller's are columns") {
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    CAPTURE(version);
+    Matlab file("parts.mat", version);
+    std::vector<double> table = ramp(40);
+    for (double& value : table) value *= 0.01;
+    const std::vector<double> numbers = ramp(40);
+    table.insert(table.end(), numbers.begin(), numbers.end());
+    file.add("data", table, 2).add("vir", ramp(40)).add("Fs", {100.0}).add_struct("run", {ramp(40)});
+    const std::string path = file.path();
+    using Columns = std::map<std::string, std::string>;
+    for (const Columns& columns : {Columns{{"x", "data(:,2)"}}, {{"x", "2"}}, {{"x", "vir"}}, {{"x", "run.x"}}}) {
+      CAPTURE(columns.at("x"));
+      const History history =
+          read_record(path, {.columns = columns, .scales = {{"x", "2.5 mm/V"}}}).record.histories.at(0);
+      CHECK(history.sample_rate == Approx(100.0).epsilon(1e-14));
+      CHECK(history.x.size() == 40);
+      CHECK(history.x[3] == Approx(4 * 2.5e-3).epsilon(1e-15));
+    }
+    const auto says = [&path](const std::string& x) {
+      return refusal([&] { return read_record(path, {.columns = {{"x", x}}}); });
+    };
+    CHECK(mentions(says("data(:,3)"), "beyond the last column"));
+    CHECK(mentions(says("y"), "data (40 x 2)"));
+  }
+}
+
 TEST_CASE("MATLAB files that hold something else") {
   for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
     CAPTURE(version);
@@ -136,6 +165,7 @@ TEST_CASE("MATLAB files that hold something else") {
     CHECK(says([](Matlab& m) { m.add("x", ramp(20)).add("fs", {0.0}); }, "not one number above zero"));
     CHECK(says([](Matlab& m) { m.add("Y", {1, 2}).add("x", {1, std::nan("")}); }, "element 2 of variable 'x'"));
     CHECK(says([](Matlab& m) { m.add("Y", {1}).add("x", {1}).add("frequency", {6}); }, "differ by 2 pi"));
+    CHECK(says([](Matlab& m) { m.add("Y", {1}).add("x", {1}).add("phase", {1.5}); }, "an angle needs its unit"));
     CHECK(says([](Matlab& m) { m.add_struct("a", {ramp(20)}).add_struct("b", {ramp(20)}); }, "several structs"));
   }
 }

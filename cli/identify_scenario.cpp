@@ -1,0 +1,61 @@
+#include "cli/identify_scenario.hpp"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace dualdamp::cli {
+
+namespace {
+
+/// A text as YAML, whatever characters a file name holds.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  return result + "'";
+}
+
+/// Options like `--unit x=mm`, which fill a map.
+void add_maps(const IdentifyCommand& command, scenarios::LoadOptions& options) {
+  for (const auto& [option, key, list] : {std::tuple{"--unit", "units", &command.units},
+                                          {"--column", "columns", &command.columns},
+                                          {"--scale", "scale", &command.scales}})
+    for (const std::string& text : *list) {
+      const std::size_t sign = std::min(text.find('='), text.size());
+      options.set.push_back({std::string("analysis.") + key + "." + text.substr(0, sign) + "=" +
+                                 quoted(sign < text.size() ? text.substr(sign + 1) : std::string()),
+                             option});
+    }
+}
+
+}  // namespace
+
+scenarios::Scenario scenario_of(const IdentifyCommand& command) {
+  scenarios::LoadOptions options;
+  options.data_anywhere = true;
+  options.set = {{"analysis.data=" + quoted(command.data), "DATA"}};
+  if (!command.frequency.empty()) options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
+  for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},
+                                            {"system.stiffness", &command.stiffness, "--stiffness"},
+                                            {"excitation.frequency", &command.frequency, "--frequency"},
+                                            {"analysis.sigma_x", &command.sigma_x, "--sigma-x"},
+                                            {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
+    if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
+  if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
+  if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
+  for (const std::string& text : command.gain_uncertainties)
+    options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
+  add_maps(command, options);
+  if (!command.methods.empty()) {
+    std::string names;
+    for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);
+    options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
+  }
+  scenarios::Scenario scenario = scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {}\nanalysis: {type: identify}\n", "command line", options);
+  scenario.file = command.data;
+  return scenario;
+}
+
+}  // namespace dualdamp::cli

@@ -1,0 +1,160 @@
+#include "identify/readers/column_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "core/units.hpp"
+#include "identify/readers/csv_text.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+std::string without_brackets(std::string_view unit) {
+  unit = trimmed(unit);
+  if (unit.size() > 2 && unit.front() == '(' && unit.back() == ')') unit = unit.substr(1, unit.size() - 2);
+  return std::string(trimmed(unit));
+}
+
+/// The unit of a scale: SI units of the column for one unit of the signal.
+struct ScaleUnit {
+  double factor = 1.0;
+  std::string signal;           ///< unit of the signal; empty: a plain number
+  bool is_sensitivity = false;  ///< signal over quantity, not quantity over signal
+};
+
+/// The column's unit is on one side of one of the strokes, the signal's on the other.
+std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownColumn& known) {
+  for (std::size_t at = unit.rfind('/'); at != std::string::npos && at > 0; at = unit.rfind('/', at - 1)) {
+    const std::string above = without_brackets(std::string_view(unit).substr(0, at));
+    const std::string below = without_brackets(std::string_view(unit).substr(at + 1));
+    if (above.empty() || below.empty()) continue;
+    if (const auto factor = core::unit_factor(above, known.unit).value) return ScaleUnit{*factor, below, false};
+    if (const auto factor = core::unit_factor(below, known.unit).value) return ScaleUnit{*factor, above, true};
+  }
+  if (const auto whole = core::unit_factor(unit, known.unit).value) return ScaleUnit{*whole, {}, false};
+  return std::nullopt;
+}
+
+bool is_angular(const KnownColumn& known) { return known.unit == "rad" || known.unit == "rad/s"; }
+
+}  // namespace
+
+void check_names(const ReadOptions& options, Problems& problems) {
+  const auto check = [&](const std::map<std::string, std::string>& map, const char* option, bool numbers_only) {
+    for (const auto& [name, value] : map) {
+      const KnownColumn* known = known_column(name);
+      if (known != nullptr && !(numbers_only && known->unit.empty())) continue;
+      std::string names;
+      for (const std::string_view column : column_names(numbers_only))
+        names += (names.empty() ? "" : ", ") + std::string(column);
+      problems.add({{options.name, 0, 0, {}},
+                    std::string(option) + ": there is no column '" + name + "' that could be used",
+                    names,
+                    {},
+                    {}});
+    }
+  };
+  check(options.units, "unit", true);
+  check(options.scales, "scale", true);
+  check(options.columns, "column", false);
+}
+
+const std::string* find_for(const std::map<std::string, std::string>& map, const KnownColumn& known) {
+  for (const std::string_view name : {known.name, known.alias})
+    if (const auto found = map.find(std::string(name)); found != map.end() && !name.empty()) return &found->second;
+  return nullptr;
+}
+
+double ColumnFactors::refuse(const core::Diagnostic& where, std::string message, std::string allowed,
+                             std::string suggestion) {
+  problems_.add({where.place, std::move(message), std::move(allowed), where.found, std::move(suggestion)});
+  return 1.0;
+}
+
+double ColumnFactors::factor_of(const KnownColumn& known, const std::string& stated,
+                                const core::Diagnostic& where) {
+  const std::string name(known.name);
+  const std::string* given = find_for(options_.units, known);
+  const std::string& unit = given != nullptr ? *given : stated;
+  if (known.unit.empty())
+    return unit.empty() ? 1.0 : refuse(where, "column " + name + " is a label and has no unit", name);
+  if (given != nullptr && !stated.empty() && stated != *given)
+    warnings_.push_back("column " + name + " is read in " + *given + ", not in " + stated + " as the file states");
+  if (const std::string* scale = find_for(options_.scales, known)) return scaled(known, *scale, unit, where);
+  if (unit.empty() && known.unit == "rad")
+    return refuse(where, "column " + name + ": an angle needs its unit, because degrees and radians differ",
+                  "'" + name + " [deg]' or '" + name + " [rad]' in the file, or --unit " + name + "=deg");
+  if (unit.empty() && !is_angular(known)) {
+    assumed_.push_back({name, std::string(known.unit)});
+    return 1.0;
+  }
+  const core::QuantityText factor = core::unit_factor(unit, known.unit);
+  if (factor.value) return *factor.value;
+  core::Diagnostic fault = where;
+  if (given != nullptr) fault.found = *given;
+  return refuse(fault, "the unit of column " + name + ": " + factor.fault,
+                core::describe_dimension(known.unit) + "; in the file as '" + name + " [unit]', or as --unit " +
+                    name + "=UNIT",
+                factor.suggestion);
+}
+
+double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,
+                             const core::Diagnostic& where) {
+  const std::string name(known.name);
+  const std::string allowed =
+      "such as '2.5 " +
+      std::string(core::usual_units(known.unit).empty() ? known.unit : core::usual_units(known.unit).front()) +
+      "/V'";
+  core::Diagnostic fault = where;
+  fault.found = scale;
+  const std::string text(trimmed(scale));
+  const core::NumberText number = core::read_number(text);
+  if (!number.value || *number.value == 0.0)
+    return refuse(fault, "the scale of column " + name + " does not begin with a number other than zero", allowed);
+  const std::string scale_unit(trimmed(std::string_view(text).substr(number.length)));
+  if (scale_unit.empty()) {  // in the column's own unit
+    if (unit.empty() && is_angular(known))
+      return refuse(fault, "the scale of column " + name + " needs its unit", allowed);
+    const core::QuantityText factor = core::unit_factor(unit, known.unit);
+    if (factor.value) return *number.value * *factor.value;
+    return refuse(fault,
+                  "the scale of column " + name + " does not lead from " + unit + " to " +
+                      core::describe_dimension(known.unit),
+                  allowed);
+  }
+  const auto read = read_scale_unit(scale_unit, known);
+  if (!read)
+    return refuse(fault,
+                  "the scale of column " + name + " does not lead to " + core::describe_dimension(known.unit),
+                  allowed);
+  double per_signal = 1.0;
+  if (unit.empty()) {
+    if (!read->signal.empty()) assumed_.push_back({name, read->signal});
+  } else if (unit != read->signal) {
+    const auto conversion = read->signal.empty() ? std::nullopt : core::unit_factor(unit, read->signal).value;
+    if (!conversion)
+      return refuse(fault, "the scale of column " + name + " is not for numbers in " + unit, allowed);
+    per_signal = *conversion;
+  }
+  const double gain = read->is_sensitivity ? 1.0 / *number.value : *number.value;
+  return gain * read->factor * per_signal;
+}
+
+std::vector<std::string> ColumnFactors::warn_of_assumptions() {
+  if (assumed_.empty()) return {};
+  std::vector<std::string> names;
+  std::vector<std::string> units;
+  for (const Assumption& assumption : assumed_) {
+    names.push_back(assumption.name);
+    units.push_back(assumption.name + " in " + assumption.unit);
+  }
+  warnings_.push_back("no unit is stated for " + listed(names) + ": read " + listed(units) +
+                      "; state another one as --unit " + names.back() + "=UNIT");
+  return names;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,110 @@
+#include "identify/readers/columns.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/units.hpp"
+#include "identify/readers/csv_text.hpp"
+#include "identify/readers/record_reader.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// What may stand between a name and a unit without brackets.
+constexpr std::string_view marks = " _/,:-.";
+
+bool is_alike(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b,
+                            [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
+}
+
+bool is_name(std::string_view text, std::string_view name) {
+  return !name.empty() && (text == name || (name.size() > 1 && is_alike(text, name)));
+}
+
+const KnownColumn* column_in_any_case(std::string_view text) {
+  const auto found = std::ranges::find_if(known_columns, [text](const KnownColumn& known) {
+    return is_name(text, known.name) || is_name(text, known.alias);
+  });
+  return found == known_columns.end() ? nullptr : &*found;
+}
+
+bool is_unit_of(const std::string& unit, const KnownColumn& known) {
+  return !unit.empty() && !known.unit.empty() && core::unit_factor(unit, known.unit).value.has_value();
+}
+
+/// The part of a text behind a name and marks that is a unit; empty when there is none.
+std::string unit_behind(std::string_view text, std::string_view name, const KnownColumn& known) {
+  if (name.empty() || text.size() <= name.size() + 1 || !is_name(text.substr(0, name.size()), name)) return {};
+  const std::string_view rest = text.substr(name.size());
+  const std::size_t begin = rest.find_first_not_of(marks);
+  if (begin == 0 || begin == std::string_view::npos) return {};
+  std::string_view unit = rest.substr(begin);
+  constexpr std::string_view in = "in ";
+  if (unit.size() > in.size() && unit.starts_with(in)) unit.remove_prefix(in.size());
+  const std::string text_of_unit(trimmed(unit));
+  return is_unit_of(text_of_unit, known) ? text_of_unit : std::string();
+}
+
+}  // namespace
+
+const KnownColumn* known_column(std::string_view name) {
+  const auto found = std::ranges::find_if(known_columns, [name](const KnownColumn& known) {
+    return name == known.name || (!known.alias.empty() && name == known.alias);
+  });
+  return found == known_columns.end() ? nullptr : &*found;
+}
+
+std::vector<std::string_view> column_names(bool numbers_only) {
+  std::vector<std::string_view> names;
+  for (const KnownColumn& known : known_columns)
+    if (!numbers_only || !known.unit.empty()) names.push_back(known.name);
+  return names;
+}
+
+Heading parse_heading(std::string_view text, int column) {
+  Heading heading{std::string(text), std::string(trimmed(text)), {}, column, true};
+  const std::size_t open = text.find_first_of("[(");
+  if (open == std::string_view::npos) {
+    heading.well_formed = text.find_first_of("])") == std::string_view::npos;
+    return heading;
+  }
+  const std::string_view rest = text.substr(open + 1);
+  const std::size_t close = rest.find(text[open] == '[' ? ']' : ')');
+  heading.name = trimmed(text.substr(0, open));
+  if (close != std::string_view::npos) heading.unit = trimmed(rest.substr(0, close));
+  heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
+  return heading;
+}
+
+const KnownColumn* named_column(Heading& heading) {
+  if (const KnownColumn* known = known_column(heading.name)) return known;
+  if (const KnownColumn* known = column_in_any_case(heading.name)) return known;
+  if (heading.text == "X_Value") {  // LabVIEW's name of the time
+    heading.unit = "s";
+    return known_column("t");
+  }
+  if (!heading.unit.empty() || !heading.well_formed) {
+    // `x_[mm]`, `x/(mm)`: a mark before the brackets.
+    const std::size_t end = heading.name.find_last_not_of(marks) + 1;
+    return end < heading.name.size() ? column_in_any_case(std::string_view(heading.name).substr(0, end)) : nullptr;
+  }
+  for (const KnownColumn& known : known_columns)
+    for (const std::string_view name : {known.name, known.alias})
+      if (std::string unit = unit_behind(heading.name, name, known); !unit.empty()) {
+        heading.name = name;
+        heading.unit = std::move(unit);
+        return &known;
+      }
+  return nullptr;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+}  // namespace dualdamp::identify

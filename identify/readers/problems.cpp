@@ -1,0 +1,73 @@
+#include "identify/readers/problems.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr std::size_t most_problems = 20;
+
+}  // namespace
+
+void Problems::add(core::Diagnostic diagnostic) {
+  const std::string kind = diagnostic.place.line > 0 ? diagnostic.message : std::string();
+  add(std::move(diagnostic), kind);
+}
+
+void Problems::add(core::Diagnostic diagnostic, const std::string& kind) {
+  const auto same = kind.empty() ? groups_.end() : std::ranges::find(groups_, kind, &Group::kind);
+  if (same == groups_.end()) {
+    add(std::move(diagnostic), 0, {});
+    groups_.back().kind = kind;
+    return;
+  }
+  // Two fields of one row, such as both of an empty one, are one row.
+  if (diagnostic.place.line == same->last_line) return;
+  same->last_line = diagnostic.place.line;
+  ++same->others;
+  if (same->lines.size() < most_lines) same->lines.push_back(diagnostic.place.line);
+}
+
+void Problems::add(core::Diagnostic diagnostic, std::size_t others, std::vector<int> lines) {
+  const int line = diagnostic.place.line;
+  groups_.push_back({diagnostic.message, std::move(diagnostic), line, others, std::move(lines)});
+  if (groups_.size() < most_problems) return;
+  core::Diagnostic end;
+  end.place.file = groups_.back().first.place.file;
+  end.message = "too many problems; those after the first " + std::to_string(most_problems) + " are not listed";
+  std::vector<core::Diagnostic> all = diagnostics();
+  all.push_back(std::move(end));
+  throw core::InputError(std::move(all));
+}
+
+std::vector<core::Diagnostic> Problems::diagnostics() const {
+  std::vector<core::Diagnostic> all;
+  for (const Group& group : groups_) {
+    all.push_back(group.first);
+    if (group.others == 0) continue;
+    std::string lines;
+    for (const int line : group.lines) lines += (lines.empty() ? "" : ", ") + std::to_string(line);
+    all.back().message +=
+        "; the same in " + std::to_string(group.others) + " more row" + (group.others == 1 ? "" : "s");
+    if (group.first.place.line > 0)
+      all.back().message += " (line" + std::string(group.others == 1 ? " " : "s ") + lines +
+                            (group.others > group.lines.size() ? ", ...)" : ")");
+  }
+  std::ranges::sort(all, {},
+                    [](const core::Diagnostic& d) { return std::tuple(d.place.line, d.place.column, d.message); });
+  return all;
+}
+
+void Problems::throw_if_any() const {
+  if (!groups_.empty()) throw core::InputError(diagnostics());
+}
+
+void refuse_file(const std::string& file, std::string message, std::string allowed, std::string found) {
+  throw core::InputError(
+      core::Diagnostic{{file, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,349 @@
+#include "identify/readers/record_assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "identify/readers/signal_checks.hpp"
+#include "identify/readers/time_base.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Rows [first, last) of one test.
+struct Part {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+class Assembly {
+ public:
+  Assembly(DataTable table, Problems& problems, std::vector<std::string>& warnings)
+      : table_(std::move(table)), problems_(problems), warnings_(warnings) {}
+
+  Record run() {
+    Record record;
+    if (table_.find("Y") != nullptr)
+      record.pairs = pairs();
+    else if (holds_extremes())
+      record.decay = decay();
+    else
+      record.histories = histories();
+    return record;
+  }
+
+ private:
+  [[nodiscard]] const std::vector<double>* values(std::string_view name) const {
+    const DataColumn* column = table_.find(name);
+    return column == nullptr ? nullptr : &column->values;
+  }
+
+  [[nodiscard]] core::Diagnostic shown(std::size_t row, std::string_view name) const {
+    return table_.show(source_row_.empty() ? row : source_row_[row], *known_column(name));
+  }
+
+  /// One problem of several rows. A row is sought from the beginning of the file, so that only some are shown.
+  void complain(const std::vector<std::size_t>& rows, std::string_view name, const std::string& message,
+                const std::string& allowed) {
+    if (rows.empty()) return;
+    core::Diagnostic problem = shown(rows.front(), name);
+    problem.message = message;
+    problem.allowed = allowed;
+    std::vector<int> lines;
+    for (std::size_t i = 1; i < std::min(rows.size(), 1 + Problems::most_lines); ++i)
+      lines.push_back(shown(rows[i], name).place.line);
+    problems_.add(std::move(problem), rows.size() - 1, std::move(lines));
+  }
+
+  void complain(std::size_t row, std::string_view name, const std::string& message, const std::string& allowed) {
+    complain(std::vector{row}, name, message, allowed);
+  }
+
+  void warn_unused(std::initializer_list<std::string_view> used) {
+    for (const DataColumn& column : table_.columns)
+      if (std::find(used.begin(), used.end(), column.known->name) == used.end())
+        warnings_.push_back("column " + std::string(column.known->name) + " is not used");
+    if (!table_.sweeps.empty() && std::find(used.begin(), used.end(), "sweep") == used.end())
+      warnings_.emplace_back("column sweep is not used");
+  }
+
+  void refuse_below(std::string_view name, bool zero_too, const std::string& what) {
+    const std::vector<double>* column = values(name);
+    if (column == nullptr) return;
+    std::vector<std::size_t> negative;
+    std::vector<std::size_t> zero;
+    for (std::size_t row = 0; row < column->size(); ++row) {
+      if ((*column)[row] < 0.0) negative.push_back(row);
+      if (zero_too && (*column)[row] == 0.0) zero.push_back(row);
+    }
+    const std::string subject = what + " of column " + std::string(name);
+    complain(
+        negative, name, subject + " is negative",
+        "a number not below zero" + std::string(name == "Y" ? "; samples of the motion of the base are y" : ""));
+    complain(zero, name, subject + " is zero", "a number above zero");
+  }
+
+  [[nodiscard]] std::vector<std::string> labels() const {
+    std::vector<std::string> result(table_.rows());
+    for (std::size_t i = 0; i < table_.sweeps.size(); ++i) {
+      const std::size_t end = i + 1 < table_.sweeps.size() ? table_.sweeps[i + 1].first_row : result.size();
+      for (std::size_t row = table_.sweeps[i].first_row; row < end; ++row) result[row] = table_.sweeps[i].label;
+    }
+    return result;
+  }
+
+  PairRecord pairs() {
+    warn_unused({"Y", "x", "omega", "phase", "fundamental", "mean_square_speed", "sweep"});
+    refuse_below("Y", false, "the amplitude");
+    refuse_below("x", false, "the amplitude");
+    refuse_below("fundamental", false, "the amplitude");
+    refuse_below("mean_square_speed", false, "the mean square");
+    refuse_below("omega", true, "the frequency");
+    const std::vector<std::string> sweeps = labels();
+    PairRecord record;
+    record.pairs.resize(table_.rows());
+    for (std::size_t row = 0; row < record.pairs.size(); ++row) {
+      Pair& pair = record.pairs[row];
+      pair.sweep = sweeps[row];
+      pair.number = static_cast<int>(row) + 1;
+    }
+    using Member = double Pair::*;
+    for (const auto& [name, member] : {std::pair<std::string_view, Member>{"Y", &Pair::Y},
+                                       {"x", &Pair::x},
+                                       {"omega", &Pair::omega},
+                                       {"phase", &Pair::phase},
+                                       {"fundamental", &Pair::fundamental},
+                                       {"mean_square_speed", &Pair::mean_square_speed}})
+      if (const std::vector<double>* column = values(name))
+        for (std::size_t row = 0; row < column->size(); ++row) record.pairs[row].*member = (*column)[row];
+    return record;
+  }
+
+  /// Nothing but x (and t), and every row turns back: a sampled motion does not.
+  [[nodiscard]] bool holds_extremes() const {
+    const std::vector<double>* x = values("x");
+    if (x == nullptr || !table_.sweeps.empty()) return false;
+    for (const DataColumn& column : table_.columns)
+      if (column.known->is_signal && column.known->name != "x") return false;
+    if (values("t") == nullptr) return true;
+    return x->size() < 3 || turns(*x) == x->size() - 2;
+  }
+
+  /// Rows at which x turns back.
+  [[nodiscard]] static std::size_t turns(const std::vector<double>& x) {
+    std::size_t count = 0;
+    for (std::size_t i = 2; i < x.size(); ++i) count += (x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.0 ? 1 : 0;
+    return count;
+  }
+
+  /// Amplitudes of a response, whose excitation is missing, are no extremes.
+  void refuse_response_without_Y() const {
+    for (const std::string_view name : {"omega", "phase", "fundamental", "mean_square_speed"})
+      if (values(name) != nullptr)
+        refuse_file(
+            table_.file,
+            "there is a column " + std::string(name) + " and no column Y: pairs need the amplitude of the base",
+            std::string(allowed_columns));
+  }
+
+  DecayRecord decay() {
+    refuse_response_without_Y();
+    warn_unused({"x", "t"});
+    DecayRecord record;
+    record.extremes = *values("x");
+    if (record.extremes.size() > 2 && turns(record.extremes) == 0)
+      refuse_file(table_.file,
+                  "x stands alone, and no row of it turns back: extremes of a free vibration alternate",
+                  "signed extremes such as 5, -4, 3; or samples with their times t");
+    if (const std::vector<double>* t = values("t")) {
+      check_increasing();
+      record.times = *t;
+    }
+    return record;
+  }
+
+  void check_increasing() {
+    const std::vector<double>& t = *values("t");
+    std::vector<std::size_t> equal;
+    std::vector<std::size_t> back;
+    for (std::size_t row = 1; row < t.size(); ++row) {
+      if (t[row] == t[row - 1]) equal.push_back(row);
+      if (t[row] < t[row - 1]) back.push_back(row);
+    }
+    complain(equal, "t", "the time does not increase: it stands there twice", "a time after the row above");
+    complain(back, "t", "the time does not increase", "a time after the row above");
+  }
+
+  std::vector<History> histories() {
+    warn_unused({"t", "x", "y", "v", "a", "force", "sweep"});
+    if (values("t") == nullptr) {
+      std::vector<std::string> names;
+      for (const DataColumn& column : table_.columns) names.emplace_back(column.known->name);
+      refuse_file(table_.file, "signals need their times: there is no column t", std::string(allowed_columns),
+                  "columns " + listed(names));
+    }
+    if (!check_signals()) return {};
+    drop_doubled_rows();
+    const std::vector<LabelRun> runs = tests();
+    std::set<std::string> seen;
+    std::vector<History> result;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const Part rows{runs[i].first_row, i + 1 < runs.size() ? runs[i + 1].first_row : table_.rows()};
+      if (!seen.insert(runs[i].label).second) {
+        complain(rows.first, "sweep", "the rows of sweep '" + runs[i].label + "' do not stand together",
+                 "a label of its own for each test");
+        continue;
+      }
+      if (auto sampled = history(rows, runs[i].label)) result.push_back(std::move(*sampled));
+    }
+    return result;
+  }
+
+  /// A base that does not move is none; a mass that does not move, or whose sensor is clipped, tells nothing. False
+  /// after a problem.
+  bool check_signals() {
+    if (const DataColumn* y = table_.find("y"); y != nullptr && is_constant(y->values)) {
+      warnings_.emplace_back("column y is constant: the base does not move, and the column is not used");
+      table_.columns.erase(table_.columns.begin() + (y - table_.columns.data()));
+    }
+    for (const std::string_view name : {"x", "y", "v", "a"}) {
+      const std::vector<double>* signal = values(name);
+      if (signal == nullptr) continue;
+      const std::string subject = "column " + std::string(name);
+      if (signal->size() > 1 && name == "x" && is_constant(*signal)) {
+        complain(0, name, subject + " is constant: the mass does not move", "the signal of a motion");
+        return false;
+      }
+      const Clipping clipping = clipping_of(*signal);
+      if (clipping.samples == 0) continue;
+      complain(clipping.first, name,
+               subject + " is clipped: " + std::to_string(clipping.samples) + " samples in " +
+                   std::to_string(clipping.places) + " places stay at the end of the range",
+               "a record within the range of the sensor, or the part of it that is");
+      return false;
+    }
+    return true;
+  }
+
+  /// Labels of the file; without them a test begins where the header stands again, or where the time begins anew.
+  [[nodiscard]] std::vector<LabelRun> tests() {
+    if (!table_.sweeps.empty()) return table_.sweeps;
+    std::vector<std::size_t> starts = table_.restarts;
+    if (starts.empty()) starts = starts_by_time();
+    if (starts.empty()) return {{{}, 0}};
+    starts.insert(starts.begin(), 0);
+    std::vector<LabelRun> runs;
+    for (const std::size_t start : starts) runs.push_back({std::to_string(runs.size() + 1), start});
+    warnings_.push_back(std::string(table_.restarts.empty() ? "the time begins anew" : "the header stands again") +
+                        ": the file is read as " + std::to_string(runs.size()) + " tests, labelled 1 to " +
+                        std::to_string(runs.size()));
+    return runs;
+  }
+
+  /// Rows whose time falls back to where the first test began, and goes on from there; none when a time falls back
+  /// to anywhere else.
+  [[nodiscard]] std::vector<std::size_t> starts_by_time() const {
+    const std::vector<double>& t = *values("t");
+    std::vector<std::size_t> starts;
+    const double step = t.size() > 1 ? std::abs(t[1] - t[0]) : 0.0;
+    for (std::size_t row = 1; row < t.size(); ++row) {
+      if (!(t[row] < t[row - 1])) continue;
+      const bool goes_on = row + 1 < t.size() && t[row + 1] - t[row] <= 2.0 * step;
+      if (std::abs(t[row] - t[0]) > 2.0 * step || !goes_on) return {};
+      starts.push_back(row);
+    }
+    return starts;
+  }
+
+  /// Loggers write a row twice when they are interrupted. Rows of bursts are many, and no doubles.
+  void drop_doubled_rows() {
+    const std::vector<double>& t = *values("t");
+    std::vector<std::size_t> doubled;
+    for (std::size_t row = 1; row < t.size(); ++row) {
+      if (t[row] != t[row - 1]) continue;
+      const bool same = std::ranges::all_of(
+          table_.columns, [row](const DataColumn& column) { return column.values[row] == column.values[row - 1]; });
+      if (!same) return;
+      doubled.push_back(row);
+    }
+    constexpr double most = 0.05;
+    if (doubled.empty() || static_cast<double>(doubled.size()) > most * static_cast<double>(t.size())) return;
+    warnings_.push_back(std::to_string(doubled.size()) + " row" + (doubled.size() == 1 ? " stands" : "s stand") +
+                        " there twice with the same time and the same values; one of both is left out");
+    source_row_.resize(t.size());
+    std::iota(source_row_.begin(), source_row_.end(), std::size_t{0});
+    const auto erase = [&doubled](auto& list) {
+      std::size_t row = 0;
+      std::size_t next = 0;
+      std::erase_if(list, [&](const auto&) {
+        const bool erased = next < doubled.size() && doubled[next] == row++;
+        next += erased ? 1 : 0;
+        return erased;
+      });
+    };
+    for (DataColumn& column : table_.columns) erase(column.values);
+    erase(source_row_);
+    for (LabelRun& run : table_.sweeps)
+      run.first_row -= static_cast<std::size_t>(std::ranges::lower_bound(doubled, run.first_row) - doubled.begin());
+    for (std::size_t& start : table_.restarts)
+      start -= static_cast<std::size_t>(std::ranges::lower_bound(doubled, start) - doubled.begin());
+  }
+
+  /// The signal that tells how smooth the motion is: the first that there is.
+  [[nodiscard]] const std::vector<double>& leading_signal() const {
+    for (const std::string_view name : {"x", "y", "v", "a", "force"})
+      if (const std::vector<double>* column = values(name)) return *column;
+    return *values("t");
+  }
+
+  /// Nothing after a problem.
+  std::optional<History> history(Part rows, const std::string& label) {
+    const auto cut = [](const std::vector<double>& column, std::size_t first, std::size_t last) {
+      return std::span<const double>(column).subspan(first, last - first);
+    };
+    const TimeBase base = time_base_of({.t = cut(*values("t"), rows.first, rows.last),
+                                        .signal = cut(leading_signal(), rows.first, rows.last),
+                                        .quantum = table_.time_quantum,
+                                        .digits = table_.time_digits});
+    if (base.fault) complain(rows.first + base.fault->row, "t", base.fault->message, base.fault->allowed);
+    if (base.last == base.first) return std::nullopt;
+    const std::string test = label.empty() ? "" : "test '" + label + "': ";
+    if (!base.warning.empty()) warnings_.push_back(test + base.warning);
+    const auto t = cut(*values("t"), rows.first + base.first, rows.first + base.last);
+    History result;
+    result.sweep = label;
+    result.start = t.front();
+    result.sample_rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
+    using Member = std::vector<double> History::*;
+    for (const auto& [name, member] : {std::pair<std::string_view, Member>{"x", &History::x},
+                                       {"y", &History::y},
+                                       {"v", &History::v},
+                                       {"a", &History::a},
+                                       {"force", &History::force}})
+      if (const std::vector<double>* column = values(name)) {
+        const auto part = cut(*column, rows.first + base.first, rows.first + base.last);
+        result.*member =
+            base.is_interpolated ? interpolated_evenly(t, part) : std::vector<double>(part.begin(), part.end());
+      }
+    return result;
+  }
+
+  DataTable table_;
+  std::vector<std::size_t> source_row_;  ///< where rows were left out: the row in the file
+  Problems& problems_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace
+
+Record record_of(DataTable table, Problems& problems, std::vector<std::string>& warnings) {
+  return Assembly(std::move(table), problems, warnings).run();
+}
+
+}  // namespace dualdamp::identify

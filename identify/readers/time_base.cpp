@@ -1,0 +1,278 @@
+#include "identify/readers/time_base.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/statistics/median.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr std::size_t fewest_samples = 16;
+/// A part shorter than this share of the rows says little about the measurement.
+constexpr double least_share = 0.1;
+/// Steps above so many usual ones are gaps.
+constexpr double gap = 1.5;
+constexpr std::size_t most_lone_gaps = 2;
+/// Where the clock jitters a step must be longer to be a gap.
+constexpr double jittered_gap = 4.0;
+/// Jitter of a clock that makes no difference, as a share of a step.
+constexpr double clock_jitter = 0.01;
+/// Stamps of bursts, or late by jitter, lie so near the line, in bursts or steps.
+constexpr double most_delay = 1.5;
+
+constexpr int digits_shown = 4;
+
+std::string seconds(double time) { return core::format_number(time, digits_shown) + " s"; }
+
+/// The value at `at` of the cubic through four points.
+double cubic(const std::array<double, 4>& t, const std::array<double, 4>& x, double at) {
+  double value = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    double weight = 1.0;
+    for (std::size_t k = 0; k < t.size(); ++k)
+      if (k != i) weight *= (at - t[k]) / (t[i] - t[k]);
+    value += weight * x[i];
+  }
+  return value;
+}
+
+class Clock {
+ public:
+  explicit Clock(const TimeStamps& stamps) : stamps_(stamps), t_(stamps.t), all_{0, stamps.t.size()} {}
+
+  TimeBase run() {
+    if (all_.size() < fewest_samples)
+      return fault(0, "a history of " + std::to_string(all_.size()) + " rows is too short",
+                   "at least " + std::to_string(fewest_samples) + " rows; or extremes, each row turning back");
+    for (std::size_t row = 0; row < t_.size(); ++row)
+      if (std::isnan(t_[row])) return {};  // a problem already reported
+    const auto back = first_step_back();
+    if (back < t_.size())
+      return fault(back, "the time does not increase",
+                   "a time after the row above; tests of their own bear labels in a column sweep");
+    const bool even = is_even(all_);
+    if (even && !has_long_step()) return rows(all_, {});
+    // A few long steps are samples that are missing; many that a line explains come of times rounded to about a
+    // step.
+    const double step = median_step(all_);
+    if (even && long_steps(step) > most_lone_gaps) return rows(all_, {});
+    if (first_double() < t_.size()) return bursts();
+    const Part longest = longest_without(gap * step, all_);
+    if (longest.size() < all_.size() && is_even(longest)) return without_gaps(longest);
+    return jitter(step);
+  }
+
+ private:
+  struct Part {
+    std::size_t first = 0;
+    std::size_t last = 0;
+    [[nodiscard]] std::size_t size() const { return last - first; }
+  };
+
+  static TimeBase fault(std::size_t row, std::string message, std::string allowed) {
+    TimeBase base;
+    base.fault = TimeFault{row, std::move(message), std::move(allowed)};
+    return base;
+  }
+
+  static TimeBase rows(Part part, std::string warning) {
+    TimeBase base;
+    base.first = part.first;
+    base.last = part.last;
+    base.warning = std::move(warning);
+    return base;
+  }
+
+  [[nodiscard]] std::size_t first_step_back() const {
+    std::size_t row = 1;
+    while (row < t_.size() && t_[row] >= t_[row - 1]) ++row;
+    return row;
+  }
+
+  [[nodiscard]] std::size_t first_double() const {
+    std::size_t row = 1;
+    while (row < t_.size() && t_[row] > t_[row - 1]) ++row;
+    return row;
+  }
+
+  /// How far a printed time may be off.
+  [[nodiscard]] double rounding_of(double t) const {
+    if (t == 0.0) return stamps_.quantum;
+    const double last_digit = std::pow(10.0, std::floor(std::log10(std::abs(t))) + 1.0 - stamps_.digits);
+    return std::max(stamps_.quantum, last_digit);
+  }
+
+  /// A line through two times that are off by half a unit of the last digit each is off by as much between them,
+  /// and so is the time compared with it: together one unit.
+  [[nodiscard]] double largest_rounding(Part part) const {
+    return std::max(rounding_of(t_[part.first]), rounding_of(t_[part.last - 1]));
+  }
+
+  [[nodiscard]] double mean_step(Part part) const {
+    return (t_[part.last - 1] - t_[part.first]) / static_cast<double>(part.size() - 1);
+  }
+
+  /// Distance of a time from the line through the first and the last one.
+  [[nodiscard]] double distance(Part part, std::size_t row) const {
+    const double line = t_[part.first] + static_cast<double>(row - part.first) * mean_step(part);
+    return std::abs(t_[row] - line);
+  }
+
+  [[nodiscard]] std::size_t worst_row(Part part) const {
+    std::size_t worst = part.first;
+    for (std::size_t row = part.first; row < part.last; ++row)
+      if (distance(part, row) > distance(part, worst)) worst = row;
+    return worst;
+  }
+
+  [[nodiscard]] bool is_even(Part part) const {
+    return part.size() > 1 && mean_step(part) > 0.0 &&
+           distance(part, worst_row(part)) - largest_rounding(part) <= clock_jitter * mean_step(part);
+  }
+
+  [[nodiscard]] std::size_t long_steps(double step) const {
+    std::size_t count = 0;
+    for (std::size_t row = 1; row < t_.size(); ++row) count += t_[row] - t_[row - 1] > gap * step ? 1 : 0;
+    return count;
+  }
+
+  [[nodiscard]] bool has_long_step() const { return long_steps(mean_step(all_)) > 0; }
+
+  [[nodiscard]] std::vector<double> steps(Part part) const {
+    std::vector<double> steps(part.size() - 1);
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = t_[part.first + i + 1] - t_[part.first + i];
+    return steps;
+  }
+
+  [[nodiscard]] double median_step(Part part) const { return upper_median(steps(part)); }
+
+  [[nodiscard]] Part longest_without(double longest_step, Part part) const {
+    Part longest{part.first, part.first};
+    std::size_t first = part.first;
+    for (std::size_t row = part.first + 1; row <= part.last; ++row) {
+      if (row < part.last && t_[row] - t_[row - 1] <= longest_step) continue;
+      if (row - first > longest.size()) longest = {first, row};
+      first = row;
+    }
+    return longest;
+  }
+
+  [[nodiscard]] bool is_too_short(Part part) const {
+    return part.size() < fewest_samples ||
+           static_cast<double>(part.size()) < least_share * static_cast<double>(all_.size());
+  }
+
+  [[nodiscard]] TimeBase torn(Part longest) const {
+    return fault(longest.last < all_.last ? longest.last : longest.first,
+                 "the times have gaps, and no stretch between them is long enough",
+                 "an uninterrupted stretch of " + std::to_string(fewest_samples) + " rows and a tenth of all");
+  }
+
+  [[nodiscard]] std::string gap_warning(Part longest) const {
+    constexpr int shown = 6;
+    return "the times have gaps: of " + std::to_string(all_.size()) +
+           " rows only the longest uninterrupted stretch is used, " + std::to_string(longest.size()) +
+           " rows from t = " + core::format_number(t_[longest.first], shown) + " s to " +
+           core::format_number(t_[longest.last - 1], shown) + " s";
+  }
+
+  [[nodiscard]] TimeBase without_gaps(Part longest) const {
+    return is_too_short(longest) ? torn(longest) : rows(longest, gap_warning(longest));
+  }
+
+  /// Stamps that stand there several times.
+  [[nodiscard]] TimeBase bursts() const {
+    std::vector<double> sorted = steps(all_);
+    std::ranges::sort(sorted);
+    constexpr double most = 0.95;
+    const double median = sorted[sorted.size() / 2];
+    const double burst = sorted[static_cast<std::size_t>(most * static_cast<double>(sorted.size() - 1))];
+    const std::size_t twice = first_double();
+    const auto doubles = std::ranges::upper_bound(sorted, 0.0) - sorted.begin();
+    constexpr double fewest = 0.1;
+    if (static_cast<double>(doubles) < fewest * static_cast<double>(sorted.size()))
+      return fault(twice, "the time does not increase: it stands there twice",
+                   "a time after the row above; tests of their own bear labels in a column sweep");
+    const std::size_t worst = worst_row(all_);
+    if (distance(all_, worst) > most_delay * std::max(burst, sorted.back() / 2.0) || mean_step(all_) <= 0.0)
+      return fault(
+          worst,
+          "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " + seconds(burst) +
+              "), and samples are missing between them",
+          "stamps within one and a half bursts of a constant sample rate; or times of the instrument's own "
+          "clock");
+    return rows(all_, "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " +
+                          seconds(burst) + "): the samples are taken as evenly spaced, " +
+                          seconds(mean_step(all_)) + " apart");
+  }
+
+  [[nodiscard]] TimeBase jitter(double step) const {
+    const Part part = longest_without(jittered_gap * step, all_);
+    if (is_too_short(part)) return torn(part);
+    const std::vector<double> all_steps = steps(part);
+    const auto [low, high] = std::ranges::minmax(all_steps);
+    const std::string range = "(steps from " + seconds(low) + " to " + seconds(high) + ")";
+    const std::string gaps = part.size() < all_.size() ? gap_warning(part) + "; " : "";
+    const std::size_t worst = worst_row(part);
+    if (is_smoother_at_stamps(part)) {
+      TimeBase base =
+          rows(part, gaps + "the samples are not evenly spaced " + range +
+                         ": they are interpolated at even times, " + seconds(mean_step(part)) + " apart");
+      base.is_interpolated = true;
+      return base;
+    }
+    if (distance(part, worst) > most_delay * step)
+      return fault(worst,
+                   "the time steps are not constant " + range +
+                       ", and the signal fits neither them nor a "
+                       "constant sample rate",
+                   "a constant sample rate; here a step of about " + seconds(step));
+    return rows(part, gaps + "the time stamps jitter " + range +
+                          ": the samples, smoother without the jitter, are taken " + "as evenly spaced, " +
+                          seconds(mean_step(part)) + " apart");
+  }
+
+  /// Each sample against the cubic through its four neighbours, at the stamps and at even times.
+  [[nodiscard]] bool is_smoother_at_stamps(Part part) const {
+    double at_stamps = 0.0;
+    double at_even = 0.0;
+    const std::array<double, 4> even = {-2.0, -1.0, 1.0, 2.0};
+    for (std::size_t i = part.first + 2; i + 2 < part.last && i + 2 < stamps_.signal.size(); ++i) {
+      const auto& x = stamps_.signal;
+      const std::array<double, 4> near = {x[i - 2], x[i - 1], x[i + 1], x[i + 2]};
+      const std::array<double, 4> times = {t_[i - 2], t_[i - 1], t_[i + 1], t_[i + 2]};
+      at_stamps += std::pow(cubic(times, near, t_[i]) - x[i], 2);
+      at_even += std::pow(cubic(even, near, 0.0) - x[i], 2);
+    }
+    return at_stamps <= at_even;
+  }
+
+  const TimeStamps& stamps_;
+  std::span<const double> t_;
+  Part all_;
+};
+
+}  // namespace
+
+TimeBase time_base_of(const TimeStamps& stamps) { return Clock(stamps).run(); }
+
+std::vector<double> interpolated_evenly(std::span<const double> t, std::span<const double> values) {
+  const std::size_t n = t.size();
+  std::vector<double> result(n);
+  std::size_t next = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at = t[0] + (t[n - 1] - t[0]) * static_cast<double>(i) / static_cast<double>(n - 1);
+    while (next + 1 < n && t[next] < at) ++next;
+    const std::size_t first = std::min(next < 2 ? 0 : next - 2, n - 4);
+    result[i] = cubic({t[first], t[first + 1], t[first + 2], t[first + 3]},
+                      {values[first], values[first + 1], values[first + 2], values[first + 3]}, at);
+  }
+  return result;
+}
+
+}  // namespace dualdamp::identify

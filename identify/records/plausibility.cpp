@@ -1,0 +1,329 @@
+#include "identify/records/plausibility.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/records/sine_fit.hpp"
+#include "identify/statistics/median.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr int digits = 3;
+/// A disagreement that no sensor, friction or second mode explains.
+constexpr double gross = 5.0;
+
+std::string shown(double value) { return core::format_number(value, digits); }
+
+bool is_gross(double ratio) {
+  return std::isfinite(ratio) && ratio > 0.0 && (ratio > gross || ratio < 1.0 / gross);
+}
+
+/// "1000 times too large": rounded to the factor that a unit makes, where one is near.
+std::string times_off(double ratio) {
+  constexpr std::array<double, 7> factors = {9.80665, 25.4, 57.29578, 60.0, 1000.0, 9806.65, 1e6};
+  constexpr double near = 0.25;
+  const double size = std::max(ratio, 1.0 / ratio);
+  const auto* const factor =
+      std::ranges::find_if(factors, [size](double f) { return std::abs(std::log(size / f)) < near; });
+  return (factor == factors.end() ? "about " + shown(size) : "about " + core::format_number(*factor, digits + 1)) +
+         " times too " + (ratio > 1.0 ? "large" : "small");
+}
+
+class Check {
+ public:
+  Check(const Record& record, const KnownConstants& constants, const std::vector<std::string>& assumed,
+        const std::string& file)
+      : record_(record), constants_(constants), assumed_(assumed), file_(file) {}
+
+  std::vector<core::Diagnostic> run() {
+    for (const History& history : record_.histories) {
+      if (check_times(history)) check_signals(history);
+      if (!faults_.empty()) return faults_;
+    }
+    if (record_.decay) check_decay(*record_.decay);
+    if (record_.pairs && !record_.pairs->pairs.empty()) check_pairs(record_.pairs->pairs);
+    return faults_;
+  }
+
+ private:
+  void refuse(std::string message, std::string allowed) {
+    faults_.push_back({{file_, 0, 0, {}}, std::move(message), std::move(allowed), {}, {}});
+  }
+
+  [[nodiscard]] bool is_assumed(const char* name) const {
+    return std::ranges::find(assumed_, name) != assumed_.end();
+  }
+
+  [[nodiscard]] double natural_frequency() const { return std::sqrt(constants_.stiffness / constants_.mass); }
+
+  [[nodiscard]] static const std::vector<double>& leading(const History& history) {
+    for (const auto* signal : {&history.x, &history.v, &history.a, &history.y})
+      if (!signal->empty()) return *signal;
+    return history.force;
+  }
+
+  /// Only factors that units of time make: a beat or noise moves the frequency of a motion, but not to a
+  /// thousandth.
+  bool refuse_times(double measured, double expected, const std::string& what) {
+    constexpr std::array<std::pair<double, const char*>, 4> units = {
+        {{1e-3, "ms"}, {1e-6, "us"}, {60.0, "min"}, {3600.0, "h"}}};
+    constexpr double near = 0.3;
+    for (const auto& [factor, unit] : units) {
+      // Milliseconds read as seconds make a motion of a thousandth of its frequency.
+      if (!(std::abs(std::log(measured / expected / factor)) < near)) continue;
+      refuse("by its times the motion repeats at " + shown(measured / (2.0 * std::numbers::pi)) + " Hz, and " +
+                 what + " is " + shown(expected / (2.0 * std::numbers::pi)) + " Hz",
+             std::string("times in seconds, or their unit; these may be in ") + unit + ": --unit t=" + unit);
+      return true;
+    }
+    return false;
+  }
+
+  /// False after a fault.
+  bool check_times(const History& history) {
+    const double measured = guess_frequency(leading(history), history.sample_rate);
+    if (!(measured > 0.0)) return true;
+    const bool is_driven = !history.y.empty() && constants_.frequency > 0.0;
+    const double expected = is_driven ? constants_.frequency : natural_frequency();
+    if (!(expected > 0.0) || (!is_driven && !(history.y.empty() && history.force.empty()))) return true;
+    return !refuse_times(measured, expected, is_driven ? "the stated frequency" : "the natural frequency");
+  }
+
+  void check_decay(const DecayRecord& decay) {
+    double omega = natural_frequency();
+    if (decay.times.size() > 2) {
+      const auto half_periods = static_cast<double>(decay.times.size() - 1);
+      const double measured = std::numbers::pi * half_periods / (decay.times.back() - decay.times.front());
+      if (omega > 0.0 && refuse_times(measured, omega, "the natural frequency")) return;
+    }
+    if (decay.extremes.empty()) return;
+    const auto [low, high] = std::ranges::minmax(decay.extremes);
+    check_size("x", 0.5 * (high - low), omega);
+  }
+
+  /// Speeds and accelerations of a motion whose unit nobody stated.
+  void check_size(const char* name, double amplitude, double omega) {
+    constexpr double fastest = 50.0;
+    constexpr double most_acceleration = 1e4;
+    if (!faults_.empty() || !is_assumed(name) || !(omega > 0.0)) return;
+    const double speed = omega * amplitude;
+    if (speed <= fastest && omega * speed <= most_acceleration) return;
+    refuse("no unit is stated for " + std::string(name) + "; in metres it would reach " + shown(amplitude) +
+               " m at " + shown(omega / (2.0 * std::numbers::pi)) + " Hz, " + shown(speed) + " m/s and " +
+               shown(omega * speed) + " m/s^2",
+           "the unit in the file, '" + std::string(name) + " [mm]', or --unit " + name + "=mm");
+  }
+
+  /// Amplitudes at one frequency.
+  [[nodiscard]] static double amplitude(const std::vector<double>& signal, const History& history, double omega) {
+    if (signal.empty()) return unknown;
+    const SineFit fit = fit_sine(signal, history.sample_rate, omega);
+    return fit.outcome.ok() ? fit.harmonics.front().amplitude : unknown;
+  }
+
+  void check_signals(const History& history) {
+    const double omega = guess_frequency(leading(history), history.sample_rate);
+    if (!(omega > 0.0)) return;
+    const double x = amplitude(history.x, history, omega);
+    check_size("x", x, omega);
+    check_size("y", amplitude(history.y, history, omega), omega);
+    // As displacements, all should be one.
+    if (!faults_.empty()) return;
+    const std::array<std::pair<const char*, double>, 3> motions = {
+        {{"x", x},
+         {"v", amplitude(history.v, history, omega) / omega},
+         {"a", amplitude(history.a, history, omega) / (omega * omega)}}};
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      for (std::size_t k = i + 1; k < motions.size(); ++k) {
+        const double ratio = motions[k].second / motions[i].second;
+        if (!is_gross(ratio)) continue;
+        refuse(std::string("at ") + shown(omega / (2.0 * std::numbers::pi)) + " Hz column " + motions[k].first +
+                   " is " + times_off(ratio) + " for column " + motions[i].first,
+               std::string("both in their units: --unit ") + motions[k].first + "=UNIT, --unit " +
+                   motions[i].first + "=UNIT");
+        return;
+      }
+    check_force(amplitude(history.force, history, omega), x, omega);
+  }
+
+  /// |k - m w^2| x <= F: friction and damping act across it. Near resonance it says nothing.
+  void check_force(double force, double x, double omega) {
+    const double needed = std::abs(constants_.stiffness - constants_.mass * omega * omega) * x;
+    constexpr double unit_error = 100.0;
+    if (needed > unit_error * force && force > 0.0)
+      refuse("column force, " + shown(force) + " N, is " + times_off(force / needed) +
+                 " for the motion x, which takes " + shown(needed) + " N",
+             "both in their units, and the mass and the stiffness stated: --unit force=kN, --unit x=mm");
+  }
+
+  struct Balance {
+    int pairs = 0;
+    int too_much = 0;          ///< |k - m w^2| x far above k Y
+    int swapped_too_much = 0;  ///< the same with x and Y exchanged
+    int negative_work = 0;
+    int phases = 0;
+    std::vector<double> cosines, cosines_of_radians, cosines_of_degrees;  ///< by how much k Y cos(phase) is off
+    std::vector<double> excess;
+  };
+
+  [[nodiscard]] Balance balance_of(const std::vector<Pair>& pairs) const {
+    Balance balance;
+    for (const Pair& pair : pairs) {
+      const double omega = frequency_of(pair, constants_);
+      const double real = (constants_.stiffness - constants_.mass * omega * omega) / constants_.stiffness;
+      if (!(std::isfinite(real) && pair.Y > 0.0 && pair.x > 0.0)) continue;
+      ++balance.pairs;
+      constexpr double room = 3.0;
+      balance.too_much += std::abs(real) * pair.x > room * pair.Y ? 1 : 0;
+      balance.swapped_too_much += std::abs(real) * pair.Y > room * pair.x ? 1 : 0;
+      balance.excess.push_back(std::abs(real) * pair.x / pair.Y);
+      if (std::isnan(pair.phase)) continue;
+      ++balance.phases;
+      balance.negative_work += std::sin(pair.phase) < -0.3 ? 1 : 0;
+      const double wanted = real * pair.x / pair.Y;
+      constexpr double degree = std::numbers::pi / 180.0;
+      balance.cosines.push_back(std::abs(std::cos(pair.phase) - wanted));
+      balance.cosines_of_radians.push_back(std::abs(std::cos(pair.phase / degree) - wanted));
+      balance.cosines_of_degrees.push_back(std::abs(std::cos(pair.phase * degree) - wanted));
+    }
+    return balance;
+  }
+
+  void check_pairs(const std::vector<Pair>& pairs) {
+    check_readings(pairs);
+    if (!faults_.empty()) return;
+    const Balance balance = balance_of(pairs);
+    const std::string swapped =
+        "x is the amplitude of the mass, Y that of the base; --column x=..., --column Y=...";
+    if (2 * balance.too_much > balance.pairs && balance.pairs > 0) {
+      if (balance.swapped_too_much == 0)
+        refuse("columns x and Y seem to be swapped: in " + std::to_string(balance.too_much) + " of " +
+                   std::to_string(balance.pairs) +
+                   " pairs spring and inertia of the motion x take more force than the base gives, k Y",
+               swapped);
+      else
+        refuse("column x is " + times_off(upper_median(balance.excess)) +
+                   " for Y: spring and inertia of the motion x take more force than the base gives, k Y",
+               "both in their units, and the frequency stated: --unit x=mm, --unit Y=mm");
+      return;
+    }
+    if (2 * balance.negative_work > balance.phases && balance.phases > 0) {
+      refuse(
+          "by the phases x goes ahead of the base in " + std::to_string(balance.negative_work) + " of " +
+              std::to_string(balance.phases) +
+              " pairs, so that the base would take work out: x and Y (x and y) are swapped, or one of both has the "
+              "wrong sign",
+          "phase is the lag of x behind y, from 0 to 180 deg; a sign is turned by --scale x=-1, or phase=-1");
+      return;
+    }
+    if (balance.phases > 0) check_phases(pairs, balance);
+    if (faults_.empty()) check_line(pairs, swapped);
+  }
+
+  /// What was read of one pair agrees with itself.
+  void check_readings(const std::vector<Pair>& pairs) {
+    std::vector<double> fundamentals;
+    std::vector<double> speeds;
+    double largest = 0.0;
+    double base = 0.0;
+    double omega = 0.0;
+    for (const Pair& pair : pairs) {
+      omega = std::max(
+          omega, std::isnan(frequency_of(pair, constants_)) ? natural_frequency() : frequency_of(pair, constants_));
+      largest = std::max(largest, pair.x);
+      base = std::max(base, pair.Y);
+      if (!(pair.x > 0.0)) continue;
+      if (pair.fundamental > 0.0) fundamentals.push_back(pair.fundamental / pair.x);
+      const double speed = frequency_of(pair, constants_) * pair.x;
+      if (pair.mean_square_speed > 0.0 && speed > 0.0)
+        speeds.push_back(std::sqrt(2.0 * pair.mean_square_speed) / speed);
+    }
+    check_size("x", largest, omega);
+    check_size("Y", base, omega);
+    for (const auto& [name, ratios] : {std::pair{"fundamental", &fundamentals}, {"mean_square_speed", &speeds}})
+      if (!ratios->empty() && is_gross(upper_median(*ratios)))
+        refuse("column " + std::string(name) + " is " + times_off(upper_median(*ratios)) + " for column x",
+               std::string("both in their units: --unit x=UNIT, --unit ") + name + "=UNIT");
+  }
+
+  void check_phases(const std::vector<Pair>& pairs, const Balance& balance) {
+    double largest = 0.0;
+    for (const Pair& pair : pairs)
+      if (!std::isnan(pair.phase)) largest = std::max(largest, std::abs(pair.phase));
+    constexpr double most = 4.0 * std::numbers::pi;
+    constexpr double bad = 0.4;
+    constexpr double good = 0.15;
+    const double here = upper_median(balance.cosines);
+    if (largest > most || (here > bad && upper_median(balance.cosines_of_degrees) < good && largest > 2.0))
+      refuse("the phases, up to " + shown(largest) + " rad, are no lags in radians; they may be degrees",
+             "their unit: --unit phase=deg");
+    else if (here > bad && upper_median(balance.cosines_of_radians) < good)
+      refuse("the phases, up to " + shown(largest * 180.0 / std::numbers::pi) +
+                 " deg, do not fit x and Y, k Y cos(phase) = (k - m w^2) x; they would in radians",
+             "their unit: --unit phase=rad");
+  }
+
+  /// Near resonance, at one frequency, x = (Y - b)/(2 zeta), where b > 0 is friction's.
+  void check_line(const std::vector<Pair>& pairs, const std::string& swapped) {
+    const double n = static_cast<double>(pairs.size());
+    double x = 0.0;
+    double Y = 0.0;
+    for (const Pair& pair : pairs) {
+      const double r = frequency_of(pair, constants_) / natural_frequency();
+      constexpr double near = 0.1;
+      if (!(std::abs(r - 1.0) < near) ||
+          !is_same_frequency(frequency_of(pair, constants_), frequency_of(pairs[0], constants_)))
+        return;
+      x += pair.x / n;
+      Y += pair.Y / n;
+    }
+    double xx = 0.0;
+    double xY = 0.0;
+    double YY = 0.0;
+    for (const Pair& pair : pairs) {
+      xx += (pair.x - x) * (pair.x - x);
+      xY += (pair.x - x) * (pair.Y - Y);
+      YY += (pair.Y - Y) * (pair.Y - Y);
+    }
+    constexpr double straight = 0.9;
+    if (pairs.size() < 3 || !(xY > 0.0) || xY * xY < straight * xx * YY) return;
+    const double zeta = 0.5 * YY / xY;
+    const double intercept = Y - 2.0 * zeta * x;  // b
+    // As it stands: zeta above 1 and friction below zero. With the columns exchanged: sound.
+    const double other_zeta = 0.5 * xx / xY;
+    const double other_intercept = x - 2.0 * other_zeta * Y;
+    if (zeta > 1.0 && intercept < 0.0 && other_zeta < 1.0 && other_intercept > 0.0)
+      refuse("columns x and Y seem to be swapped: as they stand zeta is " + shown(zeta) +
+                 " and F0 below zero, exchanged zeta is " + shown(other_zeta),
+             swapped);
+    constexpr double least = 2e-4;
+    constexpr double most = 20.0;
+    const char* const who = is_assumed("x") ? "x" : is_assumed("Y") ? "Y" : nullptr;
+    if (faults_.empty() && who != nullptr && (zeta < least || zeta > most))
+      refuse("no unit is stated for " + std::string(who) + ", and as they stand x and Y make a damping ratio of " +
+                 shown(zeta) + ": one of both is off by about 1000",
+             std::string("the units of both: --unit x=mm, --unit Y=mm"));
+  }
+
+  const Record& record_;
+  const KnownConstants& constants_;
+  const std::vector<std::string>& assumed_;
+  const std::string& file_;
+  std::vector<core::Diagnostic> faults_;
+};
+
+}  // namespace
+
+std::vector<core::Diagnostic> gross_faults(const Record& record, const KnownConstants& constants,
+                                           const std::vector<std::string>& assumed, const std::string& file) {
+  return Check(record, constants, assumed, file).run();
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,202 @@
+"""Files as laboratories write them, each with what must come of it: the table of docs/data-files.md.
+
+A row: name of the file, content, options of the command, and either PAIRS or DECAY (the estimate of that record, to the
+precision that the file's digits allow) or words of the only refusal.
+"""
+
+import math
+import random
+
+from laboratory_records import PERIOD, SLOW, decay, mat4, mat5, matrix5, pairs, struct5, table, uff58
+
+PAIRS, DECAY = "pairs", "decay"
+
+MM = [(1e3 * y, 1e3 * x) for y, x in pairs()]
+SI = table("Y [m],x [m]", pairs(), form="{:.9f}")
+PLAIN = table("Y [mm],x [mm]", MM)
+VOLTS = [(y / 2.5, x / 2.5) for y, x in MM]
+STEP = 0.02
+TIMES = [STEP * i for i in range(1250)]
+X = decay(TIMES)
+ROWS = list(zip(TIMES, [1e3 * x for x in X]))
+HISTORY = table("t [s],x [mm]", ROWS)
+
+
+def clock(seconds, form="{:02d}:{:02d}:{:06.3f}"):
+    return form.format(int(seconds // 3600) % 24, int(seconds // 60) % 60, seconds % 60)
+
+
+def bursts():
+    """A serial line hands over three samples every 61 ms: most steps are zero."""
+    rows, step = [], 0.061 / 3
+    for i in range(1200):
+        rows.append((0.061 * (i // 3 + 1), 1e3 * decay([step * i])[0]))
+    return table("t [s],x [mm]", rows, form="{:.3f}")
+
+
+def jitter(stamps_are_right):
+    """A loop that is late by up to a third of a step: stamps that tell when, or only when they were written."""
+    generator = random.Random(5)
+    when = [0.02 * i + generator.uniform(0, 0.0066) for i in range(1200)]
+    x = decay(when if stamps_are_right else [0.02 * i for i in range(1200)])
+    return table("t [s],x [mm]", [(t, 1e3 * value) for t, value in zip(when, x)], form="{:.7f}")
+
+
+def tail(growing):
+    """Into the noise, where one swing may grow: a door that slams."""
+    generator = random.Random(7)
+    rows = []
+    for t, x in ROWS:
+        late = 2.0 * math.sin(2 * math.pi * 0.5 * t) * math.exp(-((t - 22.5) / 1.5) ** 2) if growing else 0.0
+        rows.append((t, x + late + generator.gauss(0, 0.05)))
+    return table("t [s],x [mm]", rows)
+
+
+def struck():
+    """At rest, then struck: the swings grow before they decay."""
+    after = decay([t + 1.0 for t in TIMES])
+    rows = [(STEP * i, 0.0) for i in range(100)]
+    blow = [after[0] * math.sin(math.pi / 2 * i / 10) ** 2 for i in range(10)]
+    return table("t [s],x [mm]", rows + [(STEP * (100 + i), 1e3 * x) for i, x in enumerate(blow + after)])
+
+
+def lvm():
+    head = ("LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t.\nTime_Pref\tRelative\nX_Columns\tOne\n"
+            "Operator\tlab\nDate\t2026/11/22\nTime\t12:30:01.25\n***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t1250\t\n"
+            "Date\t2026/11/22\t\nTime\t12:30:01.25\t\nX_Dimension\tTime\t\nX0\t0.0E+0\t\nDelta_X\t0.02\t\n***End_of_Header***\t\t\n")
+    return head + table("X_Value\tUntitled\tComment", ROWS, "\t")
+
+
+def clipped():
+    return table("t [s],x [mm]", [(t, max(-60.0, min(60.0, x))) for t, x in ROWS])
+
+
+def driven(scale_a=1.0, swap=False):
+    """Steady motion at 6 Hz with x, its acceleration and the base; sines are enough for what must be refused."""
+    rows = []
+    w = 2 * math.pi * 6.0
+    for i in range(2000):
+        t = i / 1000
+        y, x = 5 * math.cos(w * t), 12 * math.cos(w * t - 1.3)
+        rows.append((t, x if swap else y, y if swap else x, -w * w * x * 1e-3 * scale_a))
+    return table("t [s],y [mm],x [mm],a [m/s^2]", rows)
+
+
+ACCEPTED = [
+    ("metres.csv", SI, [], PAIRS),
+    ("commas.csv", PLAIN, [], PAIRS),
+    ("semicolons_decimal_comma.csv", table("Y [mm];x [mm]", MM, ";", comma=True), ["--decimal", ","], PAIRS),
+    ("tabs.txt", table("Y [mm]\tx [mm]", MM, "\t"), [], PAIRS),
+    ("tabs_decimal_comma.txt", table("Y [mm]\tx [mm]", MM, "\t", comma=True), ["--decimal", ","], PAIRS),
+    ("quoted_decimal_comma.csv", table("Y [mm],x [mm]", [(f'"{y:.6f}"', f'"{x:.6f}"') for y, x in MM], comma=True).replace('","', '","'), ["--decimal", ","], PAIRS),
+    ("blanks.txt", table("Y [mm]   x [mm]", MM, "   "), [], PAIRS),
+    ("numpy.txt", "# written by numpy\n# Y_mm x_mm\n" + table("", MM, " ", "{:.12e}"), [], PAIRS),
+    ("byte_order_mark.csv", "\ufeff" + PLAIN, [], PAIRS),
+    ("crlf.csv", PLAIN.replace("\n", "\r\n"), [], PAIRS),
+    ("cr.csv", PLAIN.replace("\n", "\r"), [], PAIRS),
+    ("latin1_micro.csv", table("Y [µm],x [µm]", [(1e3 * y, 1e3 * x) for y, x in MM]).encode("latin-1"), [], PAIRS),
+    ("latin1_degree.csv", table("Y [mm],x [mm],phase [°]", [(*row, 90.0) for row in MM]).encode("latin-1"), [], PAIRS),
+    ("utf16_excel.txt", table("Y [mm]\tx [µm]", [(y, 1e3 * x) for y, x in MM], "\t").encode("utf-16"), [], PAIRS),
+    ("utf16_big_endian.csv", ("\ufeff" + PLAIN).encode("utf-16-be"), [], PAIRS),
+    ("utf16_without_mark.csv", PLAIN.encode("utf-16-le"), [], PAIRS),
+    ("round_brackets.csv", table("Y (mm),x (mm)", MM), [], PAIRS),
+    ("unit_row.csv", table("Y;x\nmm;mm", MM, ";"), [], PAIRS),
+    ("unit_row_brackets.csv", table("Y,x,note\n[mm],[mm],-", [(*row, "ok") for row in MM]), [], PAIRS),
+    ("unit_and_description_rows.csv", table("Y;x\nbase;mass\nmm;mm", MM, ";"), [], PAIRS),
+    ("unit_after_underscore.csv", table("Y_mm,x_mm", MM), [], PAIRS),
+    ("unit_after_stroke.csv", table("Y / mm;x in mm", MM, ";"), [], PAIRS),
+    ("comments.csv", "# rig 3\n% soft spring\n" + PLAIN.replace("\n", "\n# next\n", 3) + "# end\n", [], PAIRS),
+    ("metadata_block.csv", "Operator;Sato\nDate;2026-11-22\nTime;12:30\nSample rate;1000\nx;LVDT 7\n\n" + table("Y [mm];x [mm]", MM, ";"), [], PAIRS),
+    ("quoted_fields.csv", table('"Y [mm]","x [mm]","note"', [(f'"{y}"', f'"{x}"', '"a, ""b"""') for y, x in MM]), [], PAIRS),
+    ("excel_sep.csv", "sep=;\r\n" + table("Y [mm];x [mm]", MM, ";", end="\r\n"), [], PAIRS),
+    ("empty_columns.csv", table("Y [mm],,x [mm],,", [(y, "", x, "", "") for y, x in MM]), [], PAIRS),
+    ("trailing_separator.csv", table("Y [mm];x [mm];", [(*row, "") for row in MM], ";"), [], PAIRS),
+    ("trailing_separator_in_rows.csv", table("Y [mm];x [mm]", [(*row, "") for row in MM], ";"), [], PAIRS),
+    ("empty_rows.csv", PLAIN.replace("\n", "\n,\n\n") + ",,\n,,\n", [], PAIRS),
+    ("two_columns_note.csv", table("Y [mm],note,x [mm],note", [(y, "a", x, "b") for y, x in MM]), [], PAIRS),
+    ("capitals.csv", table("FREQUENCY [Hz],Y [mm],POSITION [mm]", [(6.17393, *row) for row in MM]), [], PAIRS),
+    ("header_again.csv", PLAIN[:PLAIN.index("\n", 60) + 1] + PLAIN[:14] + PLAIN[PLAIN.index("\n", 60) + 1:], [], PAIRS),
+    ("fortran.txt", table("Y [m] x [m]", [(f"{y:.9E}".replace("E", "D"), f"{x:.9E}".replace("E", "D")) for y, x in pairs()], " "), [], PAIRS),
+    ("mils.csv", table("Y [mil],x [in]", [(y / 0.0254, x / 25.4) for y, x in MM], form="{:.9f}"), [], PAIRS),
+    ("no_header.csv", table("", [(1, *row) for row in MM]), ["--no-header", "--column", "Y=2", "--column", "x=3", "--unit", "Y=mm", "--unit", "x=mm"], PAIRS),
+    ("foreign_names.csv", table("Basis (mm);Weg (mm)", MM, ";"), ["--column", "Y=Basis", "--column", "x=Weg"], PAIRS),
+    ("volts.csv", table("Y [V],x [mV]", [(y, 1e3 * x) for y, x in VOLTS]), ["--scale", "x=2.5 mm/V", "--scale", "Y=2.5 mm/V"], PAIRS),
+    ("sensitivity.csv", table("Y,x", [(y, 1e3 * x) for y, x in VOLTS]), ["--scale", "x=400 mV/mm", "--scale", "Y=0.4 V/mm"], PAIRS),
+    ("percent.csv", table("Y [%],x [%]", [(5 * y, 5 * x) for y, x in MM]), ["--scale", "x=0.2 mm/%", "--scale", "Y=0.2 mm/%"], PAIRS),
+    ("history.csv", HISTORY, [], DECAY),
+    ("milliseconds.csv", table("time_ms,x_mm", [(1e3 * t, x) for t, x in ROWS]), [], DECAY),
+    ("clock.csv", table("Time,x [mm]", [(clock(45001 + t), x) for t, x in ROWS]), [], DECAY),
+    ("midnight.csv", table("Time,x [mm]", [(clock(86390 + t), x) for t, x in ROWS]), [], DECAY),
+    ("iso_stamps.csv", table("time,x [mm]", [("2026-11-22T" + clock(45001 + t) + "Z", x) for t, x in ROWS]), [], DECAY),
+    ("german_stamps.csv", table("time;x [mm]", [("22.11.2026 " + clock(45001 + t), x) for t, x in ROWS], ";").replace("22.11.2026", "22#11#2026").replace(".", ",").replace("#", "."), ["--decimal", ","], DECAY),
+    ("labview.lvm", lvm(), ["--column", "x=Untitled", "--unit", "x=mm"], DECAY),
+    ("gap.csv", table("t [s],x [mm]", ROWS[:1000] + ROWS[1010:]), [], DECAY),
+    ("row_twice.csv", table("t [s],x [mm]", ROWS[:500] + ROWS[499:]), [], DECAY),
+    ("coarse_times.csv", table("t [s],x [mm]", [(f"{t:.1f}", x) for t, x in ROWS]), [], DECAY),
+    ("bursts.csv", bursts(), [], DECAY),
+    ("jitter_of_the_samples.csv", jitter(True), [], DECAY),
+    ("jitter_of_the_stamps.csv", jitter(False), [], DECAY),
+    ("constant_base.csv", table("t [s],x [mm],y [mm]", [(t, x, 0.0) for t, x in ROWS]), [], DECAY),
+    ("held_before.csv", table("t [s],x [mm]", [(t, 1e3 * x) for t, x in zip(TIMES, decay(TIMES, held=3.0))]), [], DECAY),
+    ("struck.csv", struck(), [], DECAY),
+    ("noise_tail.csv", tail(False), [], DECAY),
+    ("growing_tail.csv", tail(True), [], DECAY),
+    ("v4.mat", mat4("t", TIMES) + mat4("x", X), [], DECAY),
+    ("v4_int16.mat", mat4("Fs", [50.0]) + mat4("adc", [round(x * 3e5) for x in X], 30), ["--column", "x=adc", "--scale", "x=0.00333333 mm"], DECAY),
+    ("v5_row_vectors.mat", mat5(matrix5("dt", [STEP]), matrix5("x_mm", [1e3 * x for x in X], 1)), [], DECAY),
+    ("v5_other_names.mat", mat5(matrix5("Fs", [50.0]), matrix5("LVDT", [x * 1e3 / 2.5 for x in X])), ["--column", "x=LVDT", "--scale", "x=2.5 mm/V"], DECAY),
+    ("v5_struct.mat", mat5(struct5("run", [{"x": X, "fs": [50.0]}])), [], DECAY),
+    ("v5_two_structs.mat", mat5(matrix5("fs", [50.0]), struct5("a", [{"x": X}]), struct5("b", [{"x": X}])), ["--column", "x=a.x"], DECAY),
+    ("v5_matrix.mat", mat5(matrix5("data", TIMES + X, len(X))), ["--column", "t=data(:,1)", "--column", "x=data(:,2)"], DECAY),
+    ("v5_transposed.mat", mat5(matrix5("data", [v for pair in zip(TIMES, X) for v in pair], 2)), ["--column", "t=data(1,:)", "--column", "x=data(2,:)"], DECAY),
+    ("universal.uff", uff58("x", [1e3 * x for x in X], STEP, "mm"), [], DECAY),
+]
+
+REFUSED = [
+    ("decimal_comma.csv", table("Y [mm];x [mm]", MM, ";", comma=True), [], "for decimal commas --decimal ,"),
+    ("decimal_comma_with_commas.csv", table("Y [mm],x [mm]", MM, comma=True), [], "the row does not have as many fields as the header"),
+    ("decimal_point_told_comma.csv", PLAIN.replace(",", ";"), ["--decimal", ","], "as --decimal , says"),
+    ("thousands.csv", table("Y [um];x [um]", [(f"{1e3 * y:,.1f}", f"{1e3 * x:,.1f}") for y, x in MM], ";"), [], "without thousands separators"),
+    ("nan.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "NaN"), [], "is not a finite number"),
+    ("spreadsheet_error.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "#DIV/0!"), [], "is not a number"),
+    ("empty_cell.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], ""), [], "an empty field"),
+    ("unit_in_the_field.csv", table("Y,x", [(f"{y} mm", f"{x} mm") for y, x in MM]), ["--unit", "Y=mm", "--unit", "x=mm"], "its unit stands in the heading"),
+    ("percent_in_the_field.csv", table("Y [mm],x", [(y, f"{x}%") for y, x in MM]), ["--unit", "x=mm"], "without percent sign"),
+    ("twelve_words.csv", "Y [mm],x [mm]\n" + "4.4,oops\n" * 12, [], "the same in 11 more rows (lines 3, 4, 5, 6, 7, ...)"),
+    ("twice_x.csv", table("Y [mm],x [mm],x [mm]", [(y, x, x) for y, x in MM]), [], "column x stands there twice"),
+    ("ragged.csv", PLAIN + "4.4\n", [], "the row does not have as many fields as the header"),
+    ("no_header_not_told.csv", table("", MM), [], "or --no-header with --column"),
+    ("no_header_no_columns.csv", table("", MM), ["--no-header"], "nothing tells which column is which"),
+    ("foreign_names_not_told.csv", table("Basis (mm);Weg (mm)", MM, ";"), [], "there are the columns 'Basis (mm)', 'Weg (mm)'"),
+    ("transposed.csv", table("", [("Y [mm]", *[y for y, _ in MM]), ("x [mm]", *[x for _, x in MM])]), [], "rows and columns are exchanged"),
+    ("unknown_unit.csv", table("Y [mm],x [banana]", MM), [], "the unit of column x"),
+    ("other_dimension.csv", table("Y [mm],x [N]", MM), [], "is not a unit of a length"),
+    ("volts_without_scale.csv", table("Y [mm],x [V]", MM), [], "is not a unit of a length"),
+    ("scale_of_nothing.csv", PLAIN, ["--scale", "x=2.5 kg/V"], "the scale of column x does not lead to a length"),
+    ("no_unit_millimetres.csv", table("Y,x", MM), [], "no unit is stated for x; in metres it would reach"),
+    ("no_unit_milliseconds.csv", table("t,x [mm]", [(1e3 * t, x) for t, x in ROWS]), [], "these may be in ms"),
+    ("phase_without_unit.csv", table("Y [mm],x [mm],phase", [(*row, 90.0) for row in MM]), [], "an angle needs its unit"),
+    ("phase_without_unit.mat", mat4("Y", [y for y, _ in pairs()]) + mat4("x", [x for _, x in pairs()]) + mat4("phase", [1.57] * 6), [], "an angle needs its unit"),
+    ("phase_in_degrees_called_rad.csv", table("Y [mm],x [mm],phase [rad]", [(*row, 90.0) for row in MM]), [], "they may be degrees"),
+    ("phase_in_radians_called_deg.csv", table("Y [mm],x [mm],phase [deg]", [(*row, 1.5708) for row in MM]), [], "they would in radians"),
+    ("frequency_without_unit.csv", table("Y [mm],x [mm],frequency", [(*row, 6.17) for row in MM]), [], "Hz and rad/s differ by 2 pi"),
+    ("swapped_pairs.csv", table("x [mm],Y [mm]", MM), [], "x and Y seem to be swapped"),
+    ("swapped_histories.csv", driven(swap=True), ["--frequency", "6 Hz"], "are swapped, or one of both has the wrong sign"),
+    ("a_by_1000.csv", driven(1e3), ["--frequency", "6 Hz"], "column a is about 1000 times too large for column x"),
+    ("a_in_g.csv", driven(1 / 9.80665), ["--frequency", "6 Hz"], "column a is about 9.807 times too small for column x"),
+    ("clipped.csv", clipped(), [], "x is clipped"),
+    ("constant.csv", table("t [s],x [mm]", [(t, 5.0) for t in TIMES]), [], "x is constant"),
+    ("time_back.csv", table("t [s],x [mm]", ROWS[:500] + ROWS[300:]), [], "the time does not increase"),
+    ("time_twice.csv", table("t [s],x [mm]", ROWS[:500] + [(ROWS[499][0], 3.0)] + ROWS[500:]), [], "it stands there twice"),
+    ("torn.csv", table("t [s],x [mm]", [row for i, row in enumerate(ROWS) if i % 40 < 8]), [], "no stretch between them is long enough"),
+    ("samples_without_times.csv", table("x [mm]", [(x,) for _, x in ROWS if x > 0][:20]), [], "extremes of a free vibration alternate"),
+    ("missing_variable.mat", mat5(matrix5("qm", X), matrix5("Fs", [50.0])), [], "qm (1250 x 1)"),
+    ("matrix.mat", mat5(matrix5("data", TIMES + X, len(X))), [], "data(:,2)"),
+    ("packed.csv.gz", b"\x1f\x8b\x08" + bytes(100), [], "the file is compressed (gzip)"),
+    ("workbook.xlsx", b"PK\x03\x04" + bytes(1000), [], "the file is a workbook"),
+    ("page.csv", "<!DOCTYPE html><html><body>404</body></html>", [], "the file is a page of the web"),
+    ("control.csv", b"Y,x\n1,\x002\n", [], "control character"),
+    ("modes.uff", "    -1\n    55\nmode 1\n    -1\n", [], "no time response"),
+]
+
+assert PERIOD > 0 and SLOW["mass"] > 0

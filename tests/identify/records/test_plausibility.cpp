@@ -1,0 +1,109 @@
+#include "identify/records/plausibility.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/readers/refusals.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+using identify::testing::mentions;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Rig {
+  KnownConstants constants;
+  PairRecord record;
+};
+
+/// Six pairs with phases by Den Hartog's law, 2 % of noise in the amplitudes and 2 degrees in the phases.
+Rig random_rig(std::mt19937_64& random, double lowest_r, double highest_r) {
+  const auto uniform = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  Rig rig;
+  const double zeta = uniform(0.01, 0.3);
+  const double r = uniform(lowest_r, highest_r);
+  rig.constants = {uniform(0.5, 5.0), uniform(100.0, 1e4), unknown};
+  rig.constants.frequency = r * std::sqrt(rig.constants.stiffness / rig.constants.mass);
+  const auto functions = sim::analytic::den_hartog(zeta, r);
+  const double Y = uniform(1e-4, 1e-2);
+  const double x_f = uniform(0.1, 0.5) * Y * sim::analytic::non_sticking_boundary(functions);
+  for (int i = 0; i < 6; ++i) {
+    const double level = Y * (1.0 + 0.2 * i);
+    const auto state = sim::analytic::non_sticking_state(functions, level, x_f);
+    REQUIRE(state.has_value());
+    Pair pair{level * uniform(0.98, 1.02), state->amplitude * uniform(0.98, 1.02), "", i + 1};
+    pair.phase = state->phase + uniform(-2.0, 2.0) * pi / 180.0;
+    pair.fundamental = state->fundamental;
+    rig.record.pairs.push_back(pair);
+  }
+  return rig;
+}
+
+std::string faults_in(const PairRecord& pairs, const KnownConstants& constants,
+                      const std::vector<std::string>& assumed = {}) {
+  std::string text;
+  for (const core::Diagnostic& fault : gross_faults({.pairs = pairs}, constants, assumed, "data.csv"))
+    text += core::format(fault) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("No sound record is refused, wherever its frequency lies") {
+  std::mt19937_64 random(15);
+  for (int i = 0; i < 2000; ++i) {
+    const Rig rig = random_rig(random, 0.3, 3.0);
+    CHECK(faults_in(rig.record, rig.constants, {"x", "Y"}) == "");
+    Rig plain = rig;  // without phases
+    for (Pair& pair : plain.record.pairs) pair.phase = unknown;
+    CHECK(faults_in(plain.record, plain.constants) == "");
+  }
+}
+
+TEST_CASE("Exchanged columns are found near resonance and by phases") {
+  std::mt19937_64 random(16);
+  int by_line = 0;
+  int by_phase = 0;
+  constexpr int rigs = 500;
+  for (int i = 0; i < rigs; ++i) {
+    Rig rig = random_rig(random, 0.95, 1.05);
+    for (Pair& pair : rig.record.pairs) {
+      std::swap(pair.x, pair.Y);
+      pair.fundamental = unknown;
+      pair.phase = 2.0 * pi - pair.phase;  // the lag of the base behind the mass
+    }
+    by_phase += faults_in(rig.record, rig.constants).empty() ? 0 : 1;
+    for (Pair& pair : rig.record.pairs) pair.phase = unknown;
+    by_line += faults_in(rig.record, rig.constants).find("swapped") == std::string::npos ? 0 : 1;
+  }
+  CHECK(by_phase > 0.95 * rigs);
+  // Those whose damping hides friction's intercept in 2 % of noise, or is above a quarter, pass.
+  CHECK(by_line > 0.5 * rigs);
+}
+
+TEST_CASE("Amplitudes off by 1000, degrees for radians, and readings that do not fit") {
+  std::mt19937_64 random(17);
+  Rig rig = random_rig(random, 1.5, 2.0);
+  REQUIRE(faults_in(rig.record, rig.constants) == "");
+  const auto changed = [&rig](auto change) {
+    Rig other = rig;
+    for (Pair& pair : other.record.pairs) change(pair);
+    return faults_in(other.record, other.constants);
+  };
+  CHECK(mentions(changed([](Pair& p) { p.x *= 1000.0, p.fundamental *= 1000.0; }),
+                 "take more force than the base gives"));
+  CHECK(mentions(changed([](Pair& p) { p.fundamental *= 1000.0; }),
+                 "column fundamental is about 1000 times too large"));
+  CHECK(mentions(
+      changed([&](Pair& p) { p.mean_square_speed = 1e6 * 0.5 * std::pow(rig.constants.frequency * p.x, 2); }),
+      "column mean_square_speed is about 1000 times too large"));
+  CHECK(mentions(changed([](Pair& p) { p.phase *= 180.0 / pi; }), "they may be degrees"));
+  CHECK(mentions(changed([](Pair& p) { p.phase *= pi / 180.0; }), "they would in radians"));
+}
