@@ -21,6 +21,7 @@
 #include "cli/lists.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
+#include "cli/result_directory.hpp"
 #include "core/build_info.hpp"
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
@@ -138,8 +139,9 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
   {
     const std::lock_guard lock(output_mutex());
     core::stop_if_cancelled();
-    scenarios::write_files(directory, files);
-    scenarios::write_files(directory, {report_page(directory)});
+    for (const std::string& message :
+         write_results(directory, result->provenance.source, result->provenance.data_sha256, files))
+      report.messages += scenario->file + ": warning: " + message + "\n";
   }
   for (const scenarios::OutputFile& file : files)
     report.messages += "wrote " + (fs::path(directory) / file.name).string() + "\n";

@@ -59,13 +59,46 @@ Json table(const fs::path& path) {
   return {{"rows", rows}, {"step", step}, {"csv", std::move(csv)}};
 }
 
-Json tables(const fs::path& directory) {
-  std::map<std::string, Json> sorted;
+/// What identifies a run, as its tables state it above their header.
+std::map<std::string, std::string> identity_of(const Json& document) {
+  std::map<std::string, std::string> identity;
+  for (const char* key : {"source", "scenario_sha256", "started"})
+    if (document.contains("provenance") && document["provenance"].is_object())
+      if (const auto found = document["provenance"].find(key);
+          found != document["provenance"].end() && found->is_string())
+        identity[key] = found->get<std::string>();
+  return identity;
+}
+
+/// Was the table written by this run? What somebody else put into the directory was not.
+bool belongs_to(const std::map<std::string, std::string>& identity, const fs::path& path) {
+  std::size_t found = 0;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line) && line.starts_with("# ");) {
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string::npos) continue;
+    const auto entry = identity.find(line.substr(2, colon - 2));
+    if (entry == identity.end()) continue;
+    std::string value = entry->second;
+    std::ranges::replace_if(value, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    found += value == line.substr(colon + 2) ? 1 : 0;
+  }
+  return !identity.empty() && found == identity.size();
+}
+
+std::vector<fs::path> tables_of(const fs::path& directory, const Json& document) {
+  const std::map<std::string, std::string> identity = identity_of(document);
+  std::vector<fs::path> paths;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory))
-    if (entry.path().extension() == ".csv" && entry.is_regular_file())
-      sorted.emplace(entry.path().stem().string(), table(entry.path()));
+    if (entry.path().extension() == ".csv" && entry.is_regular_file() && belongs_to(identity, entry.path()))
+      paths.push_back(entry.path());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+Json tables(const fs::path& directory, const Json& document) {
   Json json = Json::object();
-  for (auto& [name, value] : sorted) json[name] = std::move(value);
+  for (const fs::path& path : tables_of(directory, document)) json[path.stem().string()] = table(path);
   return json;
 }
 
@@ -106,11 +139,28 @@ scenarios::OutputFile report_page(const std::string& directory) {
                  {assets::d3_min_js, assets::data_js, assets::elements_js, assets::chart_js, assets::views_js,
                   assets::views_of_analyses_js, assets::page_js})
               script += std::string(part) + "\n";
+            const Json result = document(place / "result.json");
             write_page(out, {{"style", std::string(assets::page_css)},
-                             {"document", embedded(document(place / "result.json"))},
-                             {"tables", embedded(tables(place))},
+                             {"document", embedded(result)},
+                             {"tables", embedded(tables(place, result))},
                              {"script", std::move(script)}});
           }};
+}
+
+std::optional<StoredResult> stored_result(const std::string& directory) {
+  const fs::path place(directory);
+  std::error_code error;
+  if (!fs::is_regular_file(place / "result.json", error)) return std::nullopt;
+  try {
+    const Json result = document(place / "result.json");
+    StoredResult stored;
+    if (const auto identity = identity_of(result); identity.contains("source"))
+      stored.source = identity.at("source");
+    for (const fs::path& path : tables_of(place, result)) stored.tables.push_back(path.filename().string());
+    return stored;
+  } catch (const core::InputError&) {
+    return std::nullopt;  // no result of ours
+  }
 }
 
 }  // namespace dualdamp::cli

@@ -198,6 +198,27 @@ class DataFiles(unittest.TestCase):
         for option in (["--column", "x=LVDT 9"], ["--column", "z=2"], ["--unit", "x=kg"], ["--unit", "x"]):
             self.assertEqual(self.identify(plain, *option).returncode, 3, option)
 
+    def test_result_directories_keep_inputs_apart(self):
+        for day, scale in (("monday", 1.0), ("tuesday", 1.1)):
+            (self.folder / day).mkdir()
+            rows = [line.split(",") for line in PAIRS.split()[4:]]
+            text = "Y [mm],x [mm]\n" + "".join(f"{a},{scale * float(b):.3f}\n" for a, b in rows)
+            self.write(f"{day}/run.csv", text)
+        first = self.identify("monday/run.csv")
+        self.assertNotIn("is replaced", first.stderr)
+        tables = {path.name for path in (self.folder / "results/run").glob("*.csv")}
+        self.assertNotIn("is replaced", self.identify("monday/run.csv").stderr)  # the same input again
+        self.write("results/run/mine.csv", "t,secret\n0,8675309\n")
+        told = self.identify("tuesday/run.csv", "--method", "resonance_least_squares")
+        self.assertIn("results/run held the result of monday/run.csv, which is replaced", told.stderr)
+        written = {line.rsplit("/", 1)[1] for line in told.stderr.splitlines() if line.startswith("wrote ")}
+        left = {path.name for path in (self.folder / "results/run").iterdir()}
+        self.assertEqual(left, written | {"mine.csv"})
+        self.assertLess({name for name in written if name.endswith(".csv")}, tables)
+        page = (self.folder / "results/run/report.html").read_text()
+        self.assertNotIn("8675309", page)
+        self.assertIn("estimates", page)
+
     def test_damaged_matlab_files_do_no_harm(self):
         """A hundred random changes of a sound file: read, or refused with a message; never a crash."""
         sound = ACCEPTED["pairs.mat"]

@@ -1,0 +1,18 @@
+#pragma once
+/// A result directory that another run wrote before: what of it goes, and what the user is told.
+
+#include <string>
+#include <vector>
+
+#include "scenarios/results/files.hpp"
+
+namespace dualdamp::cli {
+
+/// Writes the files of a run and its page. Tables of the run before it that this one does not write are removed;
+/// files of others stay, and so does a table that was this run's data. Returns what to tell: that the result of
+/// another input was replaced.
+[[nodiscard]] std::vector<std::string> write_results(const std::string& directory, const std::string& source,
+                                                     const std::string& data_sha256,
+                                                     const std::vector<scenarios::OutputFile>& files);
+
+}  // namespace dualdamp::cli
