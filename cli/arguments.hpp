@@ -47,9 +47,9 @@ struct IdentifyCommand {
   std::string data;
   std::string mass, stiffness, frequency;
   std::vector<std::string> methods;
-  std::vector<std::string> units;    ///< x=mm
-  std::vector<std::string> columns;  ///< x=LVDT 2
-  std::vector<std::string> scales;   ///< x=2.5 mm/V
+  std::vector<std::string> units;               ///< x=mm
+  std::vector<std::string> columns;             ///< x=LVDT 2
+  std::vector<std::string> scales;              ///< x=2.5 mm/V
   std::vector<std::string> gain_uncertainties;  ///< x=1 %
   std::string decimal;
   std::string sigma_x, sigma_Y;

@@ -74,4 +74,27 @@ UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::strin
   return result;
 }
 
+SplitQuantityText split_uncertainty(std::string_view text) {
+  const std::string plain = without_parentheses(text);
+  const std::optional<Halves> both = halves(plain);
+  if (!both) return {std::string(text), {}, {}};
+  SplitQuantityText result{std::string(both->value), {}, {}};
+  const std::string_view unit = unit_of(both->uncertainty);
+  if (unit_of(result.quantity).empty() && unit != "%" && !unit.empty()) result.quantity += " " + std::string(unit);
+  const std::optional<double> value = read_number(result.quantity).value;
+  const std::optional<double> uncertainty = read_number(both->uncertainty).value;
+  if (!value || *value == 0.0) {
+    result.fault = "there is no number other than zero before the uncertainty";
+  } else if (!uncertainty || *uncertainty < 0.0) {
+    result.fault = "the uncertainty is not a number that is at least zero";
+  } else if (unit == "%") {
+    result.relative = *uncertainty / 100.0;
+  } else if (unit.empty() || unit == unit_of(result.quantity)) {
+    result.relative = *uncertainty / std::abs(*value);
+  } else {
+    result.fault = "the uncertainty must be in percent or in the unit of the value";
+  }
+  return result;
+}
+
 }  // namespace dualdamp::core

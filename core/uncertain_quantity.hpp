@@ -20,4 +20,14 @@ struct UncertainQuantityText {
 /// A quantity of the dimension of `si_unit` (core/units.hpp), with or without its uncertainty.
 [[nodiscard]] UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit);
 
+/// A quantity of a dimension that is known elsewhere, apart from its relative uncertainty.
+struct SplitQuantityText {
+  std::string quantity;            ///< the text without the uncertainty
+  std::optional<double> relative;  ///< standard uncertainty; nothing where the text states none
+  std::string fault;               ///< why the uncertainty cannot be read; empty when it can
+};
+
+/// "2.5 mm/V" and 0.01 of "2.5 mm/V ± 1 %" or of "2.5 mm/V ± 0.025 mm/V": in percent, or in the unit of the value.
+[[nodiscard]] SplitQuantityText split_uncertainty(std::string_view text);
+
 }  // namespace dualdamp::core

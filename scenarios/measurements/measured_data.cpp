@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/plausibility.hpp"
 
@@ -75,6 +76,28 @@ void refuse_gross_faults(CheckedFile& file, const identify::MeasuredRecord& data
   file.take_over(identify::gross_faults(data.record, constants, data.assumed, name));
 }
 
+/// The uncertainty that a scale states is that of a gain: "2.5 mm/V ± 1 %".
+void take_gain_uncertainties(CheckedFile& file) {
+  if (!file.has("analysis", "scale")) return;
+  const Json& analysis = file.values().at("analysis");
+  Json scales = analysis.at("scale");
+  Json gains = analysis.value("gain_uncertainty", Json::object());
+  for (auto& [column, scale] : scales.items()) {
+    const std::string path = "analysis.scale." + column;
+    const auto text = scale.get<std::string>();
+    core::SplitQuantityText split = core::split_uncertainty(text);
+    if (!split.fault.empty()) file.complain(path, "'" + path + "': " + split.fault, "'2.5 mm/V +- 1 %'", text);
+    if (!split.relative) continue;
+    const std::string signal = column == "Y" ? "y" : column;
+    if (gains.contains(signal))
+      file.complain(path, "the uncertainty of the gain of " + signal + " is stated twice", "one of the two", text);
+    scale = std::move(split.quantity);
+    gains[signal] = *split.relative;
+  }
+  file.values()["analysis"]["scale"] = std::move(scales);
+  if (!gains.empty()) file.fill_in("gain_uncertainty", std::move(gains));
+}
+
 }  // namespace
 
 std::vector<Field> data_fields() {
@@ -102,6 +125,7 @@ void read_data(CheckedFile& file) {
   const std::string name = file.text_at("analysis", "data");
   const auto path = safe_path(file, name);
   if (!path) return;
+  take_gain_uncertainties(file);
   try {
     identify::MeasuredRecord data = identify::read_record(path->string(), read_options(file, name));
     // A frequency that could not be resolved is still a word, and complained about elsewhere.

@@ -4,6 +4,7 @@
 usage: test_data_files.py PROGRAM [TEST...]
 """
 
+import json
 import math
 import os
 import random
@@ -119,9 +120,9 @@ class DataFiles(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def identify(self, data, *more):
+    def identify(self, data, *more, constants=CONSTANTS):
         return subprocess.run(
-            [PROGRAM, "identify", str(data), *CONSTANTS, *more], cwd=self.folder, capture_output=True, text=True, timeout=60
+            [PROGRAM, "identify", str(data), *constants, *more], cwd=self.folder, capture_output=True, text=True, timeout=60
         )
 
     def write(self, name, content):
@@ -197,6 +198,26 @@ class DataFiles(unittest.TestCase):
         self.assertEqual(*estimates)
         for option in (["--column", "x=LVDT 9"], ["--column", "z=2"], ["--unit", "x=kg"], ["--unit", "x"]):
             self.assertEqual(self.identify(plain, *option).returncode, 3, option)
+
+    def test_uncertainties_are_in_the_intervals(self):
+        """Of F0 = k x_f: k by --stiffness, x_f by the gains."""
+        data = self.write("pairs.csv", PAIRS)
+
+        def std(*options, stiffness="1568 N/m"):
+            constants = ["--mass", "1.042 kg", "--stiffness", stiffness, "--frequency", "6.17 Hz"]
+            result = self.identify(data, "--json", "--method", "resonance_least_squares", *options, constants=constants)
+            self.assertIn(result.returncode, (0, 4), result.stderr)
+            return json.loads(result.stdout)["result"]["estimates"][0]["std"]["F0"]
+
+        exact = std()
+        self.assertGreater(std(stiffness="1568 N/m ± 5 %"), exact)
+        by_gain = std("--gain-uncertainty", "x=5 %")
+        self.assertGreater(by_gain, exact)
+        self.assertEqual(std("--scale", "x=1 ± 5 %"), by_gain)
+        self.assertEqual(self.identify(data, constants=["--mass", "1 kg ± 5 mm", *CONSTANTS[2:]]).returncode, 3)
+        for options in (["--gain-uncertainty", "x=5 mm"], ["--gain-uncertainty", "z=1 %"],
+                        ["--scale", "x=1 ± V"], ["--scale", "x=1 ± 1 %", "--gain-uncertainty", "x=1 %"]):
+            self.assertEqual(self.identify(data, *options).returncode, 3, options)
 
     def test_result_directories_keep_inputs_apart(self):
         for day, scale in (("monday", 1.0), ("tuesday", 1.1)):

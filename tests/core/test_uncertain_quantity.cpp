@@ -4,6 +4,7 @@
 #include <numbers>
 
 using dualdamp::core::parse_uncertain_quantity;
+using dualdamp::core::split_uncertainty;
 
 TEST_CASE("A quantity may state its uncertainty in percent, in its own unit or in another of its dimension") {
   for (const char* text :
@@ -46,5 +47,22 @@ TEST_CASE("An uncertainty that cannot be read is refused with the reason") {
     const auto quantity = parse_uncertain_quantity(text, "kg");
     CHECK_FALSE(quantity.value);
     CHECK_FALSE(quantity.fault.empty());
+  }
+}
+
+TEST_CASE("The relative uncertainty of a scale stands apart from the scale") {
+  for (const char* text : {"2.5 mm/V ± 1 %", "2.5 mm/V +- 0.025 mm/V", "2.5 mm/V +- 0.025", "(2.5 ± 0.025) mm/V"}) {
+    CAPTURE(text);
+    const auto split = split_uncertainty(text);
+    CHECK(split.fault.empty());
+    CHECK(split.quantity == "2.5 mm/V");
+    CHECK(*split.relative == Approx(0.01));
+  }
+  CHECK(split_uncertainty("35.15 ± 2 %").quantity == "35.15");
+  CHECK(split_uncertainty("2.5 mm/V").quantity == "2.5 mm/V");
+  CHECK_FALSE(split_uncertainty("2.5 mm/V").relative);
+  for (const char* text : {"2.5 mm/V ± 1 V", "2.5 mm/V ±", "mm/V ± 1 %", "0 ± 1 %", "2.5 ± -1 %"}) {
+    CAPTURE(text);
+    CHECK_FALSE(split_uncertainty(text).fault.empty());
   }
 }
