@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/engine/variation.hpp"
+
 namespace dualdamp::sim {
 
 using friction::Direction;

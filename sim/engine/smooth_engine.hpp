@@ -26,10 +26,11 @@
 #include "sim/engine/engine.hpp"
 #include "sim/engine/flow.hpp"
 #include "sim/engine/stepper.hpp"
-#include "sim/engine/variation.hpp"
 #include "sim/engine/velocity_history.hpp"
 
 namespace dualdamp::sim {
+
+class Variation;
 
 class SmoothEngine final : public Engine {
  public:

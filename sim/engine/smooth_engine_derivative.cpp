@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "sim/engine/smooth_engine.hpp"
+#include "sim/engine/variation.hpp"
 
 namespace dualdamp::sim {
 

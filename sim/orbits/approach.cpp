@@ -107,7 +107,7 @@ std::optional<Orbit> Approach::closed(const State& state) {
   if (periods == 0 || (periods > 1 && motions_ != Motions::may_part)) return std::nullopt;
   // A motion that depends on its past has no state that could be displaced.
   const Monodromy monodromy = has_past_ ? Monodromy::without : Monodromy::with;
-  Orbit orbit{solver_.map_over(periods).from(state, monodromy), periods};
+  Orbit orbit{solver_.patient_map_over(periods).from(state, monodromy), periods};
   // An own motion that nothing damps comes back too where the frequencies fit.
   if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) return std::nullopt;
   return orbit;

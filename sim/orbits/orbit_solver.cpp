@@ -18,7 +18,14 @@ PeriodMap& OrbitSolver::map_over(int periods) {
     if (map_) searched_ += map_->engine().count();
     map_ = std::make_unique<PeriodMap>(model_, periods);
   }
+  map_->limit(most_work_ - work(searched_));
   return *map_;
+}
+
+PeriodMap& OrbitSolver::patient_map_over(int periods) {
+  PeriodMap& map = map_over(periods);
+  map.limit(std::numeric_limits<long>::max());
+  return map;
 }
 
 core::SearchCount OrbitSolver::count() const {
@@ -52,9 +59,9 @@ std::optional<Orbit> OrbitSolver::near(const State& state, int periods) {
 Orbit OrbitSolver::later(const Orbit& orbit, long periods) {
   if (periods == 0) return orbit;
   State state = orbit.period.begin;
-  PeriodMap& single = map_over(1);
+  PeriodMap& single = patient_map_over(1);
   for (long i = 0; i < periods; ++i) state = single.from(state, Monodromy::without).end;
-  return {map_over(orbit.period_ratio).from(state, Monodromy::with), orbit.period_ratio};
+  return {patient_map_over(orbit.period_ratio).from(state, Monodromy::with), orbit.period_ratio};
 }
 
 bool OrbitSolver::same(const Orbit& a, const Orbit& b) const {

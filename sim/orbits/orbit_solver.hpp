@@ -35,6 +35,8 @@ class OrbitSolver {
   [[nodiscard]] bool coincide(const Orbit& a, const Orbit& b);
   /// A map over so many forcing periods; valid until the next call of any function here.
   [[nodiscard]] PeriodMap& map_over(int periods);
+  /// The same for an orbit that is known: without a limit of its work.
+  [[nodiscard]] PeriodMap& patient_map_over(int periods);
 
   [[nodiscard]] int newton_steps() const { return newton_steps_; }
   [[nodiscard]] core::SearchCount count() const;

@@ -6,13 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/orbits/patience.hpp"
+
 namespace dualdamp::sim {
 
 using friction::Direction;
 
 double distance(const State& a, const State& b, double size, double omega) {
   const double scale = std::max(size, std::abs(a.v) / omega);
-  if (!same_mode(a, b)) return std::numeric_limits<double>::infinity();
+  if (!have_distance(a, b)) return std::numeric_limits<double>::infinity();
   const double x_gap = (b.x - a.x) / scale;
   const double v_gap = (b.v - a.v) / omega / scale;
   double result = scale > 0.0 ? std::sqrt(x_gap * x_gap + v_gap * v_gap) : 0.0;
@@ -74,7 +76,14 @@ ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
   engine_->track_sensitivity(monodromy == Monodromy::with);
   if (observer != nullptr) observer->begin(period.begin);
   const long last = engine_->periods_passed() + periods_;
+  exhausted_ = {};
   while (engine_->periods_passed() < last) {
+    if (work(engine_->count()) > most_work_) {
+      exhausted_ = {
+          core::OutcomeKind::event_limit,
+          "no steady state found: a forcing period has so many events or steps that it is followed no longer"};
+      break;
+    }
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
     period.moves = period.moves || interval->direction != Direction::none;
@@ -117,7 +126,7 @@ State displaced(const State& state, const Eigen::VectorXd& change) {
 }
 
 Eigen::VectorXd newton_step(const ForcingPeriod& period) {
-  if (!same_mode(period.begin, period.end)) return {};
+  if (!have_distance(period.begin, period.end)) return {};
   const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
   Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - period.monodromy;

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "core/outcome.hpp"
@@ -69,7 +70,11 @@ class PeriodMap {
   /// From where the last one ended.
   [[nodiscard]] ForcingPeriod next(Monodromy monodromy);
 
-  [[nodiscard]] const core::Outcome& outcome() const { return engine_->outcome(); }
+  /// Of the engine, or that the map has done more work than it may.
+  [[nodiscard]] const core::Outcome& outcome() const { return exhausted_.ok() ? engine_->outcome() : exhausted_; }
+  /// How much work (`patience.hpp`) the engine may have done in all; a period during which it does more is not
+  /// followed to its end.
+  void limit(long work) { most_work_ = work; }
   [[nodiscard]] Engine& engine() { return *engine_; }
   [[nodiscard]] int periods() const { return periods_; }
 
@@ -78,6 +83,8 @@ class PeriodMap {
 
   std::unique_ptr<Engine> engine_;
   int periods_;
+  long most_work_ = std::numeric_limits<long>::max();
+  core::Outcome exhausted_;
 };
 
 [[nodiscard]] Eigen::VectorXd coordinates(const State& state);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -58,6 +59,7 @@ class OrbitFinder {
     const double accuracy = map_.engine().accuracy();
     options_.tolerance = std::max(options_.tolerance, accuracy);
     rounding_closure_ = std::max(rounding_closure, 10.0 * accuracy);
+    map_.limit(patience_with(accuracy).work);
   }
 
   void find(SteadyState& result);
@@ -139,6 +141,7 @@ std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
 
 void OrbitFinder::describe(SteadyState& result) {
   if (account_) return account_->write(result);
+  map_.limit(std::numeric_limits<long>::max());
   if (result.period_ratio == 1) {
     account_for_orbit(model_, map_, options_.full_account, result, options_.judge_rests);
   } else {

@@ -40,6 +40,7 @@ Transient follow_transient(const Model& model, const TransientOptions& options) 
   constexpr double rounding = 4e-15;
   Transient result;
   PeriodMap map(valid_harmonic(model, "follow_transient"), options.period_ratio);
+  map.limit(options.most_work);
   PeriodEvents events;
   ForcingPeriod period = map.from_start(model.initial.position, model.initial.velocity, Monodromy::without);
   Closing closing(std::max(rounding, map.engine().accuracy()), options.settled);

@@ -8,6 +8,7 @@
 /// `TransientOptions::settled` of the size of the motion. Cost: one pass of the engine per period.
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "core/outcome.hpp"
@@ -17,10 +18,11 @@
 namespace dualdamp::sim {
 
 struct TransientOptions {
-  int max_periods = 2000;           ///< forcing periods
-  int period_ratio = 1;             ///< forcing periods after which the motion is expected to repeat itself
-  double settled = 1e-9;            ///< relative to the size of the motion
-  std::function<bool()> give_up{};  ///< asked after every period; may be absent
+  int max_periods = 2000;  ///< forcing periods
+  int period_ratio = 1;    ///< forcing periods after which the motion is expected to repeat itself
+  double settled = 1e-9;   ///< relative to the size of the motion
+  long most_work = std::numeric_limits<long>::max();  ///< `patience.hpp`
+  std::function<bool()> give_up{};                    ///< asked after every period; may be absent
 };
 
 struct Transient {
