@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/crosscheck/patience.hpp"
 #include "sim/orbits/transient.hpp"
 
 namespace dualdamp::crosscheck {
@@ -38,6 +39,7 @@ struct Quotient {
 class Quotients {
  public:
   Quotients(const sim::Model& model, const State& state) : map_(model), state_(state) {
+    map_.limit(most_work);
     period_ = map_.from(state, sim::Monodromy::with, &events_);
   }
 
@@ -66,6 +68,37 @@ class Quotients {
   ForcingPeriod period_;
 };
 
+struct Nearest {
+  Eigen::VectorXd column;
+  double error = std::numeric_limits<double>::infinity();  ///< relative to the column; infinite: none was found
+  bool is_known = false;  ///< two quotients agree with each other, so that there is something to disagree with
+};
+
+/// Among steps from a thousandth of the size on down, the first that is clearly close or else the closest.
+Nearest nearest_quotient(Quotients& quotients, Eigen::Index j, const Eigen::VectorXd& size,
+                         const Patience& patience) {
+  constexpr double clearly = 0.1 * tolerance;
+  const Eigen::VectorXd column = quotients.period().monodromy.col(j).cwiseQuotient(size) * size[j];
+  const auto apart = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return (a - b).norm() / std::max({1.0, a.norm(), b.norm()});
+  };
+  Nearest nearest;
+  Eigen::VectorXd last;
+  for (double part = 1e-3; part > 1e-9 && nearest.error > clearly && quotients.ok() && !patience.is_over();
+       part *= 0.1) {
+    const Quotient quotient = quotients.central(j, part * size[j]);
+    if (!quotient.same_sequence) continue;
+    const Eigen::VectorXd found = quotient.column.cwiseQuotient(size) * size[j];
+    if (last.size() > 0 && apart(found, last) < 0.5 * tolerance) nearest.is_known = true;
+    last = found;
+    if (const double error = apart(found, column); error < nearest.error) {
+      nearest.column = quotient.column;
+      nearest.error = error;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Finding compare_derivative(const std::string& name, const sim::Model& model, const State& state, double omega) {
@@ -77,32 +110,27 @@ Finding compare_derivative(const std::string& name, const sim::Model& model, con
   if (monodromy.rows() != monodromy.cols() || length == 0.0) return {name, Verdict::not_compared, 0.0, "no motion"};
   if (!monodromy.allFinite()) return {name, Verdict::disagree, 0.0, "the monodromy matrix is not finite"};
   const Eigen::VectorXd size = sizes(model, state, length, omega);
+  const Patience patience;
   for (Eigen::Index j = 0; j < monodromy.cols(); ++j) {
     if (j == 1 && state.direction == friction::Direction::none) continue;
-    double best = std::numeric_limits<double>::infinity();
-    Eigen::VectorXd nearest;
-    for (double part = 1e-3; part > 1e-9; part *= 0.1) {
-      const Quotient quotient = quotients.central(j, part * size[j]);
-      if (!quotient.same_sequence) continue;
-      const Eigen::VectorXd column = monodromy.col(j).cwiseQuotient(size) * size[j];
-      const Eigen::VectorXd found = quotient.column.cwiseQuotient(size) * size[j];
-      const double error = (found - column).norm() / std::max({1.0, column.norm(), found.norm()});
-      if (!(error < best)) continue;
-      best = error;
-      nearest = quotient.column;
+    const Nearest nearest = nearest_quotient(quotients, j, size, patience);
+    finding.worst = std::max(finding.worst, std::isinf(nearest.error) ? 0.0 : nearest.error);
+    if (nearest.error <= tolerance) continue;
+    if (patience.is_over() || !quotients.ok()) {
+      if (j == 0) finding = {name, Verdict::not_compared, 0.0, "a period takes too long"};
+      return finding;
     }
-    if (std::isinf(best)) {
-      if (finding.verdict == Verdict::agreed) finding.verdict = Verdict::exception;
-      finding.text = "corner: the sequence of events changes at this state";
+    if (!nearest.is_known) {
+      finding.verdict = Verdict::exception;
+      finding.text = std::isinf(nearest.error) ? "corner: the sequence of events changes at this state"
+                                               : "rough: no two difference quotients agree";
       continue;
     }
-    finding.worst = std::max(finding.worst, best);
-    if (best <= tolerance) continue;
     Eigen::Index row = 0;
-    (nearest - monodromy.col(j)).cwiseQuotient(size).cwiseAbs().maxCoeff(&row);
+    (nearest.column - monodromy.col(j)).cwiseQuotient(size).cwiseAbs().maxCoeff(&row);
     finding.verdict = Verdict::disagree;
-    finding.text =
-        fmt::format("row {}, column {}: {:.6g}, by differences {:.6g}", row, j, monodromy(row, j), nearest[row]);
+    finding.text = fmt::format("row {}, column {}: {:.6g}, by differences {:.6g}", row, j, monodromy(row, j),
+                               nearest.column[row]);
     return finding;
   }
   return finding;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dualdamp::crosscheck {
 
@@ -19,110 +20,183 @@ constexpr double same_instant = 1e-7;
 constexpr double slow_instant = 1e-4;
 
 /// The largest of |x| or |v| so far, a twentieth of the walk ahead: a motion that has just begun is not yet a size.
-template <typename Member>
-std::vector<double> sizes(const Walk& walk, Member member) {
+/// What happens between two samples counts, by the speed there and by the position of events.
+struct Sizes {
+  std::vector<double> x;
+  std::vector<double> v;
+};
+
+Sizes sizes(const Walk& walk) {
   constexpr std::size_t ahead = walk_samples / 20;
   const std::size_t count = walk.samples.size();
-  std::vector<double> result(count);
-  double largest = 0.0;
+  Sizes result{std::vector<double>(count), std::vector<double>(count)};
+  double x = 0.0;
+  double v = 0.0;
   std::size_t seen = 0;
+  std::size_t event = 0;
+  std::size_t piece = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    for (; seen < std::min(count, i + ahead + 1); ++seen)
-      largest = std::max(largest, std::abs(walk.samples[seen].*member));
-    result[i] = largest;
+    for (; seen < std::min(count, i + ahead + 1); ++seen) {
+      const sim::Sample& sample = walk.samples[seen];
+      x = std::max(x, std::abs(sample.x));
+      v = std::max(v, std::abs(sample.v));
+      for (; event < walk.events.size() && walk.events[event].t <= sample.t; ++event)
+        x = std::max(x, std::abs(walk.events[event].x));
+      for (; piece < walk.pieces.size() && walk.pieces[piece].end <= sample.t; ++piece)
+        v = std::max(v, walk.pieces[piece].speed);
+    }
+    result.x[i] = x;
+    result.v[i] = v;
   }
   return result;
 }
 
 double ratio(double gap, double size) { return gap == 0.0 ? 0.0 : std::abs(gap) / size; }
 
-/// Those that end an interval; grazings are no events of the motion.
-struct Cluster {
-  std::size_t count_a = 0;
-  std::size_t count_b = 0;
-};
-
-/// Events of both lists from `a` and `b` on that follow each other within `window`.
-Cluster cluster(const std::vector<sim::Event>& list_a, std::size_t a, const std::vector<sim::Event>& list_b,
-                std::size_t b, double window) {
-  Cluster result;
-  double last = std::numeric_limits<double>::infinity();
-  if (a < list_a.size()) last = std::min(last, list_a[a].t);
-  if (b < list_b.size()) last = std::min(last, list_b[b].t);
-  for (;;) {
-    const std::size_t i = a + result.count_a;
-    const std::size_t j = b + result.count_b;
-    const bool takes_a = i < list_a.size() && list_a[i].t <= last + window;
-    const bool takes_b = j < list_b.size() && list_b[j].t <= last + window;
-    if (!takes_a && !takes_b) return result;
-    if (takes_a && (!takes_b || list_a[i].t <= list_b[j].t)) {
-      last = std::max(last, list_a[i].t);
-      ++result.count_a;
-    } else {
-      last = std::max(last, list_b[j].t);
-      ++result.count_b;
-    }
-  }
-}
-
 std::string text_of(const std::vector<sim::Event>& list, std::size_t i) {
   if (i >= list.size()) return "no event";
   return fmt::format("{} at t = {:.17g} s, x = {:.10g} m", sim::name(list[i].kind), list[i].t, list[i].x);
 }
 
-/// The same event of both walks. `window`: of time [s]; `place`: of position [m].
-bool is_same(const sim::Event& a, const sim::Event& b, double window, double slow_window, double place) {
+/// Walks along the events of two walks.
+class Events {
+ public:
+  /// `window`: of time [s]; `speeds`: allowed at the samples, as far as the walks are compared [m/s].
+  Events(const Walk& a, const Walk& b, double window, std::vector<double> speeds)
+      : a_(a), b_(b), window_(window), speeds_(std::move(speeds)) {
+    if (a.samples.empty()) return;
+    spacing_ = a.samples.front().t;
+    slow_window_ = slow_instant * a.samples.back().t;
+    place_ = 0.1 * same_instant * sizes(a).x.back();
+  }
+
+  void compare(Difference& result);
+
+ private:
+  /// How many events of both lists follow each other at the same instant.
+  struct Cluster {
+    std::size_t a = 0;
+    std::size_t b = 0;
+    bool at_rest = false;  ///< no longer an instant: the masses rest between them
+  };
+
+  [[nodiscard]] bool rest_between(double from, double to) const;
+  [[nodiscard]] bool is_same(const sim::Event& a, const sim::Event& b) const;
+  [[nodiscard]] Cluster cluster() const;
+  [[nodiscard]] bool rests_beside(double t) const;
+  [[nodiscard]] bool is_lone_switching(const Cluster& group) const;
+  [[nodiscard]] bool name(const Cluster& group, Difference& result) const;
+
+  const Walk& a_;
+  const Walk& b_;
+  double window_;
+  std::vector<double> speeds_;
+  double spacing_ = 0.0;
+  double slow_window_ = 0.0;
+  double place_ = 0.0;
+  std::size_t i_ = 0;  ///< next event of a
+  std::size_t j_ = 0;  ///< next event of b
+};
+
+/// Neither velocity is known from zero there.
+bool Events::rest_between(double from, double to) const {
+  if (speeds_.empty()) return false;
+  const auto last = static_cast<double>(speeds_.size() - 1);
+  const auto index = static_cast<std::size_t>(std::clamp(std::floor(from / spacing_) - 1.0, 0.0, last));
+  return is_slow(a_, from, to, speeds_[index]) && is_slow(b_, from, to, speeds_[index]);
+}
+
+bool Events::is_same(const sim::Event& a, const sim::Event& b) const {
   if (a.kind != b.kind) return false;
   const double shift = std::abs(a.t - b.t);
-  return shift <= window || (shift <= slow_window && std::abs(a.x - b.x) <= place);
+  return shift <= window_ || (shift <= slow_window_ && std::abs(a.x - b.x) <= place_);
 }
 
-bool is_switching(const std::vector<sim::Event>& list, std::size_t i) {
-  return i < list.size() && list[i].kind == sim::EventKind::switching;
-}
-
-/// Walks along both lists up to `result.until`. A group of events that coincide may be listed in another order, and
-/// an even number of events more (a stop and its release, two switchings) may be a grazing within rounding. A
-/// switching of a law alone is no event of the mass: where the two modes are one formula (at the start, while the
-/// mass sticks) rounding decides which of them holds.
-void compare_events(const Walk& a, const Walk& b, double window, Difference& result) {
-  std::size_t i = 0;
-  std::size_t j = 0;
-  const double slow_window = slow_instant * (a.samples.empty() ? 0.0 : a.samples.back().t);
-  const double place = 0.1 * same_instant * (a.samples.empty() ? 0.0 : sizes(a, &sim::Sample::x).back());
-  const auto is_over = [&](const std::vector<sim::Event>& list, std::size_t k) {
-    return k >= list.size() || list[k].t > result.until - 2.0 * window;
+Events::Cluster Events::cluster() const {
+  Cluster result;
+  const double none = std::numeric_limits<double>::infinity();
+  const auto time_of = [&](const std::vector<sim::Event>& list, std::size_t k) {
+    return k < list.size() ? list[k].t : none;
   };
-  while (!is_over(a.events, i) || !is_over(b.events, j)) {
-    if (i < a.events.size() && j < b.events.size() &&
-        is_same(a.events[i], b.events[j], window, slow_window, place)) {
-      ++i;
-      ++j;
+  double last = std::min(time_of(a_.events, i_), time_of(b_.events, j_));
+  for (;;) {
+    const double t_a = time_of(a_.events, i_ + result.a);
+    const double t_b = time_of(b_.events, j_ + result.b);
+    const double next = std::min(t_a, t_b);
+    if (next == none) return result;
+    if (next > last + window_) {
+      if (!rest_between(last, next)) return result;
+      result.at_rest = true;
+    }
+    ++(t_a <= t_b ? result.a : result.b);
+    last = std::max(last, next);
+  }
+}
+
+/// From the event before to this one, or from this one to the next; at its start a mass that begins at rest may
+/// turn.
+bool Events::rests_beside(double t) const {
+  if (t <= window_) return true;
+  double before = 0.0;
+  if (i_ > 0) before = std::max(before, a_.events[i_ - 1].t);
+  if (j_ > 0) before = std::max(before, b_.events[j_ - 1].t);
+  double after = std::min(a_.end, b_.end);
+  for (const Walk* walk : {&a_, &b_}) {
+    const auto next = std::ranges::upper_bound(walk->events, t, {}, &sim::Event::t);
+    if (next != walk->events.end()) after = std::min(after, next->t);
+  }
+  return (before < t && rest_between(before, t)) || (after > t && rest_between(t, after));
+}
+
+bool Events::is_lone_switching(const Cluster& group) const {
+  const sim::Event& event = group.a == 1 ? a_.events[i_] : b_.events[j_];
+  return group.a + group.b == 1 && event.kind == sim::EventKind::switching;
+}
+
+/// Events that coincide may be listed in another order, and an even number of them more (a stop and its release,
+/// two switchings) may be a grazing within rounding. A switching of a law alone is no event of the mass: where the
+/// two modes are one formula (at the start, while the mass sticks) rounding decides which of them holds. A mass
+/// that rests within what is allowed may turn at any time.
+bool Events::name(const Cluster& group, Difference& result) const {
+  const bool is_lone = group.a + group.b == 1;
+  const double t = group.a > 0 ? a_.events[i_].t : b_.events[j_].t;
+  if (group.at_rest || (is_lone && !is_lone_switching(group) && rests_beside(t))) {
+    ++result.resting;
+  } else if (std::max(group.a, group.b) >= 2) {
+    ++result.coincident;
+  } else if (is_lone_switching(group)) {
+    ++result.silent;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Up to `result.until`.
+void Events::compare(Difference& result) {
+  const auto is_over = [&](const std::vector<sim::Event>& list, std::size_t k) {
+    return k >= list.size() || list[k].t > result.until - 2.0 * window_;
+  };
+  while (!is_over(a_.events, i_) || !is_over(b_.events, j_)) {
+    if (i_ < a_.events.size() && j_ < b_.events.size() && is_same(a_.events[i_], b_.events[j_])) {
+      ++i_;
+      ++j_;
       continue;
     }
-    const Cluster group = cluster(a.events, i, b.events, j, window);
-    const bool coincide = std::max(group.count_a, group.count_b) >= 2;
-    if (!coincide && is_switching(group.count_a == 1 ? a.events : b.events, group.count_a == 1 ? i : j)) {
-      ++result.silent;
-      i += group.count_a;
-      j += group.count_b;
-      continue;
-    }
-    if (!coincide) {
-      result.fault = text_of(a.events, i) + "; the other: " + text_of(b.events, j);
+    const Cluster group = cluster();
+    if (!name(group, result)) {
+      result.fault = text_of(a_.events, i_) + "; the other: " + text_of(b_.events, j_);
       return;
     }
-    ++result.coincident;
-    i += group.count_a;
-    j += group.count_b;
+    i_ += group.a;
+    j_ += group.b;
   }
 }
 
 }  // namespace
 
 std::vector<double> deviation(const Walk& a, const Walk& b) {
-  const std::vector<double> x = sizes(a, &sim::Sample::x);
-  const std::vector<double> v = sizes(a, &sim::Sample::v);
+  const auto [x, v] = sizes(a);
   std::vector<double> result(std::min(a.samples.size(), b.samples.size()));
   for (std::size_t i = 0; i < result.size(); ++i)
     result[i] =
@@ -150,6 +224,8 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
   Difference result;
   const std::vector<double> apart = deviation(a, b);
   const std::size_t count = std::min(apart.size(), sensitivity.deviation.size());
+  const std::vector<double> sizes_of_v = sizes(a).v;
+  std::vector<double> speeds;
   double course = 0.0;
   double worst_share = -1.0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -162,6 +238,7 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
       break;
     }
     result.until = a.samples[i].t;
+    speeds.push_back(allowed * sizes_of_v[i]);
     if (apart[i] / allowed > worst_share || std::isnan(apart[i])) {
       worst_share = apart[i] / allowed;
       result.worst = apart[i];
@@ -172,7 +249,7 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
   }
   const double length = a.samples.empty() ? 0.0 : a.samples.back().t;
   const double window = std::max(same_instant * length, amplification * sensitivity.event_shift);
-  compare_events(a, b, std::min(window, most_allowed * length), result);
+  Events(a, b, std::min(window, most_allowed * length), std::move(speeds)).compare(result);
   if (worst_share > 1.0 || std::isnan(worst_share))
     result.fault = fmt::format("apart by {:.2e} of the motion at t = {:.10g} s, {:.1e} is allowed", result.worst,
                                result.at, result.allowed) +

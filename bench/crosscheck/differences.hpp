@@ -26,6 +26,7 @@ struct Difference {
   double at = 0.0;        ///< s
   double allowed = 0.0;   ///< there
   double until = 0.0;     ///< the motions were compared up to here [s]
+  int resting = 0;        ///< groups of events between which both masses are at rest within what is allowed
   int coincident = 0;     ///< groups of events that both walks have within rounding, in another order or number
   int silent = 0;         ///< switchings that only one walk has and that leave the motion as it is
   std::string exception;  ///< why not everything was compared; empty: it was

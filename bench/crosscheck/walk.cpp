@@ -39,6 +39,18 @@ void take_samples(const sim::Interval& interval, double spacing, std::vector<sim
   }
 }
 
+/// A step of the smooth engine is short; an interval of the exact engine lasts from event to event.
+void cut(const sim::Interval& interval, int count, std::vector<Piece>& pieces) {
+  double before = std::abs(interval.at(0.0).v);
+  for (int i = 1; i <= count; ++i) {
+    const double middle = std::abs(interval.at((i - 0.5) / count * interval.duration).v);
+    const double after = std::abs(interval.at(static_cast<double>(i) / count * interval.duration).v);
+    pieces.push_back(
+        {interval.begin + static_cast<double>(i) / count * interval.duration, std::max({before, middle, after})});
+    before = after;
+  }
+}
+
 bool all_finite(const Walk& walk) {
   const auto is_finite = [](const auto& item) {
     return std::isfinite(item.t) && std::isfinite(item.x) && std::isfinite(item.v);
@@ -48,15 +60,26 @@ bool all_finite(const Walk& walk) {
 
 }  // namespace
 
+bool is_slow(const Walk& walk, double from, double to, double speed) {
+  auto piece = std::ranges::lower_bound(walk.pieces, from, {}, &Piece::end);
+  for (; piece != walk.pieces.end(); ++piece) {
+    if (!(piece->speed <= speed)) return false;
+    if (piece->end >= to) return true;
+  }
+  return false;
+}
+
 Walk walk(const sim::Model& model, const WalkOptions& options) {
   Walk result;
   const std::unique_ptr<sim::Engine> engine = sim::make_engine(model);
   sim::EnergyAudit audit(model.oscillator);
   const double spacing = options.duration / walk_samples;
+  const int pieces = engine->accuracy() > 0.0 ? 1 : 8;
   long intervals = 0;
   while (const sim::Interval* interval = engine->next(options.duration)) {
     if (options.with_energy) audit.observe(*interval);
     take_samples(*interval, spacing, result.samples);
+    cut(*interval, pieces, result.pieces);
     result.end = interval->end();
     if (interval->ending)
       result.events.push_back({interval->end(), *interval->ending, engine->position(), engine->velocity()});

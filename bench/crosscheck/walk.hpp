@@ -19,16 +19,26 @@ struct WalkOptions {
 /// Samples of a whole walk, the first one at t = 0 left out.
 inline constexpr int walk_samples = 200;
 
+/// A part of an interval.
+struct Piece {
+  double end = 0.0;    ///< s
+  double speed = 0.0;  ///< the largest |v| at its begin, middle and end [m/s]
+};
+
 struct Walk {
   core::Outcome outcome;
   bool ended_early = false;  ///< by the number of intervals
   double end = 0.0;          ///< where it ends [s]
   std::vector<sim::Event> events;
   std::vector<sim::Sample> samples;  ///< at duration/walk_samples, ...
+  std::vector<Piece> pieces;         ///< without gaps from t = 0 on
   sim::Energy energy;
   double energy_scale = 0.0;  ///< sum of the moduli of all that was exchanged [J]
   bool finite = true;         ///< every event and sample is
 };
+
+/// Whether |v| <= `speed` throughout, as far as the pieces show it.
+[[nodiscard]] bool is_slow(const Walk& walk, double from, double to, double speed);
 
 [[nodiscard]] Walk walk(const sim::Model& model, const WalkOptions& options);
 

@@ -109,6 +109,52 @@ TEST_CASE("crosscheck: a lost event is found, coincident ones are named", "[cros
   CHECK(crosscheck::difference(walk, off, strong, 1e-7).fault.empty());
 }
 
+TEST_CASE("crosscheck: the reversals of a mass at rest within the tolerance are named, those of a motion are not",
+          "[crosscheck]") {
+  // It rests but for exp(-20 t) from t = 1 on.
+  const auto walk_that_turns = [](double at) {
+    crosscheck::Walk walk;
+    for (int i = 1; i <= crosscheck::walk_samples; ++i) {
+      const double t = 0.01 * i;
+      walk.samples.push_back({.t = t, .x = 1.0, .v = std::exp(-20.0 * t)});
+      walk.pieces.push_back({t, std::exp(-20.0 * (t - 0.01))});
+    }
+    walk.end = 2.0;
+    walk.events = {{at, sim::EventKind::reversal, 1.0, 0.0}};
+    return walk;
+  };
+  const crosscheck::Sensitivity mild{.deviation = std::vector<double>(crosscheck::walk_samples, 1e-10),
+                                     .change = 1e-10};
+  // exp(-20 t) < 1e-7 from t = 0.81 on.
+  const crosscheck::Difference late =
+      crosscheck::difference(walk_that_turns(1.2), walk_that_turns(1.5), mild, 1e-7);
+  CHECK(late.fault.empty());
+  CHECK(late.resting == 1);
+  CHECK_FALSE(crosscheck::difference(walk_that_turns(0.2), walk_that_turns(0.3), mild, 1e-7).fault.empty());
+  CHECK_FALSE(crosscheck::difference(walk_that_turns(0.7), walk_that_turns(1.5), mild, 1e-7).fault.empty());
+}
+
+TEST_CASE("crosscheck: a subharmonic motion is compared over its own period", "[crosscheck]") {
+  Json subharmonic = {{"schema", "dualdamp/1"},
+                      {"system",
+                       {{"mass", 0.008529171434999244},
+                        {"stiffness", 0.09238674538297083},
+                        {"damping", 0.0008673479922332775},
+                        {"friction", {Json::parse(R"({"law": "contact_compliance", "kinetic": 0.0062115588921690095,
+                                      "static": 0.011129645470476278, "contact_stiffness": 0.42513252999171414})")}}}},
+                      {"excitation",
+                       {{"type", "base_harmonic"},
+                        {"amplitude", 0.3272648471676281},
+                        {"frequency", "0.22099544102878876 rad/s"},
+                        {"phase", 4.964538099417541}}},
+                      {"analysis", {{"type", "steady_state"}}}};
+  for (const crosscheck::Finding& finding : crosscheck::check_case(subharmonic, 1, 1).findings) {
+    if (finding.comparison != "steady state against transient") continue;
+    INFO(finding.text);
+    CHECK(finding.verdict == Verdict::agreed);
+  }
+}
+
 TEST_CASE("crosscheck: a crash, an endless loop and an exception are entries and not the end", "[crosscheck]") {
   const auto work = [](std::uint32_t index) -> std::string {
     if (index == 11) std::raise(SIGSEGV);

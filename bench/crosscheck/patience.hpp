@@ -1,0 +1,21 @@
+#pragma once
+/// How long one comparison of a case may take.
+
+#include <ctime>
+
+namespace dualdamp::crosscheck {
+
+/// Work (`sim/orbits/patience.hpp`) of a transient, and of the periods of a difference quotient: about 2 s.
+inline constexpr long most_work = 500'000;
+
+/// From its construction on, in processor time; what takes longer is not compared.
+class Patience {
+ public:
+  [[nodiscard]] bool is_over() const { return std::clock() > end_; }
+
+ private:
+  static constexpr std::clock_t length = 5 * CLOCKS_PER_SEC / 4;
+  std::clock_t end_ = std::clock() + length;
+};
+
+}  // namespace dualdamp::crosscheck
