@@ -65,13 +65,15 @@ std::vector<std::string_view> column_names(bool numbers_only) {
 
 Heading parse_heading(std::string_view text, int column) {
   Heading heading{std::string(text), std::string(trimmed(text)), {}, column, true};
-  const std::size_t open = text.find_first_of("[(");
+  constexpr std::string_view opening = "[({<";
+  constexpr std::string_view closing = "])}>";
+  const std::size_t open = text.find_first_of(opening);
   if (open == std::string_view::npos) {
-    heading.well_formed = text.find_first_of("])") == std::string_view::npos;
+    heading.well_formed = text.find_first_of(closing) == std::string_view::npos;
     return heading;
   }
   const std::string_view rest = text.substr(open + 1);
-  const std::size_t close = rest.find(text[open] == '[' ? ']' : ')');
+  const std::size_t close = rest.find(closing[opening.find(text[open])]);
   heading.name = trimmed(text.substr(0, open));
   if (close != std::string_view::npos) heading.unit = trimmed(rest.substr(0, close));
   heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
@@ -85,6 +87,9 @@ const KnownColumn* named_column(Heading& heading) {
     heading.unit = "s";
     return known_column("t");
   }
+  if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not a V without unit
+    for (const KnownColumn& known : known_columns)
+      if (is_alike(heading.name, known.name) && is_unit_of(heading.unit, known)) return &known;
   if (!heading.unit.empty() || !heading.well_formed) {
     // `x_[mm]`, `x/(mm)`: a mark before the brackets.
     const std::size_t end = heading.name.find_last_not_of(marks) + 1;

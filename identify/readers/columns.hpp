@@ -49,7 +49,8 @@ struct Heading {
 /// The column that a heading names; its unit where that stands behind the name without brackets, such as `x_mm`,
 /// `x / mm`, `time, ms`, goes from the name to `heading.unit`. nullptr when it names none.
 ///
-/// Y and y are two columns, so that case counts for names of one letter. The others are known in any case.
+/// Y and y are two columns. Other names of one letter are known in the other case too where their unit fits, `X
+/// [mm]`; longer names in any case.
 [[nodiscard]] const KnownColumn* named_column(Heading& heading);
 
 /// "a, b and c"

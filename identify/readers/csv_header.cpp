@@ -181,7 +181,7 @@ class HeaderReader {
       return field.known != nullptr && (field.known->is_signal || field.known->name == "Y");
     });
     const bool pairs_without_x = is_taken(*known_column("Y")) && !is_taken(*known_column("x"));
-    if (any && !pairs_without_x) return;
+    if ((any && !pairs_without_x) || !problems_.empty()) return;  // a fault of a heading may be why it is missing
     const std::string other = ". Columns of other names: --column x=NAME";
     if (is_transposed())
       complain(1, "rows and columns are exchanged: the names stand in the first field of each row",

@@ -134,6 +134,9 @@ class Parser {
     problems_.add({at(line, 1),
                    "the row does not have as many fields as the header",
                    std::to_string(targets_.size()) + " fields" +
+                       (count == 1 && line.text.find_first_of(";\t, ") != std::string_view::npos
+                            ? ", separated as those of the header"
+                            : "") +
                        (split_numbers ? ", numbers with a decimal point, not with a comma; for decimal commas "
                                         "quotes around the numbers, or semicolons between them, and --decimal ,"
                                       : ""),

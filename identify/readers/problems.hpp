@@ -24,6 +24,7 @@ class Problems {
   void add(core::Diagnostic diagnostic, std::size_t others, std::vector<int> lines);
   /// In the order of their places.
   void throw_if_any() const;
+  [[nodiscard]] bool empty() const { return groups_.empty(); }
 
  private:
   struct Group {

@@ -11,6 +11,7 @@
 
 #include "identify/readers/signal_checks.hpp"
 #include "identify/readers/time_base.hpp"
+#include "identify/records/derived_records.hpp"
 
 namespace dualdamp::identify {
 
@@ -128,11 +129,16 @@ class Assembly {
   /// Nothing but x (and t), and every row turns back: a sampled motion does not.
   [[nodiscard]] bool holds_extremes() const {
     const std::vector<double>* x = values("x");
-    if (x == nullptr || !table_.sweeps.empty()) return false;
+    if (x == nullptr) return false;
     for (const DataColumn& column : table_.columns)
       if (column.known->is_signal && column.known->name != "x") return false;
+    const std::vector<LabelRun> runs = tests_of_extremes();
     if (values("t") == nullptr) return true;
-    return x->size() < 3 || turns(*x) == x->size() - 2;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const std::vector<double> part = cut(*x, runs, i);
+      if (part.size() > 2 && turns(part) != part.size() - 2) return false;
+    }
+    return true;
   }
 
   /// Rows at which x turns back.
@@ -152,27 +158,50 @@ class Assembly {
             std::string(allowed_columns));
   }
 
-  DecayRecord decay() {
-    refuse_response_without_Y();
-    warn_unused({"x", "t"});
-    DecayRecord record;
-    record.extremes = *values("x");
-    if (record.extremes.size() > 2 && turns(record.extremes) == 0)
-      refuse_file(table_.file,
-                  "x stands alone, and no row of it turns back: extremes of a free vibration alternate",
-                  "signed extremes such as 5, -4, 3; or samples with their times t");
-    if (const std::vector<double>* t = values("t")) {
-      check_increasing();
-      record.times = *t;
-    }
-    return record;
+  /// Several decays stand below each other: labelled, or below headers of their own, or with times of their own.
+  [[nodiscard]] std::vector<LabelRun> tests_of_extremes() const {
+    if (!table_.sweeps.empty()) return table_.sweeps;
+    std::vector<LabelRun> runs = {{{}, 0}};
+    for (const std::size_t start : table_.restarts) runs.push_back({{}, start});
+    if (const std::vector<double>* t = values("t"); t != nullptr && runs.size() == 1)
+      for (std::size_t row = 1; row < t->size(); ++row)
+        if ((*t)[row] < (*t)[row - 1] && (*t)[row] <= (*t)[1]) runs.push_back({{}, row});
+    return runs;
   }
 
-  void check_increasing() {
+  [[nodiscard]] std::vector<double> cut(const std::vector<double>& column, const std::vector<LabelRun>& runs,
+                                        std::size_t i) const {
+    const std::size_t end = i + 1 < runs.size() ? runs[i + 1].first_row : column.size();
+    return {column.begin() + static_cast<std::ptrdiff_t>(runs[i].first_row),
+            column.begin() + static_cast<std::ptrdiff_t>(end)};
+  }
+
+  DecayRecord decay() {
+    refuse_response_without_Y();
+    warn_unused({"x", "t", "sweep"});
+    const std::vector<LabelRun> runs = tests_of_extremes();
+    std::vector<DecayRecord> decays;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      decays.push_back({cut(*values("x"), runs, i), {}});
+      if (decays.back().extremes.size() > 2 && turns(decays.back().extremes) == 0)
+        refuse_file(table_.file,
+                    "x stands alone, and no row of it turns back: extremes of a free vibration alternate",
+                    "signed extremes such as 5, -4, 3; or samples with their times t");
+      if (values("t") == nullptr) continue;
+      decays.back().times = cut(*values("t"), runs, i);
+      check_increasing(runs[i].first_row, decays.back().times.size());
+    }
+    if (decays.size() == 1) return std::move(decays.front());
+    DecayRecord mean = mean_decay(decays);
+    warnings_.push_back(mean_decay_warning(decays.size(), mean.extremes.size()));
+    return mean;
+  }
+
+  void check_increasing(std::size_t first, std::size_t count) {
     const std::vector<double>& t = *values("t");
     std::vector<std::size_t> equal;
     std::vector<std::size_t> back;
-    for (std::size_t row = 1; row < t.size(); ++row) {
+    for (std::size_t row = first + 1; row < first + count; ++row) {
       if (t[row] == t[row - 1]) equal.push_back(row);
       if (t[row] < t[row - 1]) back.push_back(row);
     }

@@ -35,7 +35,7 @@ struct Foreign {
 };
 
 using namespace std::string_view_literals;
-constexpr std::array<Foreign, 8> foreign_formats = {
+constexpr std::array<Foreign, 9> foreign_formats = {
     {{"PK\x03\x04"sv, "the file is a workbook or an archive (zip)", "the sheet saved as CSV"},
      {"\xD0\xCF\x11\xE0"sv, "the file is an old Excel workbook", "the sheet saved as CSV"},
      {"\x1F\x8B"sv, "the file is compressed (gzip)", "the file unpacked"},
@@ -43,7 +43,8 @@ constexpr std::array<Foreign, 8> foreign_formats = {
      {"\x89HDF"sv, "the file is HDF5, but no MATLAB file", "a file saved by MATLAB with -v7.3"},
      {"%PDF"sv, "the file is a PDF document", "the data as CSV"},
      {"\x7F\x45LF"sv, "the file is a program", "a data file"},
-     {"<"sv, "the file is a page of the web, or XML", "the data as CSV"}}};
+     {"<"sv, "the file is a page of the web, or XML", "the data as CSV"},
+     {"{"sv, "the file is JSON", "the data as CSV"}}};
 
 /// What is no data file at all, such as an endless device, is not read to its end.
 void refuse_at_sight(std::string_view beginning, const std::string& name) {

@@ -39,6 +39,15 @@ struct DerivedDecay {
 /// again in noise, or where the record ends.
 [[nodiscard]] DerivedDecay decay_of(const History& history);
 
+/// One decay for several of the same oscillator: the means of their first, second, ... extremes, each decay turned
+/// so that its first swing goes down. With one decay ratio and one x_f the law of extremes is linear in the release
+/// and the offset, so that the mean obeys it too. Decays with less than half of the extremes of the longest are
+/// left out.
+[[nodiscard]] DecayRecord mean_decay(const std::vector<DecayRecord>& decays);
+
+/// What to tell of it.
+[[nodiscard]] std::string mean_decay_warning(std::size_t decays, std::size_t extremes);
+
 /// Adds to a record that holds nothing but histories what can be derived from them: pairs where they are driven, a
 /// decay where there is a single one without drive. Returns warnings.
 [[nodiscard]] std::vector<std::string> complete(Record& record, double frequency = unknown);

@@ -16,6 +16,7 @@ SI = table("Y [m],x [m]", pairs(), form="{:.9f}")
 PLAIN = table("Y [mm],x [mm]", MM)
 VOLTS = [(y / 2.5, x / 2.5) for y, x in MM]
 STEP = 0.02
+HALF = 1 / math.sqrt(1 - SLOW["zeta"] ** 2)  # half a period at 0.5 Hz
 TIMES = [STEP * i for i in range(1250)]
 X = decay(TIMES)
 ROWS = list(zip(TIMES, [1e3 * x for x in X]))
@@ -149,6 +150,10 @@ ACCEPTED = [
     ("v5_two_structs.mat", mat5(matrix5("fs", [50.0]), struct5("a", [{"x": X}]), struct5("b", [{"x": X}])), ["--column", "x=a.x"], DECAY),
     ("v5_matrix.mat", mat5(matrix5("data", TIMES + X, len(X))), ["--column", "t=data(:,1)", "--column", "x=data(:,2)"], DECAY),
     ("v5_transposed.mat", mat5(matrix5("data", [v for pair in zip(TIMES, X) for v in pair], 2)), ["--column", "t=data(1,:)", "--column", "x=data(2,:)"], DECAY),
+    ("two_decays.csv", HISTORY + table("t [s],x [mm]", [(t, -1e3 * x) for t, x in zip(TIMES, decay(TIMES, start=0.08))]), [], DECAY),
+    ("decays_one_below_the_other.csv", HISTORY + table("", [(t, 1e3 * x) for t, x in zip(TIMES, decay(TIMES, start=0.12))]), [], DECAY),
+    ("extremes_of_three_decays.csv", table("sweep,t [s],x [mm]", [(f"run {k}", t, 1e3 * decay([t], start=0.1 + 0.01 * k)[0]) for k in range(3) for t in [i * HALF for i in range(12)]]), [], DECAY),
+    ("curly_brackets.csv", table("Y {mm},X <mm>", MM), [], PAIRS),
     ("universal.uff", uff58("x", [1e3 * x for x in X], STEP, "mm"), [], DECAY),
 ]
 
@@ -194,6 +199,9 @@ REFUSED = [
     ("matrix.mat", mat5(matrix5("data", TIMES + X, len(X))), [], "data(:,2)"),
     ("packed.csv.gz", b"\x1f\x8b\x08" + bytes(100), [], "the file is compressed (gzip)"),
     ("workbook.xlsx", b"PK\x03\x04" + bytes(1000), [], "the file is a workbook"),
+    ("lines.json", '{"Y": [1, 2], "x": [2, 3]}', [], "the file is JSON"),
+    ("rows_with_another_separator.csv", "Y [mm],x [mm]\n" + table("", MM, ";"), [], "separated as those of the header"),
+    ("capital_units.csv", table("Y [mm],x [MM]", MM), [], "did you mean 'mm'?"),
     ("page.csv", "<!DOCTYPE html><html><body>404</body></html>", [], "the file is a page of the web"),
     ("control.csv", b"Y,x\n1,\x002\n", [], "control character"),
     ("modes.uff", "    -1\n    55\nmode 1\n    -1\n", [], "no time response"),
