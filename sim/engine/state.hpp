@@ -22,8 +22,4 @@ struct State {
 /// Both lie in the same mode, so that their difference is one of continuous states.
 [[nodiscard]] bool same_mode(const State& a, const State& b);
 
-/// The same but for the direction of a slip: that of a mass at a turning point is decided by rounding, and across
-/// it x, v and the states of the laws are continuous.
-[[nodiscard]] bool have_distance(const State& a, const State& b);
-
 }  // namespace dualdamp::sim

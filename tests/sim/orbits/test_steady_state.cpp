@@ -311,17 +311,3 @@ TEST_CASE(
              Catch::Contains("within " + std::to_string(state.transient_periods) + " forcing periods"));
   CHECK(state.certificate.panels < 6'000'000);
 }
-
-TEST_CASE("a contact that rings at a forced motion which turns at t = 0 does not hide its orbit") {
-  // The contact never slips: a linear oscillator of stiffness k + kt. Its steady motion turns at the very start of
-  // a forcing period, so that rounding decides the direction there; a period ends in either direction while it
-  // rings.
-  sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.02};
-  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 1.0, .frequency = 1.0};
-  model.friction = {friction::Law(friction::ContactCompliance(5.0, 10.0, 1e4, 0.0))};
-  const sim::SteadyState state = sim::steady_state(model);
-  REQUIRE(state.outcome.ok());
-  CHECK(state.transient_periods < 200);
-  CHECK(state.peak == Approx(1.0 / std::hypot(100.0 + 1e4 - 1.0, 0.02)).epsilon(1e-9));
-}
