@@ -117,6 +117,7 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
   std::string text = scenario.file + ": " + scenario.analysis_name;
   if (!scenario.title.empty()) text += ": " + scenario.title;
   text += "\n";
+  if (!result.verdict.empty()) text += "\n" + folded(result.verdict) + "\n";
   if (result.summary.columns.front().size() > 0) {
     std::vector<Block> blocks;
     for (const scenarios::Column& column : result.summary.columns)
@@ -126,7 +127,6 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
   }
   for (const scenarios::Table& table : result.tables)
     if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table);
-  if (!result.verdict.empty()) text += "\n" + folded(result.verdict) + "\n";
   if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
   if (result.verification) text += "\n" + folded(verification_text(*result.verification)) + "\n";
   return text;

@@ -3,7 +3,8 @@
 ///
 /// Two questions are kept apart. `outcome`: is there a number at all? When it is not ok() `value` means nothing and
 /// the record did not allow an estimate. `usable`: does the method stand by its number? An estimate that is there
-/// and not usable carries its value, so that it can be reported beside its reason.
+/// and not usable carries its value, so that it can be reported beside its reason. Whether the assumptions of the
+/// number hold in this record is not for one method to say: the ledger does (answer.hpp).
 
 #include <Eigen/Core>
 #include <array>
@@ -108,8 +109,12 @@ struct LawCandidate {
 struct Estimate {
   std::string method;
   core::Outcome outcome;  ///< not ok(): there is no estimate, and why
-  bool usable = false;
-  std::string reason;  ///< why it is not usable, or which data it is from
+  /// Nothing speaks against the number beside what the ledger of assumptions is asked for (ledger/ledger.hpp).
+  bool sound = false;
+  std::vector<std::string>
+      findings;         ///< what the method's own tests found against its assumptions, each a sentence
+  bool usable = false;  ///< sound and without findings
+  std::string reason;   ///< why it is not usable, or which data it is from
   ParameterSet value;
   std::optional<ParameterSet> std;  ///< standard errors; absent when the data leave no freedom for them
   std::optional<ParameterIntervals> interval95;

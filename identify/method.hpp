@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "identify/assumption.hpp"
 #include "identify/estimate.hpp"
 #include "identify/options.hpp"
 #include "identify/record.hpp"
@@ -62,6 +63,7 @@ struct MethodEntry {
   /// Why this record does not hold what the method needs; empty when it does.
   std::string (*lacks)(const Record&);
   MethodCall call;
+  AssumptionSet rests_on;  ///< what a departure from makes the estimate wrong
 
   [[nodiscard]] std::span<const Option* const> options() const { return call.options; }
   [[nodiscard]] bool has(const Option& option) const;

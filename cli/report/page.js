@@ -61,12 +61,14 @@ function body() {
   const result = run.result ?? {};
   const parts = [];
   for (const error of run.errors) parts.push(make("p", { class: "note bad" }, error.message));
-  if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
   const view = run.result ? (views[run.analysis] ?? { charts: viewOfTables }) : {};
+  parts.push(...(view.opens?.(result) ?? []));
+  if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
   const said = view.said?.(result) ?? [];
   for (const warning of run.warnings.filter((text) => !said.includes(text))) parts.push(make("p", { class: "note" }, warning));
   parts.push(...(view.before?.(result) ?? []));
-  const single = scalars(result).filter(({ path }) => !path.startsWith("fit.") && path !== "verdict" && path !== "" && path !== "fit" && !path.startsWith("severities."));
+  const shown = new Set(view.shown ?? []);
+  const single = scalars(result).filter(({ path }) => !shown.has(path.split(".")[0])).filter(({ path }) => !path.startsWith("fit.") && path !== "verdict" && path !== "" && path !== "fit" && !path.startsWith("severities."));
   if (single.length) parts.push(heading("Numbers"), numbers(single.map((item) => ({ ...item, unit: unitOfScalar(item.path) }))));
   const drawn = (view.charts?.(result) ?? []).filter(Boolean);
   if (drawn.length) parts.push(make("div", { class: "charts", style: "margin-top:1rem" }, drawn));

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/cancellation.hpp"
 #include "sim/engine/sticking_gate.hpp"
@@ -76,6 +77,9 @@ double root(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
+/// Chebyshev's points of (0, 1).
+double place(int i) { return 0.5 - 0.5 * std::cos(std::numbers::pi * (i + 0.5) / nodes); }
+
 /// Parts of an interval whose ends are looked at for a change of sign.
 constexpr int parts = 4;
 
@@ -88,7 +92,7 @@ SampledOscillator::SampledOscillator(const History& history)
       force_(interpolate(history.force, count_)) {}
 
 bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x,
-                            Eigen::MatrixXd* derivatives, Eigen::VectorXd* v) {
+                            Derivatives* derivatives, Eigen::VectorXd* v, const std::vector<Force>& forces) {
   p_ = parameters;
   inertia_ = p_.m * rate_ * rate_;
   damping_ = p_.c * rate_;
@@ -104,14 +108,11 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
 
   tangents_.clear();
   if (derivatives != nullptr) {
-    for (const By what : by) {
-      Tangent tangent;
-      tangent.by = what;
-      tangent.x = what == By::position ? 1.0 : 0.0;
-      tangent.v = what == By::velocity ? 1.0 / rate_ : 0.0;
-      tangents_.push_back(tangent);
-    }
-    derivatives->resize(static_cast<Eigen::Index>(count_), static_cast<Eigen::Index>(by.size()));
+    start_tangents(by, forces);
+    derivatives->x.resize(static_cast<Eigen::Index>(count_), static_cast<Eigen::Index>(by.size() + forces.size()));
+    derivatives->v.resizeLike(derivatives->x);
+    derivatives->steps.clear();
+    derivatives->steps.reserve(count_);
   }
   x.resize(static_cast<Eigen::Index>(count_));
   if (v != nullptr) v->resize(x.size());
@@ -119,12 +120,19 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   v_ = p_.v0 / rate_;
   fastest_ = std::abs(v_);
   direction_ = (v_ > 0.0) - (v_ < 0.0);
+  // A mass that moves has slid before the record began.
+  constexpr double far = 1e3;
+  reversal_ = direction_ == 0 ? x_ : x_ + far;
   const auto store = [&](std::size_t i) {
     const auto row = static_cast<Eigen::Index>(i);
     x[row] = x_;
     if (v != nullptr) (*v)[row] = v_ * rate_;
-    for (std::size_t j = 0; j < tangents_.size(); ++j)
-      (*derivatives)(row, static_cast<Eigen::Index>(j)) = tangents_[j].x;
+    if (derivatives == nullptr) return;
+    for (Eigen::Index j = 0; j < derivatives->x.cols(); ++j) {
+      derivatives->x(row, j) = tangents_[static_cast<std::size_t>(j)].x;
+      derivatives->v(row, j) = tangents_[static_cast<std::size_t>(j)].v * rate_;
+    }
+    store_step(*derivatives);
   };
   for (std::size_t i = 0; i + 1 < count_; ++i) {
     core::stop_if_cancelled();
@@ -133,6 +141,39 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   }
   store(count_ - 1);
   return x.allFinite();
+}
+
+void SampledOscillator::start_tangents(const std::vector<By>& by, const std::vector<Force>& forces) {
+  for (const By what : by) {
+    Tangent tangent;
+    tangent.by = what;
+    tangent.x = what == By::position ? 1.0 : 0.0;
+    tangent.v = what == By::velocity ? 1.0 / rate_ : 0.0;
+    tangents_.push_back(tangent);
+  }
+  static const Force one = [](const Instant& /*at*/) { return -1.0; };
+  const auto add = [this](const Force& force) {
+    Tangent tangent;
+    tangent.by = By::force;
+    tangent.force = &force;
+    tangents_.push_back(tangent);
+  };
+  for (const Force& force : forces) add(force);
+  // The last three begin anew at each sample: a disturbance of x, one of v, a force.
+  tangents_.insert(tangents_.end(), 2, Tangent{.by = By::position});
+  add(one);
+}
+
+/// What the last three tangents have become since the last sample; then they begin anew.
+void SampledOscillator::store_step(Derivatives& derivatives) {
+  Tangent* const last = &tangents_[tangents_.size() - 3];
+  Step step;
+  for (Eigen::Index j = 0; j < 2; ++j) step.carried.col(j) << last[j].x, last[j].v * rate_;
+  step.pushed << last[2].x, last[2].v * rate_;
+  derivatives.steps.push_back(step);
+  last[0].x = 1.0;
+  last[1].v = direction_ == 0 ? 0.0 : 1.0 / rate_;  // a mass that sticks has no velocity to disturb
+  last[0].v = last[1].x = last[2].x = last[2].v = 0.0;
 }
 
 /// From one sample to the next, through the events between them.
@@ -178,6 +219,7 @@ double SampledOscillator::slip(double begin, double end) {
   const double before = curvature_at(series_, terms_, reversal);
   move_to(reversal);
   v_ = 0.0;
+  reversal_ = x_;
   const double at = begin + reversal;
   settle(at);
   const double force = pull(at) - p_.F0 * direction_;
@@ -208,10 +250,42 @@ void SampledOscillator::settle(double at) {
   direction_ = static_cast<int>(sim::direction_after_slip(pull(at), p_.F0, 0.0, sticks));
 }
 
+/// A force along the motion, as a polynomial through eight points of what is left of the interval. It is smooth
+/// there: the direction is frozen.
+SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
+  static const Eigen::Matrix<double, nodes, nodes> to_powers = [] {
+    Eigen::Matrix<double, nodes, nodes> powers;
+    for (int r = 0; r < nodes; ++r)
+      for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(place(r), c);
+    return Eigen::Matrix<double, nodes, nodes>(powers.inverse());
+  }();
+  const double length = 1.0 - begin_;
+  Eigen::Matrix<double, nodes, 1> values;
+  for (int i = 0; i < nodes; ++i) {
+    const double u = place(i) * length;
+    Instant instant;
+    instant.x = value_at(series_, terms_, u);
+    instant.v = slope_at(series_, terms_, u) * rate_;
+    instant.direction = direction_;
+    instant.y = value_at(y_here_, nodes, u);
+    instant.drive = value_at(drive_here_, nodes, u);
+    instant.way = std::abs(instant.x - reversal_);
+    instant.course = (static_cast<double>(interval_) + begin_ + u) / static_cast<double>(count_ - 1);
+    values[i] = force(instant);
+  }
+  const Eigen::Matrix<double, nodes, 1> coefficients = to_powers * values;
+  Drive series{};
+  double power = 1.0;
+  for (int i = 0; i < nodes; ++i, power /= length) series[static_cast<std::size_t>(i)] = coefficients[i] * power;
+  return series;
+}
+
 /// Taylor series of the motion from `begin` within the interval, and of its derivatives.
 void SampledOscillator::expand(double begin) {
   const Drive drive = shifted(drive_, begin);
   y_here_ = shifted(y_[interval_], begin);
+  drive_here_ = drive;
+  begin_ = begin;
   series_[0] = x_;
   series_[1] = v_;
   for (int j = 0; j + 2 < terms_; ++j) {
@@ -224,6 +298,7 @@ void SampledOscillator::expand(double begin) {
 }
 
 void SampledOscillator::expand(Tangent& tangent) const {
+  const Drive pushed = tangent.by == By::force ? push(*tangent.force) : Drive{};
   const auto forcing = [&](int j) {
     const auto i = static_cast<std::size_t>(j);
     switch (tangent.by) {
@@ -235,13 +310,8 @@ void SampledOscillator::expand(Tangent& tangent) const {
         return (j < nodes ? y_here_[i] : 0.0) - series_[i];
       case By::friction:
         return j == 0 ? -static_cast<double>(direction_) : 0.0;
-      case By::drag: {
-        double square = 0.0;  // coefficient j of v^2
-        for (std::size_t a = 0; a <= i; ++a)
-          square +=
-              static_cast<double>(a + 1) * series_[a + 1] * static_cast<double>(i - a + 1) * series_[i - a + 1];
-        return -rate_ * rate_ * direction_ * square;
-      }
+      case By::force:
+        return j < nodes ? -pushed[i] : 0.0;
       case By::position:
       case By::velocity:
         return 0.0;

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "identify/record.hpp"
@@ -32,16 +33,40 @@ class SampledOscillator {
     double x0 = 0.0;  ///< m
     double v0 = 0.0;  ///< m/s
   };
-  /// What the motion is differentiated by; `drag`: a force c2 v|v| beside the others, at c2 = 0 [N.s^2/m^2].
-  enum class By { mass, damping, stiffness, friction, position, velocity, drag };
+  /// Where the mass is, for a force beside the others.
+  struct Instant {
+    double x = 0.0;          ///< m
+    double v = 0.0;          ///< m/s
+    double direction = 0.0;  ///< of sliding, 1 or -1
+    double y = 0.0;          ///< m
+    double drive = 0.0;      ///< k y + f [N]
+    double way = 0.0;        ///< since the last reversal [m]; far before the first
+    double course = 0.0;     ///< share of the history that is over
+  };
+  /// A force on the mass against its positive direction, at a coefficient of zero; any unit.
+  using Force = std::function<double(const Instant&)>;
+  /// What the motion is differentiated by; `force`: a further force, numbered by its place in the list.
+  enum class By { mass, damping, stiffness, friction, position, velocity, force };
+
+  /// What becomes of a small disturbance of (x, v) from one sample to the next, and of a force of 1 N between them.
+  struct Step {
+    Eigen::Matrix2d carried;
+    Eigen::Vector2d pushed;
+  };
+  /// Derivatives of the motion at the samples.
+  struct Derivatives {
+    Eigen::MatrixXd x;  ///< a row a sample, a column for each of `by` and then of `forces`
+    Eigen::MatrixXd v;
+    std::vector<Step> steps;
+  };
 
   /// The drive of a history: y and force, each zero when it was not measured. At least eight samples.
   explicit SampledOscillator(const History& history);
 
-  /// x at the samples. `derivatives`, where there is one: a row a sample, a column for each of `by`; `v`, where
-  /// there is one: the velocity. False: the parameters are too fast for the sample rate, or a value is not finite.
-  bool run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x,
-           Eigen::MatrixXd* derivatives, Eigen::VectorXd* v = nullptr);
+  /// x at the samples. `derivatives`, where there is one: of `by` and `forces`; `v`, where there is one: the
+  /// velocity. False: the parameters are too fast for the sample rate, or a value is not finite.
+  bool run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x, Derivatives* derivatives,
+           Eigen::VectorXd* v = nullptr, const std::vector<Force>& forces = {});
 
  private:
   static constexpr int nodes = 8;
@@ -52,6 +77,7 @@ class SampledOscillator {
   /// d(x, v)/dp at the present time, v by the sample interval.
   struct Tangent {
     By by = By::mass;
+    const Force* force = nullptr;
     double x = 0.0;
     double v = 0.0;
     Series series{};
@@ -62,6 +88,9 @@ class SampledOscillator {
   double rest(double begin, double end) const;
   void expand(double begin);
   void expand(Tangent& tangent) const;
+  void start_tangents(const std::vector<By>& by, const std::vector<Force>& forces);
+  void store_step(Derivatives& derivatives);
+  [[nodiscard]] Drive push(const Force& force) const;
   void move_to(double u);
   void settle(double at);
   [[nodiscard]] double pull(double at) const;
@@ -81,7 +110,10 @@ class SampledOscillator {
   double x_ = 0.0;
   double v_ = 0.0;  ///< by sample interval
   double fastest_ = 0.0;
+  double reversal_ = 0.0;  ///< where it was last [m]
+  double begin_ = 0.0;     ///< of the expansion, within the interval
   Drive y_here_{};
+  Drive drive_here_{};
   Drive drive_{};
   Series series_{};
   std::vector<Tangent> tangents_;

@@ -80,7 +80,7 @@ ParameterSet difference(const ParameterSet& a, const ParameterSet& b) {
 
 void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
                           const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read) {
-  const ParameterSet& value = estimate.value;
+  const ParameterSet value = estimate.value;
   if (!estimate.interval95 || !(value.zeta > 0.0) || !(value.x_f >= 0.0)) return;
   ParameterSet misread = difference(own, value);
   const ParameterSet corrected = difference(value, misread);
@@ -127,13 +127,15 @@ void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>&
 }
 
 void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis) {
-  estimate.usable = faults.empty();
+  estimate.sound = faults.empty();
+  estimate.usable = faults.empty() && estimate.findings.empty();
   if (estimate.usable) {
     estimate.reason = std::move(basis);
     return;
   }
   estimate.reason.clear();
-  for (const std::string& fault : faults) estimate.reason += (estimate.reason.empty() ? "" : "; ") + fault;
+  for (const auto* list : {&faults, static_cast<const std::vector<std::string>*>(&estimate.findings)})
+    for (const std::string& fault : *list) estimate.reason += (estimate.reason.empty() ? "" : "; ") + fault;
 }
 
 }  // namespace dualdamp::identify

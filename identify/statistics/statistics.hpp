@@ -54,7 +54,8 @@ void judge_sign(double value, double least, const std::array<double, 2>* interva
 /// That of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
 void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
 
-/// Sets `usable` and `reason`: usable when `faults` is empty, and then it rests on `basis`.
+/// Sets `sound`, `usable` and `reason`: usable when neither `faults` nor the estimate's findings say anything, and
+/// then it rests on `basis`.
 void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
 
 }  // namespace dualdamp::identify

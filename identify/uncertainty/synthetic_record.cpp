@@ -138,8 +138,9 @@ class SyntheticHistory {
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < steps; ++step) {
       Eigen::VectorXd x;
-      Eigen::MatrixXd derivatives;
-      if (!model.run(next, {By::position, By::velocity}, x, &derivatives)) return false;
+      SampledOscillator::Derivatives of_motion;
+      if (!model.run(next, {By::position, By::velocity}, x, &of_motion)) return false;
+      const Eigen::MatrixXd& derivatives = of_motion.x;
       const Eigen::VectorXd miss = x_measured - x;
       if (!(miss.squaredNorm() < least)) break;
       least = miss.squaredNorm();

@@ -90,11 +90,11 @@ struct Bracket {
   double step = 0.0;  ///< from low to high, in the constant's deviation
 };
 
-/// A method read again with one constant off.
+/// A record read again with one constant off.
 class Variation {
  public:
-  Variation(const MethodEntry& method, const Input& input, const OptionValues& values, const Estimate& stated)
-      : method_(method), input_(input), values_(values), stated_(stated) {}
+  Variation(const Reader& read, const Input& input, const Estimate& stated)
+      : read_(read), input_(input), stated_(stated) {}
 
   /// The estimates at both sides, `deviation` being relative.
   [[nodiscard]] std::optional<Bracket> at(const Constant& constant, double deviation) {
@@ -111,12 +111,11 @@ class Variation {
   Estimate run(const Constant& constant, double factor) const {
     Input input = input_;
     constant.multiply(input, factor);
-    return method_.run(input.record, input.constants, values_);
+    return read_(input.record, input.constants);
   }
 
-  const MethodEntry& method_;
+  const Reader& read_;
   const Input& input_;
-  const OptionValues& values_;
   const Estimate& stated_;
   Estimate low_;
   Estimate high_;
@@ -177,12 +176,12 @@ bool ConstantUncertainties::any() const {
          gain_a > 0.0 || gain_force > 0.0;
 }
 
-Estimate run_with_uncertainties(const MethodEntry& method, const Record& record, const KnownConstants& constants,
-                                const ConstantUncertainties& uncertainties, const OptionValues& values) {
-  const Estimate stated = method.run(record, constants, values);
+Estimate with_uncertainties(const Reader& read, const Record& record, const KnownConstants& constants,
+                            const ConstantUncertainties& uncertainties) {
+  const Estimate stated = read(record, constants);
   if (!stated.outcome.ok() || !uncertainties.any()) return stated;
   const Input input{record, constants};
-  Variation variation(method, input, values, stated);
+  Variation variation(read, input, stated);
   Estimate estimate = stated;
   for (const Constant& constant : all_constants) {
     const double deviation = constant.relative(uncertainties, constants);
@@ -197,14 +196,13 @@ Estimate run_with_uncertainties(const MethodEntry& method, const Record& record,
   return estimate;
 }
 
-std::vector<Sensitivity> sensitivities(const MethodEntry& method, const Record& record,
-                                       const KnownConstants& constants, const OptionValues& values) {
+std::vector<Sensitivity> sensitivities(const Reader& read, const Record& record, const KnownConstants& constants) {
   constexpr double deviation = 0.01;
-  const Estimate stated = method.run(record, constants, values);
+  const Estimate stated = read(record, constants);
   std::vector<Sensitivity> list;
   if (!stated.outcome.ok()) return list;
   const Input input{record, constants};
-  Variation variation(method, input, values, stated);
+  Variation variation(read, input, stated);
   for (const Constant& constant : all_constants) {
     const std::optional<Bracket> bracket = variation.at(constant, deviation);
     if (!bracket) continue;

@@ -2,16 +2,18 @@
 /// What the uncertainty of stated constants does to an estimate.
 ///
 /// A mass, a stiffness, a frequency or the gain of a sensor that is off by its standard uncertainty u moves an
-/// estimate theta by d = (theta(+u) - theta(-u))/2: the method reads the record twice more for each of them. They
+/// estimate theta by d = (theta(+u) - theta(-u))/2: the record is read twice more for each of them. They
 /// are off once for the whole record, so that no number of readings averages them out. The constants err
 /// independently: variances d^2 add to those that the readings leave, and each side of a 95 % interval becomes
 /// sqrt(side^2 + sum (1.96 d)^2).
-/// Source: gum2008, 5.1.2. Cost: two runs of the method for each uncertain constant.
+/// Source: gum2008, 5.1.2. Cost: two readings for each uncertain constant.
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "identify/method.hpp"
+#include "identify/estimate.hpp"
+#include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
@@ -33,17 +35,16 @@ struct Sensitivity {
   double F0_change = 0.0;    ///< relative
 };
 
-/// The estimate of `method`, with the uncertainties of the constants in its standard errors, covariance and
-/// intervals. A warning says where a method gives no estimate for constants that are off by their uncertainty.
-[[nodiscard]] Estimate run_with_uncertainties(const MethodEntry& method, const Record& record,
-                                              const KnownConstants& constants,
-                                              const ConstantUncertainties& uncertainties,
-                                              const OptionValues& values = {});
+/// How an estimate follows from a record and constants: a method with its options, for example.
+using Reader = std::function<Estimate(const Record&, const KnownConstants&)>;
 
-/// How the estimate of `method` answers to each constant that it depends on, the strongest first. Empty when the
-/// method gives none.
-[[nodiscard]] std::vector<Sensitivity> sensitivities(const MethodEntry& method, const Record& record,
-                                                     const KnownConstants& constants,
-                                                     const OptionValues& values = {});
+/// What `read` gives, with the uncertainties of the constants in its standard errors, covariance and intervals. A
+/// warning says where it gives no estimate for a constant that is off by its uncertainty.
+[[nodiscard]] Estimate with_uncertainties(const Reader& read, const Record& record, const KnownConstants& constants,
+                                          const ConstantUncertainties& uncertainties);
+
+/// How the estimate answers to each constant that it depends on, the strongest first. Empty when there is none.
+[[nodiscard]] std::vector<Sensitivity> sensitivities(const Reader& read, const Record& record,
+                                                     const KnownConstants& constants);
 
 }  // namespace dualdamp::identify

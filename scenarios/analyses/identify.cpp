@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "identify/ledger/answer.hpp"
 #include "scenarios/analyses/identify_options.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
@@ -33,6 +35,11 @@ Section keys() {
   fields.push_back(methods_key("all that fit the data"));
   std::ranges::move(method_option_fields(), std::back_inserter(fields));
   fields.push_back(gain_uncertainty_field());
+  fields.push_back(
+      quantity("least_change", {"1"},
+               "relative change of zeta or F0, when an assumption is relaxed, from which on a departure matters")
+          .with_fallback(identify::LedgerOptions{}.least_change)
+          .at_least(0));
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
@@ -87,6 +94,15 @@ identify::ConstantUncertainties uncertainties_of(const CheckedValues& values) {
   return uncertainties;
 }
 
+/// The estimate of the ledger's joint model, of any record.
+identify::Reader joint_estimate(const identify::LedgerOptions& options) {
+  return [options](const identify::Record& record, const identify::KnownConstants& constants) {
+    return identify::ledger_of(record, constants, options)
+        .joint.value_or(
+            identify::Estimate{.outcome = {core::OutcomeKind::not_identifiable, "there is no joint model"}});
+  };
+}
+
 std::unique_ptr<const Question> ask(CheckedValues&& values) {
   const Json& section = values.analysis;
   const sim::Model& model = values.model;
@@ -97,7 +113,8 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
        model.excitation.is_harmonic() && model.excitation.frequency > 0.0 ? model.excitation.frequency
                                                                           : identify::unknown},
       uncertainties_of(values),
-      method_options(section)};
+      method_options(section),
+      {section.at("least_change").get<double>()}};
   if (values.data) return std::make_unique<IdentifyQuestion>(std::move(*values.data), std::move(methods));
   IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), model)};
   if (section.contains("sensors")) {
@@ -130,15 +147,26 @@ identify::Record IdentifyQuestion::record(const RunContext& context, std::vector
   return reading(motion, sensors, seed, warnings);
 }
 
+identify::Estimate IdentifyQuestion::with_uncertainties(const identify::Reader& read,
+                                                        const identify::Record& record) const {
+  return identify::with_uncertainties(read, record, methods_.constants, methods_.uncertainties);
+}
+
 Answer IdentifyQuestion::run(const RunContext& context) const {
   std::vector<std::string> warnings;
   const identify::Record data = record(context, warnings);
   std::ranges::move(unused_options(methods_.options, methods_.list), std::back_inserter(warnings));
   std::vector<identify::Estimate> estimates;
   for (const identify::MethodEntry* method : methods_.list)
-    estimates.push_back(identify::run_with_uncertainties(*method, data, methods_.constants, methods_.uncertainties,
-                                                         method->own(methods_.options)));
-  Answer answer = answer_of(estimates, data);
+    estimates.push_back(with_uncertainties(
+        [&](const identify::Record& read, const identify::KnownConstants& constants) {
+          return method->run(read, constants, method->own(methods_.options));
+        },
+        data));
+  identify::Ledger ledger = identify::ledger_of(data, methods_.constants, methods_.ledger);
+  if (ledger.joint && methods_.uncertainties.any())
+    ledger.joint = with_uncertainties(joint_estimate(methods_.ledger), data);
+  Answer answer = answer_of(identify::concluded(std::move(estimates), std::move(ledger)), data);
   answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
   return answer;
 }

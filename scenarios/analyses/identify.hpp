@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
@@ -27,6 +28,7 @@ class IdentifyQuestion final : public Question {
     identify::KnownConstants constants;
     identify::ConstantUncertainties uncertainties;
     identify::OptionValues options;
+    identify::LedgerOptions ledger;
   };
 
   IdentifyQuestion(identify::MeasuredRecord data, Methods methods)
@@ -42,6 +44,7 @@ class IdentifyQuestion final : public Question {
 
  private:
   identify::Record record(const RunContext& context, std::vector<std::string>& warnings) const;
+  identify::Estimate with_uncertainties(const identify::Reader& read, const identify::Record& record) const;
 
   std::variant<identify::MeasuredRecord, Synthetic> source_;
   Methods methods_;

@@ -9,40 +9,131 @@ function ellipse(estimate) {
   if (!(l > 0)) return null;
   const m = c[0][1] / l;
   const n = Math.sqrt(Math.max(c[1][1] - m * m, 0));
-  const angles = Array.from({ length: 121 }, (_, i) => (2 * Math.PI * i) / 120);
-  return { x: angles.map((a) => estimate.zeta + reach * l * Math.cos(a)), y: angles.map((a) => estimate.F0 + reach * (m * Math.cos(a) + n * Math.sin(a))) };
+  const angles = Array.from({length: 121}, (_, i) => (2 * Math.PI * i) / 120);
+  return {
+    x: angles.map((a) => estimate.zeta + reach * l * Math.cos(a)),
+    y: angles.map((a) => estimate.F0 + reach * (m * Math.cos(a) + n * Math.sin(a)))
+  };
+}
+
+const range = (interval, unit = '') =>
+    (interval && interval[0] !== null ? `95 %: ${short(interval[0], 4)} to ${short(interval[1], 4)}${unit}` :
+                                        'no interval');
+
+/** The answer with its ranges, or that there is none and why. */
+function answerBox({answer, answer_reason: reason}) {
+  if (!answer)
+    return make(
+        'section', {class: 'answer'}, make('h2', {}, 'No answer'),
+        make('p', {'data-path': 'answer_reason'}, reason));
+  const shown =
+      [['ζ', 'zeta', ''], ['F0', 'F0', ' N'], ['c', 'c', ' N.s/m']].filter(([, key]) => answer[key] !== null);
+  return make(
+      'section', {class: 'answer'}, make('h2', {}, 'Answer'),
+      make(
+          'dl', {class: 'numbers'},
+          shown.map(
+              ([label, key, unit]) => make(
+                  'div', {}, make('dt', {}, label),
+                  make(
+                      'dd', {
+                        'data-path': `answer.${key}`,
+                        'data-value': JSON.stringify(answer[key]),
+                        title: String(answer[key])
+                      },
+                      short(answer[key], 5) + unit,
+                      make('small', {class: 'under'}, range(answer.interval95?.[key], unit)))))),
+      make('p', {}, `By ${answer.method}: ${reason}.`));
+}
+
+const standings = {
+  holds: ['✓ holds', 'good'],
+  violated: ['✗ violated', 'bad'],
+  untested: ['? untested', 'soft']
+};
+const shareOf = (value) =>
+    (value === null || value === undefined ? null : `${value < 0 ? '−' : '+'}${short(Math.abs(100 * value), 2)} %`);
+
+/** One line of the ledger: it wraps on a narrow screen instead of running out of it. */
+function ledgerLine(entry) {
+  const [words, mood] = standings[entry.status];
+  const changes = [['ζ', entry.zeta_change], ['F0', entry.F0_change]].filter(
+      ([, value]) => value !== null && value !== undefined);
+  const facts = [
+    entry.test, entry.p_value === null ? null : `p = ${short(entry.p_value, 2)}`,
+    changes.length ? `relaxed: ${changes.map(([name, value]) => `${name} ${shareOf(value)}`).join(', ')}` : null
+  ].filter(Boolean);
+  return make(
+      'div', {}, make('dt', {}, entry.name.replaceAll('_', ' '), ' ', make('span', {class: mood}, words)),
+      make(
+          'dd', {}, facts.length ? make('span', {}, facts.join('; ')) : null,
+          entry.reason ? make('small', {class: 'under'}, entry.reason) : null));
+}
+
+function ledger({assumptions, family_level: level, tested}) {
+  return [
+    heading('Ledger of assumptions'),
+    make(
+        'p', {class: 'soft'},
+        tested ?
+            `Tested in ${tested}; all tests together reject wrongly in ${short(100 * level, 2)} % of records.` :
+            'Nothing could be tested in this record.'),
+    make('dl', {class: 'ledger'}, assumptions.map(ledgerLine))
+  ];
 }
 
 function estimateTable(estimates) {
   const both = (value, interval, path) => ({
-    text: value === null ? "–" : make("span", {}, short(value, 5),
-      interval && interval[0] !== null ? make("small", { class: "under" }, ` ${short(interval[0], 4)} to ${short(interval[1], 4)}`) : null), path, value });
-  return grid(["method", "", "ζ (95 %)", "c [N.s/m] (95 %)", "x_f [m]", "F0 [N] (95 %)", "because"],
-    estimates.map((e, i) => [
-      { text: e.method, class: "text" },
-      { text: e.usable ? "✓ usable" : "✗ not usable", class: `text ${e.usable ? "good" : "bad"}` },
-      both(e.zeta, e.interval95?.zeta, `estimates[${i}].zeta`), both(e.c, e.interval95?.c, `estimates[${i}].c`),
-      both(e.x_f, null, `estimates[${i}].x_f`), both(e.F0, e.interval95?.F0, `estimates[${i}].F0`),
-      { text: e.diagnostics.reason, class: "long" }]), { caption: "Estimates" });
+    text: value === null ?
+        '–' :
+        make(
+            'span', {}, short(value, 5),
+            interval && interval[0] !== null ?
+                make('small', {class: 'under'}, ` ${short(interval[0], 4)} to ${short(interval[1], 4)}`) :
+                null),
+    path,
+    value
+  });
+  return grid(
+      ['method', '', 'ζ (95 %)', 'c [N.s/m] (95 %)', 'x_f [m]', 'F0 [N] (95 %)', 'because'],
+      estimates.map(
+          (e, i) =>
+              [{text: e.method, class: 'text'},
+               {text: e.usable ? '✓ usable' : '✗ not usable', class: `text ${e.usable ? 'good' : 'bad'}`},
+               both(e.zeta, e.interval95?.zeta, `estimates[${i}].zeta`),
+               both(e.c, e.interval95?.c, `estimates[${i}].c`), both(e.x_f, null, `estimates[${i}].x_f`),
+               both(e.F0, e.interval95?.F0, `estimates[${i}].F0`), {text: e.diagnostics.reason, class: 'long'}]),
+      {caption: 'Estimates'});
 }
 
 /** Curves that came with the estimates: METHOD_NAME.csv, the first column against each of the others. */
 function estimateCurves(estimates) {
   const out = [];
-  for (const { method } of estimates) for (const [name, { columns }] of Object.entries(tables)) {
-    if (!name.startsWith(`${method}_`) || columns.length < 2) continue;
-    const [x, ...rest] = columns;
-    out.push(chart({ title: `${name.slice(method.length + 1).replaceAll("_", " ")}, ${method}`,
-      x: { label: x.name, unit: x.unit }, y: { label: rest.map((column) => column.name).join(", "), unit: rest[0].unit },
-      series: rest.map((column, i) => ({ label: column.name, x: x.values, y: column.values, width: 1.1,
-        kind: column.name === "measured" ? "points" : i > 0 ? "dashed" : "line" })) }));
-  }
+  for (const {method} of estimates)
+    for (const [name, {columns}] of Object.entries(tables)) {
+      if (!name.startsWith(`${method}_`) || columns.length < 2) continue;
+      const [x, ...rest] = columns;
+      out.push(chart({
+        title: `${name.slice(method.length + 1).replaceAll('_', ' ')}, ${method}`,
+        x: {label: x.name, unit: x.unit},
+        y: {label: rest.map((column) => column.name).join(', '), unit: rest[0].unit},
+        series: rest.map((column, i) => ({
+                           label: column.name,
+                           x: x.values,
+                           y: column.values,
+                           width: 1.1,
+                           kind: column.name === 'measured' ? 'points' :
+                               i > 0                        ? 'dashed' :
+                                                              'line'
+                         }))
+      }));
+    }
   return out;
 }
 
-function fitCharts({ fit, estimates }) {
+function fitCharts({fit, estimates}) {
   if (!fit?.points?.length) return [];
-  const { points } = fit;
+  const {points} = fit;
   const chosen = estimates.find((e) => e.method === fit.method);
   const excluded = new Set(chosen.diagnostics.excluded.map((e) => e.number));
   const isPairs = points[0].Y !== undefined;
@@ -50,61 +141,112 @@ function fitCharts({ fit, estimates }) {
   const sorted = [...points].sort((a, b) => x(a) - x(b));
   const used = points.filter((p) => !excluded.has(p.number));
   const left = points.filter((p) => excluded.has(p.number));
-  const label = isPairs ? { label: "input amplitude Y", unit: "m" } : { label: "number of the extreme", unit: "", whole: true };
-  const pick = (list, get) => ({ x: list.map(x), y: list.map(get) });
+  const label =
+      isPairs ? {label: 'input amplitude Y', unit: 'm'} : {label: 'number of the extreme', unit: '', whole: true};
+  const pick = (list, get) => ({x: list.map(x), y: list.map(get)});
   return [
-    chart({ title: isPairs ? "x-Y data and fit" : "Extremes and fit", note: fit.method, wide: true, x: label, y: { label: isPairs ? "output amplitude x" : "extreme x", unit: "m" },
-      series: [{ label: "fit", ...pick(sorted, (p) => p.fitted), colour: 0 }, { label: "used", kind: "points", ...pick(used, (p) => p.x), colour: 1 },
-        { label: "left out", kind: "open", ...pick(left, (p) => p.x), colour: 6 }] }),
-    chart({ title: "Residuals", note: fit.method, x: label, y: { label: "data − fit", unit: "m" },
-      series: [{ label: "used", kind: "points", ...pick(used, (p) => (p.fitted === null ? null : p.x - p.fitted)), colour: 1 }] }),
+    chart({
+      title: isPairs ? 'x-Y data and fit' : 'Extremes and fit',
+      note: fit.method,
+      wide: true,
+      x: label,
+      y: {label: isPairs ? 'output amplitude x' : 'extreme x', unit: 'm'},
+      series: [
+        {label: 'fit', ...pick(sorted, (p) => p.fitted), colour: 0},
+        {label: 'used', kind: 'points', ...pick(used, (p) => p.x), colour: 1},
+        {label: 'left out', kind: 'open', ...pick(left, (p) => p.x), colour: 6}
+      ]
+    }),
+    chart({
+      title: 'Residuals',
+      note: fit.method,
+      x: label,
+      y: {label: 'data − fit', unit: 'm'},
+      series: [{
+        label: 'used',
+        kind: 'points',
+        ...pick(used, (p) => (p.fitted === null ? null : p.x - p.fitted)),
+        colour: 1
+      }]
+    }),
   ];
 }
 
 function subsetCharts(estimates) {
-  return estimates.filter((e) => e.diagnostics.subsets?.length > 1).map((e) => {
-    const { subsets } = e.diagnostics;
-    const at = subsets.map((_, i) => i + 1);
-    const damping = subsets.some((s) => s.zeta !== null) ? ["zeta", "ζ", ""] : ["c", "c", "N.s/m"];
-    return [damping, ["F0", "F0", "N"]].map(([key, label, unit], colour) => chart({
-      title: `${label} from parts of the data`, note: `${e.method}; ${subsets.map((s, i) => `${i + 1}: ${s.label}`).join(", ")}`,
-      x: { label: "part", unit: "", whole: true }, y: { label, unit }, series: [{ label, x: at, y: subsets.map((s) => s[key]), kind: "points", colour }] }));
-  }).flat();
+  return estimates.filter((e) => e.diagnostics.subsets?.length > 1)
+      .map((e) => {
+        const {subsets} = e.diagnostics;
+        const at = subsets.map((_, i) => i + 1);
+        const damping = subsets.some((s) => s.zeta !== null) ? ['zeta', 'ζ', ''] : ['c', 'c', 'N.s/m'];
+        return [damping, ['F0', 'F0', 'N']].map(
+            ([key, label, unit], colour) => chart({
+              title: `${label} from parts of the data`,
+              note: `${e.method}; ${subsets.map((s, i) => `${i + 1}: ${s.label}`).join(', ')}`,
+              x: {label: 'part', unit: '', whole: true},
+              y: {label, unit},
+              series: [{label, x: at, y: subsets.map((s) => s[key]), kind: 'points', colour}]
+            }));
+      })
+      .flat();
 }
 
 function identifyView(result) {
-  const { estimates } = result;
+  const {estimates} = result;
   // The covariance is that of the damping ratio: without a spring there is none.
   const known = estimates.filter((e) => e.zeta !== null && e.F0 !== null);
   const series = known.flatMap((e, i) => {
     const around = ellipse(e);
-    return [{ label: e.method, kind: e.usable ? "points" : "open", x: [e.zeta], y: [e.F0], colour: i },
-      ...(around ? [{ label: e.method, ...around, width: 1, colour: i }] : [])];
+    return [
+      {label: e.method, kind: e.usable ? 'points' : 'open', x: [e.zeta], y: [e.F0], colour: i},
+      ...(around ? [{label: e.method, ...around, width: 1, colour: i}] : [])
+    ];
   });
-  return [...fitCharts(result),
-    known.length ? chart({ title: "Damping ratio and friction force", note: "the 95 % ellipse: the two are correlated; open where the method does not stand by its number",
-      x: { label: "ζ", unit: "" }, y: { label: "F0", unit: "N" }, series }) : null,
-    ...estimateCurves(estimates), ...subsetCharts(estimates)];
+  return [
+    ...fitCharts(result),
+    known.length ? chart({
+      title: 'Damping ratio and friction force',
+      note: 'the 95 % ellipse: the two are correlated; open where the method does not stand by its number',
+      x: {label: 'ζ', unit: ''},
+      y: {label: 'F0', unit: 'N'},
+      series
+    }) :
+                   null,
+    ...estimateCurves(estimates), ...subsetCharts(estimates)
+  ];
 }
 
-function furtherTables({ estimates }) {
+function furtherTables({estimates}) {
   const out = [];
   for (const e of estimates) {
-    const { others, candidates } = e.diagnostics;
+    const {others, candidates} = e.diagnostics;
     if (others?.length)
-      out.push(heading(`Further parameters, ${e.method}`), grid(["parameter", "value", "unit", "standard error", "95 %"],
-        others.map((o) => [o.name, o.value, o.unit, o.std, o.interval95 ? `${short(o.interval95[0], 5)} to ${short(o.interval95[1], 5)}` : null])));
+      out.push(
+          heading(`Further parameters, ${e.method}`),
+          grid(
+              ['parameter', 'value', 'unit', 'standard error', '95 %'],
+              others.map(
+                  (o) =>
+                      [o.name, o.value, o.unit, o.std,
+                       o.interval95 ? `${short(o.interval95[0], 5)} to ${short(o.interval95[1], 5)}` : null])));
     if (candidates?.length)
-      out.push(heading(`Laws compared, ${e.method}`), grid(["law", "weight", "AICc", "BIC", "residual deviation [m]", "parameters"],
-        candidates.map((c) => [c.law, c.weight, c.AICc, c.BIC, c.residual_deviation, c.parameters.map((p) => `${p.name} ${short(p.value, 4)} ${p.unit}`).join(", ")])));
+      out.push(
+          heading(`Laws compared, ${e.method}`),
+          grid(
+              ['law', 'weight', 'AICc', 'BIC', 'residual deviation [m]', 'parameters'],
+              candidates.map(
+                  (c) =>
+                      [c.law, c.weight, c.AICc, c.BIC, c.residual_deviation,
+                       c.parameters.map((p) => `${p.name} ${short(p.value, 4)} ${p.unit}`).join(', ')])));
   }
   return out;
 }
 
 views.identify = {
-  before: ({ estimates }) => [heading("Estimates"), estimateTable(estimates)],
+  opens: (result) => [answerBox(result), ...ledger(result)],
+  before: ({estimates}) => [heading('Estimates'), estimateTable(estimates)],
+  shown: ['answer', 'answer_reason', 'family_level', 'tested'],
   charts: identifyView,
   after: furtherTables,
   // Why an estimate is not usable stands beside it.
-  said: ({ estimates }) => estimates.map((e) => `${e.method} is not usable: ${e.diagnostics.reason}`),
+  said: ({estimates}) => estimates.map((e) => `${e.method} is not usable: ${e.diagnostics.reason}`),
 };

@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
-#include "identify/verdict.hpp"
 #include "scenarios/results/cells.hpp"
+#include "scenarios/results/ledger.hpp"
 
 namespace dualdamp::scenarios {
-
-namespace {
 
 Json parameters_json(const identify::ParameterSet& set) {
   return {{"zeta", finite_or_null(set.zeta)},
@@ -26,6 +24,15 @@ Json interval_json(const identify::ParameterIntervals& intervals) {
           {"x_f", pair(intervals.x_f)},
           {"F0", pair(intervals.F0)}};
 }
+
+ResultFields parameter_fields(const std::string& prefix, const std::string& suffix, const std::string& what) {
+  return {{prefix + "zeta" + suffix, "1", what + "damping ratio"},
+          {prefix + "c" + suffix, "N.s/m", what + "damping"},
+          {prefix + "x_f" + suffix, "m", what + "friction displacement F0/k"},
+          {prefix + "F0" + suffix, "N", what + "friction force"}};
+}
+
+namespace {
 
 Json lack_of_fit_json(const identify::LackOfFit& test) {
   return {{"test", test.test},
@@ -230,13 +237,16 @@ std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f,
   return extremes;
 }
 
-/// The data beside what the first estimate with a curve makes of them; a usable one comes first.
-Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
+/// The data beside what an estimate with a curve makes of them: the answer, else a usable one, else the first.
+Json fit_json(const identify::Identification& found, const identify::Record& record) {
+  const std::vector<identify::Estimate>& estimates = found.estimates;
   const auto has_curve = [](const identify::Estimate& estimate) {
     return estimate.outcome.ok() && (estimate.line || estimate.decay);
   };
-  auto chosen = std::ranges::find_if(
-      estimates, [&](const identify::Estimate& estimate) { return estimate.usable && has_curve(estimate); });
+  auto chosen = found.answer ? estimates.begin() + static_cast<std::ptrdiff_t>(*found.answer) : estimates.end();
+  if (chosen == estimates.end() || !has_curve(*chosen))
+    chosen = std::ranges::find_if(
+        estimates, [&](const identify::Estimate& estimate) { return estimate.usable && has_curve(estimate); });
   if (chosen == estimates.end()) chosen = std::ranges::find_if(estimates, has_curve);
   if (chosen == estimates.end()) return nullptr;
 
@@ -254,14 +264,6 @@ Json fit_json(const std::vector<identify::Estimate>& estimates, const identify::
       points.push_back({{"number", i + 1}, {"x", extremes[i]}, {"fitted", finite_or_null(fitted[i])}});
   }
   return {{"method", chosen->method}, {"points", points}};
-}
-
-/// The four parameters under `prefix`.
-ResultFields parameters(const std::string& prefix, const std::string& suffix, const std::string& what) {
-  return {{prefix + "zeta" + suffix, "1", what + "damping ratio"},
-          {prefix + "c" + suffix, "N.s/m", what + "damping"},
-          {prefix + "x_f" + suffix, "m", what + "friction displacement F0/k"},
-          {prefix + "F0" + suffix, "N", what + "friction force"}};
 }
 
 ResultFields diagnostics() {
@@ -308,27 +310,29 @@ ResultFields diagnostics() {
                  {at + "candidates[].BIC", "1", "Bayesian criterion"},
                  {at + "candidates[].weight", "1", "Akaike weight"},
                  {at + "warnings[]", "", "further diagnostics"}},
-                parameters(at + "subsets[].", "", "from a part of the data: "));
+                parameter_fields(at + "subsets[].", "", "from a part of the data: "));
 }
 
 }  // namespace
 
 ResultFields estimate_fields() {
-  ResultFields fields = {{"estimates[].method", "", "name of the method"},
-                         {"estimates[].usable", "", "the method stands by its number"}};
-  fields = joined(fields, parameters("estimates[].", "", ""));
-  fields = joined(fields, parameters("estimates[].std.", "", "standard error of the "));
-  fields = joined(fields, parameters("estimates[].interval95.", "[]", "95 % interval of the "));
+  ResultFields fields =
+      joined(ledger_fields(), {{"estimates[].method", "", "name of the method"},
+                               {"estimates[].usable", "", "nothing that is known speaks against the number"}});
+  fields = joined(fields, parameter_fields("estimates[].", "", ""));
+  fields = joined(fields, parameter_fields("estimates[].std.", "", "standard error of the "));
+  fields = joined(fields, parameter_fields("estimates[].interval95.", "[]", "95 % interval of the "));
   fields = joined(fields, diagnostics());
-  return joined(fields, {{"verdict", "", "what all estimates say together"},
-                         {"fit.method", "", "the method of the fit: the first usable one"},
+  return joined(fields, {{"verdict", "", "the answer, or why there is none, in plain words"},
+                         {"fit.method", "", "the method of the fit: that of the answer, else a usable one"},
                          {"fit.points[].number", "1", "number of the datum"},
                          {"fit.points[].Y", "m", "measured input amplitude"},
                          {"fit.points[].x", "m", "measured output amplitude or extreme"},
                          {"fit.points[].fitted", "m", "x by the fit"}});
 }
 
-Answer answer_of(const std::vector<identify::Estimate>& estimates, const identify::Record& record) {
+Answer answer_of(const identify::Identification& found, const identify::Record& record) {
+  const std::vector<identify::Estimate>& estimates = found.estimates;
   Answer answer;
   Json list = Json::array();
   std::string reasons;
@@ -349,8 +353,8 @@ Answer answer_of(const std::vector<identify::Estimate>& estimates, const identif
   }
   if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);
   answer.result["estimates"] = std::move(list);
-  answer.result["fit"] = fit_json(estimates, record);
-  answer.result["verdict"] = identify::verdict(estimates);
+  answer.result["fit"] = fit_json(found, record);
+  add_ledger(found, answer);
   answer.tables.push_back(readable_estimates(estimates));
   answer.tables.push_back(readable_others(estimates));
   answer.tables.push_back(estimate_table(estimates));

@@ -1,16 +1,24 @@
 #pragma once
 /// Estimates of identification methods as an answer: JSON, tables, and what they say together.
 
-#include <vector>
+#include <string>
 
 #include "identify/estimate.hpp"
+#include "identify/ledger/answer.hpp"
 #include "identify/record.hpp"
 #include "scenarios/results/answer.hpp"
 #include "scenarios/results/motion.hpp"
 
 namespace dualdamp::scenarios {
 
-[[nodiscard]] Answer answer_of(const std::vector<identify::Estimate>& estimates, const identify::Record& record);
+[[nodiscard]] Answer answer_of(const identify::Identification& found, const identify::Record& record);
+
+/// {zeta, c, x_f, F0}; null where there is none.
+[[nodiscard]] Json parameters_json(const identify::ParameterSet& set);
+[[nodiscard]] Json interval_json(const identify::ParameterIntervals& intervals);
+/// The four parameters under `prefix`.
+[[nodiscard]] ResultFields parameter_fields(const std::string& prefix, const std::string& suffix,
+                                            const std::string& what);
 
 [[nodiscard]] ResultFields estimate_fields();
 

@@ -49,6 +49,7 @@ ROOMS = {
         "models": [".", "statistics"],
         "uncertainty": [".", "statistics", "records", "models"],
         "methods": [".", "statistics", "records", "models", "uncertainty"],
+        "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
     },
     "scenarios": {
         ".": ["format", "results", "measurements", "analyses"],  # loads and runs

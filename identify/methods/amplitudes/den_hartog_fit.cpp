@@ -248,11 +248,12 @@ void test_fit(const AmplitudeLaw& law, const Fit& fit, Estimate& estimate, std::
   const double range = output_range(law.pairs());
   estimate.lack_of_fit = added_term_test(columns, residual, square, range, "quadratic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
-    faults.emplace_back("the pairs do not follow the amplitude law, so no single zeta and F0 describes them");
+    estimate.findings.emplace_back(
+        "the pairs do not follow the amplitude law, so no single zeta and F0 describes them");
   if (law.size() == 3 || law.frequencies() < 2) return;
   const auto detuned = added_term_test(columns, residual, fit.jacobian.col(2), range, "natural frequency F-test");
   if (detuned && detuned->fired)
-    faults.push_back(
+    estimate.findings.push_back(
         "the frequencies contradict wn = sqrt(k/m) (F test, p = " + core::format_number(detuned->p_value, 2) +
         "): with three or more of them the natural frequency can be fitted");
 }
@@ -382,6 +383,7 @@ constinit const MethodEntry den_hartog_fit_method{
     "denhartog1931, hundal1979, liang2004identifying",
     RecordKind::states,
     lacks_pairs,
-    call_of<den_hartog_fit>};
+    call_of<den_hartog_fit>,
+    AssumptionSet::all_but()};
 
 }  // namespace dualdamp::identify

@@ -69,7 +69,7 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
   estimate.lack_of_fit =
       added_term_test(columns.line, scattered.residuals, columns.square, scale, "quadratic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
-    faults.emplace_back(
+    estimate.findings.emplace_back(
         "the dissipation per path does not grow with the speed as Coulomb and viscous friction make it, so no "
         "single "
         "zeta and F0 describes these states");
@@ -193,6 +193,7 @@ constinit const MethodEntry energy_balance_method{
     "tomlinson1979, liang2006balancing",
     RecordKind::states,
     lacks_energy,
-    call_of<energy_balance>};
+    call_of<energy_balance>,
+    AssumptionSet::all_but(Assumption::constants, Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
 
 }  // namespace dualdamp::identify

@@ -310,7 +310,7 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
   judge_force_signs(estimate, rounding * range / line->moments.mean_Y, rounding * range, faults);
   const MonomialFit fit = fit_curve(*states, line->points, constants, estimate);
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
-    faults.emplace_back(
+    estimate.findings.emplace_back(
         "the fundamental of the friction force bends with the speed, so no single zeta and F0 describes it (see "
         "the "
         "curve friction_velocity)");
@@ -339,6 +339,7 @@ constinit const MethodEntry harmonic_balance_method{
     "iourtchenko2002, tomlinson1980",
     RecordKind::states,
     lacks_pairs,
-    call_of<harmonic_balance>};
+    call_of<harmonic_balance>,
+    AssumptionSet::all_but()};
 
 }  // namespace dualdamp::identify

@@ -219,14 +219,14 @@ void add_curve(const std::vector<LawFit>& fits, const std::vector<LawCandidate>&
   estimate.curves.push_back(std::move(curve));
 }
 
-void judge(const Test& test, Estimate& estimate, std::vector<std::string>& faults) {
+void judge(const Test& test, Estimate& estimate) {
   const LawCandidate& best = estimate.candidates.front();
   const bool plain = best.law == fundamental_laws().front().name;
   const bool fired = estimate.lack_of_fit && estimate.lack_of_fit->fired;
   if (fired)
-    faults.push_back("Coulomb + viscous friction is rejected (" + estimate.lack_of_fit->test +
-                     ", p = " + core::format_number(estimate.lack_of_fit->p_value, 2) + "); " + best.law +
-                     " ranks first, so no single zeta and F0 describes the pairs");
+    estimate.findings.push_back("Coulomb + viscous friction is rejected (" + estimate.lack_of_fit->test +
+                                ", p = " + core::format_number(estimate.lack_of_fit->p_value, 2) + "); " +
+                                best.law + " ranks first, so no single zeta and F0 describes the pairs");
   else if (!plain)
     estimate.warnings.push_back(best.law +
                                 " ranks before Coulomb + viscous friction, and the difference may be chance");
@@ -289,7 +289,7 @@ Estimate law_selection(const Record& record, const KnownConstants& constants, co
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * test->length, faults);
-  judge(*test, estimate, faults);
+  judge(*test, estimate);
   conclude(estimate, faults,
            "rests on " + std::to_string(test->pairs.size()) + " pairs at " + std::to_string(levels) +
                " levels, ranked by " + (by_AICc ? "AICc" : "BIC"));
@@ -306,6 +306,7 @@ constinit const MethodEntry law_selection_method{
     "burnham2002, schwarz1978, denhartog1931",
     RecordKind::states,
     lacks_pairs,
-    call_of<law_selection>};
+    call_of<law_selection>,
+    AssumptionSet::all_but()};
 
 }  // namespace dualdamp::identify

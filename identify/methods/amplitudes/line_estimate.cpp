@@ -213,13 +213,12 @@ Eigen::Matrix2d covariance(const Fit& fit, const ResonanceG& G, double scatter) 
   return jacobian * variance.asDiagonal() * jacobian.transpose();
 }
 
-void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate,
-                    std::vector<std::string>& faults) {
+void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate) {
   std::vector<std::size_t> all(used.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   estimate.lack_of_fit = friction_curvature_test(used, exact, {all});
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
-    faults.emplace_back(
+    estimate.findings.emplace_back(
         "the pairs do not lie on a straight line, so no single zeta and F0 describes them "
         "(see the fits of their lower parts)");
   }
@@ -336,7 +335,7 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * fit->moments.mean_Y * data->unit, faults);
   const std::vector<Datum> exact = exact_pairs(*data, used, fit->friction);
-  test_curvature(used, exact, estimate, faults);
+  test_curvature(used, exact, estimate);
   const auto line_through = [&](const std::vector<Datum>& pairs) {
     return line_of(moments_of(pairs), fit->lambda);
   };

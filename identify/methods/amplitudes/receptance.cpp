@@ -125,20 +125,15 @@ void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownCo
 /// Stiffness and mass as the motion shows them; harmonic balance alone puts them off by some percent.
 void list_real_part(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
   const Fit fit = real_part(states, constants.stiffness);
-  const std::optional<Eigen::MatrixXd> unit = unit_covariance(fit.columns);
   const double k = fit.coefficients[0];
   const double m = fit.coefficients[1];
-  if (!unit || !(k > 0.0) || !(m > 0.0)) {
+  if (!(k > 0.0) || !(m > 0.0)) {
     estimate.warnings.emplace_back("the real part of the inverse receptance shows no stiffness and mass");
     return;
   }
-  const double half_width = fit.freedom() < 1.0 ? 0.0 : quantile95(fit.freedom());
-  const double variance = fit.freedom() < 1.0 ? 0.0 : fit.variance();
-  const double omega_n = std::sqrt(k / m);
-  const Eigen::Vector2d slope(0.5 * omega_n / k, -0.5 * omega_n / m);
-  estimate.others.push_back(further("stiffness", "N/m", k, variance * (*unit)(0, 0), half_width));
-  estimate.others.push_back(
-      further("natural_frequency", "rad/s", omega_n, variance * slope.dot(*unit * slope), half_width));
+  // What the harmonics leave in the real part is more than noise does, so no interval is claimed.
+  estimate.others.push_back({"stiffness", "N/m", k, std::nullopt, std::nullopt});
+  estimate.others.push_back({"natural_frequency", "rad/s", std::sqrt(k / m), std::nullopt, std::nullopt});
   constexpr double largest = 0.1;
   if (std::abs(k / constants.stiffness - 1.0) > largest)
     estimate.warnings.push_back("the real part shows a stiffness " + percent(k / constants.stiffness - 1.0) +
@@ -191,8 +186,7 @@ void list_limacon(const std::vector<Pair>& states, const KnownConstants& constan
 }
 
 /// A friction that grows with the amplitude adds w^2 X to the imaginary part.
-void test_amplitude(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate,
-                    std::vector<std::string>& faults) {
+void test_amplitude(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
   const double c = estimate.value.c;
   const Fit fit = weighted_part(states, states, c, constants.stiffness);
   const Eigen::VectorXd residuals = weighted_residuals(states, estimate.value, constants);
@@ -205,7 +199,7 @@ void test_amplitude(const std::vector<Pair>& states, const KnownConstants& const
   estimate.lack_of_fit = added_term_test(fit.columns, residuals, term, values.maxCoeff() - values.minCoeff(),
                                          "quadratic friction F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
-    faults.emplace_back("the imaginary part is not that of Coulomb and viscous friction");
+    estimate.findings.emplace_back("the imaginary part is not that of Coulomb and viscous friction");
 }
 
 bool enough(const std::vector<Pair>& states, Estimate& estimate) {
@@ -261,7 +255,7 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
   constexpr double rounding = 1e-9;
   judge_force_signs(estimate, rounding * constants.stiffness / states->front().omega,
                     rounding * constants.stiffness * states->front().x, faults);
-  test_amplitude(*states, constants, estimate, faults);
+  test_amplitude(*states, constants, estimate);
   judge_own_reading(
       *states, constants, [&](const auto& exact) { return read(exact, constants); },
       "because the motion is not harmonic", estimate, faults);
@@ -283,6 +277,7 @@ constinit const MethodEntry receptance_method{
     "tomlinson1980",
     RecordKind::states,
     lacks_receptance,
-    call_of<receptance>};
+    call_of<receptance>,
+    AssumptionSet::all_but(Assumption::constants, Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
 
 }  // namespace dualdamp::identify

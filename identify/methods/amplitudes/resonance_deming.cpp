@@ -26,6 +26,7 @@ constinit const MethodEntry resonance_deming_method{
     "liang2004identifying, deming1943, fuller1987",
     RecordKind::pairs,
     lacks_resonance_pairs,
-    call_of<resonance_deming>};
+    call_of<resonance_deming>,
+    AssumptionSet::all_but()};
 
 }  // namespace dualdamp::identify

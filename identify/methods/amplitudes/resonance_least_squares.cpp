@@ -21,6 +21,7 @@ constinit const MethodEntry resonance_least_squares_method{
     "liang2004identifying",
     RecordKind::pairs,
     lacks_resonance_pairs,
-    call_of<resonance_least_squares>};
+    call_of<resonance_least_squares>,
+    AssumptionSet::all_but()};
 
 }  // namespace dualdamp::identify

@@ -171,6 +171,7 @@ constinit const MethodEntry resonance_two_point_method{
     "liang2004identifying",
     RecordKind::pairs,
     lacks_resonance_pairs,
-    call_of<resonance_two_point>};
+    call_of<resonance_two_point>,
+    AssumptionSet::all_but()};
 
 }  // namespace dualdamp::identify

@@ -134,11 +134,11 @@ void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
                        "): friction may have drifted within sweeps");
 }
 
-void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate,
-                    std::vector<std::string>& faults) {
+void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate) {
   estimate.lack_of_fit = friction_curvature_test(used, exact, sweep_blocks(used));
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
-    faults.emplace_back("the pairs of the sweeps do not lie on straight lines, so no single zeta describes them");
+    estimate.findings.emplace_back(
+        "the pairs of the sweeps do not lie on straight lines, so no single zeta describes them");
 }
 
 /// Degrees of freedom of a sum of two independent variances, after Welch and Satterthwaite.
@@ -249,7 +249,7 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
   judge_signs(estimate, 1e-9 * used.front().Y * data->unit, faults);
   // The exact law with one friction for all: its departure from a line is that of each sweep.
   const std::vector<Datum> exact = exact_pairs(*data, used, *friction);
-  test_curvature(used, exact, estimate, faults);
+  test_curvature(used, exact, estimate);
   judge_slopes(sweeps, *lines, estimate.warnings);
   const auto line_through = [](const std::vector<Datum>& pairs) {
     return line_of(moments_of(pairs), std::numeric_limits<double>::infinity());
@@ -275,6 +275,7 @@ constinit const MethodEntry resonance_within_sweep_method{
     "liang2004identifying, draper1998, welch1947",
     RecordKind::pairs,
     lacks_sweeps,
-    call_of<resonance_within_sweep>};
+    call_of<resonance_within_sweep>,
+    AssumptionSet::all_but(Assumption::stationarity)};
 
 }  // namespace dualdamp::identify

@@ -119,7 +119,7 @@ std::vector<Pair> exact_states(const std::vector<Pair>& states, const ParameterS
 void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& constants,
                        const std::function<std::optional<ParameterSet>(const std::vector<Pair>&)>& read,
                        const std::string& because, Estimate& estimate, std::vector<std::string>& faults) {
-  const ParameterSet& value = estimate.value;
+  const ParameterSet value = estimate.value;
   if (!(value.zeta > 0.0) || !(value.x_f >= 0.0)) return;
   const std::vector<Pair> exact = exact_states(states, value, constants);
   const std::optional<ParameterSet> own = exact.size() < 2 ? std::nullopt : read(exact);

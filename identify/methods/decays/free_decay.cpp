@@ -299,7 +299,7 @@ Estimate free_decay(const Record& record, const KnownConstants& constants, const
   estimate.lack_of_fit = added_term_test(model.jacobian(solution->fit), solution->fit.residual,
                                          model.cubic_term(solution->fit), 2.0 * X_0, "cubic term F-test");
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
-    faults.emplace_back(
+    estimate.findings.emplace_back(
         "the extremes do not decay as viscous and Coulomb friction make them, so no single zeta and F0 "
         "describes them (see the estimates from each four)");
   }
@@ -320,6 +320,7 @@ constinit const MethodEntry free_decay_method{
     "feeny1996decrement, liang1998decrement",
     RecordKind::decay,
     lacks_decay,
-    call_of<free_decay>};
+    call_of<free_decay>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

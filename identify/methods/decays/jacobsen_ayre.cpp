@@ -112,6 +112,7 @@ constinit const MethodEntry jacobsen_ayre_method{
     "jacobsen1958, liang1998decrement",
     RecordKind::decay,
     lacks_decay,
-    call_of<jacobsen_ayre>};
+    call_of<jacobsen_ayre>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

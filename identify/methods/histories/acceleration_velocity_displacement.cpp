@@ -143,13 +143,13 @@ void judge_condition(const CorrelatedFit& fit, Estimate& estimate) {
 }
 
 /// Real friction is never quite straight over speed: a bend of no weight is said and does not spoil the estimate.
-void judge_curvature(Estimate& estimate, std::vector<std::string>& faults) {
+void judge_curvature(Estimate& estimate) {
   if (!estimate.lack_of_fit) return;
   LackOfFit& test = *estimate.lack_of_fit;
   test.least_effect = 0.02;
   test.fired = test.p_value < test.level && test.effect > test.least_effect;
   if (test.fired)
-    faults.emplace_back("friction over speed is not a straight line (see the curve friction_velocity)");
+    estimate.findings.emplace_back("friction over speed is not a straight line (see the curve friction_velocity)");
   else if (test.p_value < test.level && test.effect > 5e-4)
     estimate.warnings.push_back("friction over speed bends by " + percent(test.effect).substr(1) +
                                 " of its largest value, more than chance explains");
@@ -261,7 +261,7 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   judge_condition(fit, estimate);
   estimate.lack_of_fit = correlated_term_test(regression.rows.columns, regression.rows.target, regression.rows.drag,
                                               regression.rows.blocks, scale, "v|v| term t-test");
-  judge_curvature(estimate, faults);
+  judge_curvature(estimate);
   compare_cutoffs(histories, regression, columns, constants, options, estimate, faults);
   conclude(estimate, faults,
            "rests on " + std::to_string(regression.rows.target.size()) + " samples of " +
@@ -279,6 +279,7 @@ constinit const MethodEntry acceleration_velocity_displacement_method{
     "chen1996, janot2019",
     RecordKind::history,
     lacks_histories,
-    call_of<acceleration_velocity_displacement>};
+    call_of<acceleration_velocity_displacement>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

@@ -268,6 +268,7 @@ constinit const MethodEntry extended_kalman_method{
     "liang2004identifying, detchmendy1966",
     RecordKind::history,
     lacks_histories,
-    call_of<extended_kalman>};
+    call_of<extended_kalman>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

@@ -153,6 +153,7 @@ constinit const MethodEntry random_decrement_method{
     "cole1973",
     RecordKind::history,
     lacks_histories,
-    call_of<random_decrement>};
+    call_of<random_decrement>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

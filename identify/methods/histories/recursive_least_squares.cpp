@@ -189,6 +189,7 @@ constinit const MethodEntry recursive_least_squares_method{
     "liang2004identifying, ljung1999",
     RecordKind::history,
     lacks_histories,
-    call_of<recursive_least_squares>};
+    call_of<recursive_least_squares>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

@@ -154,14 +154,14 @@ LackOfFit third_moment_test(const Blocks& blocks, const std::array<double, 7>& m
   return test;
 }
 
-void judge(double visible, const Estimate& estimate, std::vector<std::string>& faults,
+void judge(double visible, Estimate& estimate, std::vector<std::string>& faults,
            std::vector<std::string>& warnings) {
   constexpr double invisible = 30.0;
   if (visible > invisible)
     faults.push_back("the spring's force is " + core::format_number(visible, 3) +
                      " times the Coulomb friction on average: it does not show in the amplitude");
   if (estimate.lack_of_fit->fired)
-    faults.emplace_back("the amplitude is not distributed as Coulomb and viscous friction make it");
+    estimate.findings.emplace_back("the amplitude is not distributed as Coulomb and viscous friction make it");
   constexpr double small = 0.05;
   if (estimate.value.zeta > small)
     warnings.emplace_back("averaging is for small damping: at this one the estimates are some per cent off");
@@ -285,6 +285,7 @@ constinit const MethodEntry stochastic_averaging_method{
     "liang2004identifying, roberts1986",
     RecordKind::history,
     lacks_histories,
-    call_of<stochastic_averaging>};
+    call_of<stochastic_averaging>,
+    AssumptionSet::all_but(Assumption::drive)};
 
 }  // namespace dualdamp::identify

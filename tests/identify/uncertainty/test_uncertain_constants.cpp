@@ -28,7 +28,9 @@ Record decay(double R, double x_f, double noise, std::uint64_t seed) {
   return extremes(values);
 }
 
-const MethodEntry& free_decay_method() { return *find_method("free_decay"); }
+Estimate by_free_decay(const Record& record, const KnownConstants& known) {
+  return find_method("free_decay")->run(record, known);
+}
 
 /// Half width of an interval, squared.
 double square(const std::array<double, 2>& interval) {
@@ -41,9 +43,9 @@ double square(const std::array<double, 2>& interval) {
 TEST_CASE("Uncertain constants widen the intervals by what they do to the estimate") {
   // zeta and x_f follow from the extremes alone; F0 = k x_f and c = 2 zeta sqrt(m k).
   const Record record = decay(0.9, 2e-4, 2e-5, 1);
-  const Estimate exact = free_decay_method().run(record, constants);
+  const Estimate exact = by_free_decay(record, constants);
   const ConstantUncertainties uncertainties{.mass = 0.02 * mass, .stiffness = 0.03 * stiffness};
-  const Estimate wide = run_with_uncertainties(free_decay_method(), record, constants, uncertainties);
+  const Estimate wide = with_uncertainties(by_free_decay, record, constants, uncertainties);
   REQUIRE(exact.interval95);
   REQUIRE(wide.interval95);
   CHECK(wide.value.F0 == exact.value.F0);
@@ -61,8 +63,8 @@ TEST_CASE("Uncertain constants widen the intervals by what they do to the estima
 
 TEST_CASE("The gain of a sensor that is uncertain makes lengths uncertain") {
   const Record record = decay(0.9, 2e-4, 2e-5, 2);
-  const Estimate exact = free_decay_method().run(record, constants);
-  const Estimate wide = run_with_uncertainties(free_decay_method(), record, constants, {.gain_x = 0.05});
+  const Estimate exact = by_free_decay(record, constants);
+  const Estimate wide = with_uncertainties(by_free_decay, record, constants, {.gain_x = 0.05});
   CHECK(wide.interval95->zeta[1] == Approx(exact.interval95->zeta[1]).epsilon(1e-6));
   CHECK(wide.std->x_f == Approx(std::hypot(exact.std->x_f, 0.05 * exact.value.x_f)).epsilon(1e-6));
 }
@@ -87,11 +89,11 @@ TEST_CASE("Intervals with stated uncertainties hold the truth as often as they s
     const double gain = 1.0 + 0.05 * normal();
     Record record = decay(R, x_f, 3e-6, static_cast<std::uint64_t>(9000 + seed));
     for (double& extreme : record.decay->extremes) extreme *= gain;
-    const Estimate estimate = run_with_uncertainties(free_decay_method(), record, stated, uncertainties);
+    const Estimate estimate = with_uncertainties(by_free_decay, record, stated, uncertainties);
     REQUIRE(estimate.interval95);
     with_F0 += holds(estimate.interval95->F0, stiffness * x_f);
     with_c += holds(estimate.interval95->c, c);
-    with_F0_unstated += holds(free_decay_method().run(record, stated).interval95->F0, stiffness * x_f);
+    with_F0_unstated += holds(by_free_decay(record, stated).interval95->F0, stiffness * x_f);
   }
   CHECK(with_F0 >= 0.92 * records);
   CHECK(with_F0 <= 0.98 * records);
@@ -101,7 +103,7 @@ TEST_CASE("Intervals with stated uncertainties hold the truth as often as they s
 }
 
 TEST_CASE("Sensitivities say what one percent of each constant would do") {
-  const std::vector<Sensitivity> list = sensitivities(free_decay_method(), decay(0.9, 2e-4, 0.0, 3), constants);
+  const std::vector<Sensitivity> list = sensitivities(by_free_decay, decay(0.9, 2e-4, 0.0, 3), constants);
   REQUIRE(list.size() == 2);
   for (const Sensitivity& one : list) {
     CAPTURE(one.constant);
@@ -113,8 +115,8 @@ TEST_CASE("Sensitivities say what one percent of each constant would do") {
 
 TEST_CASE("Where a constant cannot be lower by its uncertainty, the higher one alone counts") {
   const Record record = decay(0.9, 2e-4, 2e-5, 4);
-  const Estimate exact = free_decay_method().run(record, constants);
-  const Estimate wide = run_with_uncertainties(free_decay_method(), record, constants, {.mass = 1.2 * mass});
+  const Estimate exact = by_free_decay(record, constants);
+  const Estimate wide = with_uncertainties(by_free_decay, record, constants, {.mass = 1.2 * mass});
   const double change = (std::sqrt(2.2) - 1.0) * exact.value.c;
   CHECK(wide.std->c == Approx(std::hypot(exact.std->c, change)).epsilon(1e-6));
 }

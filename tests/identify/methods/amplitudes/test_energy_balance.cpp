@@ -182,7 +182,7 @@ TEST_CASE("Friction that bends is told by the energy balance") {
   REQUIRE(balance(accounts, bearing, e, faults));
   REQUIRE(e.lack_of_fit.has_value());
   CHECK(e.lack_of_fit->fired);
-  CHECK(faults.size() == 1);
+  CHECK(e.findings.size() == 1);
 }
 
 TEST_CASE("Histories of any motion give the energy balance") {

@@ -43,8 +43,9 @@ TEST_CASE("Derivatives of the sampled motion are those of differences") {
   const SampledOscillator::Parameters at{1.042, c, 1568.0, F0, 3e-3, 0.05};
   const std::vector<By> by{By::mass, By::damping, By::stiffness, By::friction, By::position, By::velocity};
   Eigen::VectorXd x;
-  Eigen::MatrixXd S;
-  REQUIRE(oscillator.run(at, by, x, &S));
+  SampledOscillator::Derivatives derivatives;
+  REQUIRE(oscillator.run(at, by, x, &derivatives));
+  const Eigen::MatrixXd& S = derivatives.x;
   double SampledOscillator::Parameters::* const members[] = {
       &SampledOscillator::Parameters::m,  &SampledOscillator::Parameters::c,  &SampledOscillator::Parameters::k,
       &SampledOscillator::Parameters::F0, &SampledOscillator::Parameters::x0, &SampledOscillator::Parameters::v0};

@@ -1,0 +1,399 @@
+#include "identify/ledger/amplitude_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "identify/ledger/amplitude_terms.hpp"
+#include "identify/methods/amplitudes/steady_states.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/statistics.hpp"
+#include "sim/analytic/den_hartog.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Standard deviations of the three channels.
+struct Deviations {
+  double x = 1.0;
+  double Y = 0.0;
+  double phase = 1.0;
+};
+
+/// Y and phase that a motion asks for.
+using Reading = Eigen::Vector2d;
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+Reading reading(std::complex<double> drive) { return {std::abs(drive), std::arg(drive)}; }
+
+/// Change of a reading by a small step, per unit of the step.
+template <typename At>
+Reading slope(const At& at, double step) {
+  const Reading up = reading(at(step));
+  const Reading down = reading(at(-step));
+  return Reading(up[0] - down[0], wrapped(up[1] - down[1])) / (2.0 * step);
+}
+
+constexpr double small = 1e-5;
+
+/// Plain friction, and a coefficient for each relaxation.
+struct Parameters {
+  PlainFriction friction;
+  Eigen::VectorXd g;
+};
+
+/// Rows of one linearisation, each over its deviation; rows of phases follow those of amplitudes.
+struct Rows {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd base;
+  Eigen::MatrixXd relaxed;
+  double log_variances = 0.0;  ///< half the log of the determinant of V
+};
+
+class SteadyStates {
+ public:
+  SteadyStates(std::vector<SteadyPoint> points, bool with_phases) : points_(std::move(points)) {
+    for (const SteadyPoint& point : points_) {
+      true_x_.push_back(point.x);
+      frequencies_.insert(std::lround(1e4 * point.r));
+      sweeps_ = std::max(sweeps_, point.sweep + 1);
+      phases_ += with_phases && !std::isnan(point.phase) ? 1 : 0;
+    }
+    with_phases_ = phases_ >= 2;
+    for (const AmplitudeTerm& term : amplitude_terms()) {
+      const bool by_frequency = term.several_frequencies && frequencies_.size() < 2;
+      if (!by_frequency) terms_.push_back(&term);
+    }
+  }
+
+  [[nodiscard]] const std::vector<SteadyPoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<const AmplitudeTerm*>& terms() const { return terms_; }
+  [[nodiscard]] bool with_phases() const { return with_phases_; }
+  [[nodiscard]] std::size_t frequencies() const { return frequencies_.size(); }
+  [[nodiscard]] int sweeps() const { return sweeps_; }
+  [[nodiscard]] Eigen::Index amplitudes() const { return static_cast<Eigen::Index>(points_.size()); }
+  [[nodiscard]] Eigen::Index phases() const { return with_phases_ ? phases_ : 0; }
+
+  [[nodiscard]] std::vector<Relaxation> relaxations() const {
+    std::vector<Relaxation> list;
+    for (const AmplitudeTerm* term : terms_) list.push_back({term->assumption, std::string(term->test)});
+    for (int j = 0; j < contrasts(); ++j)
+      list.push_back({Assumption::stationarity, "friction force of sweep " + std::to_string(j + 1) + " free"});
+    return list;
+  }
+
+  /// Linearised at the parameters and the true amplitudes of the last call, which are then moved.
+  Rows linearise(const Parameters& at, const Deviations& deviations) {
+    Rows rows;
+    const Eigen::Index count = amplitudes() + phases();
+    rows.residuals.resize(count);
+    rows.base.resize(count, 2);
+    rows.relaxed.setZero(count, at.g.size());
+    Eigen::Index phase_row = amplitudes();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const bool has_phase = with_phases_ && !std::isnan(points_[i].phase);
+      add_state(i, at, deviations, has_phase ? phase_row++ : -1, rows);
+    }
+    return rows;
+  }
+
+  /// Coefficients of all relaxations, each zero.
+  [[nodiscard]] Eigen::VectorXd none_relaxed() const {
+    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(terms_.size()) + contrasts());
+  }
+
+ private:
+  /// Sweeps whose friction force is set free; with very many of them the first.
+  [[nodiscard]] int contrasts() const {
+    constexpr int most = 8;
+    return sweeps_ < 2 ? 0 : sweeps_ == 2 ? 1 : std::min(sweeps_, most);
+  }
+
+  /// The drive that a state asks for, with every relaxation by its coefficient.
+  [[nodiscard]] std::complex<double> drive(const SteadyPoint& point, const Parameters& at, double x) const {
+    const auto first = static_cast<Eigen::Index>(terms_.size());
+    PlainFriction friction = at.friction;
+    if (point.sweep < contrasts()) friction.x_f += at.g[first + point.sweep];
+    const std::complex<double> plain = plain_drive(friction, x, point.r);
+    std::complex<double> sum = plain;
+    for (std::size_t j = 0; j < terms_.size(); ++j) {
+      const double g = at.g[static_cast<Eigen::Index>(j)];
+      if (g != 0.0) sum += terms_[j]->drive(friction, x, point.r, g) - plain;
+    }
+    return sum;
+  }
+
+  /// Column of a parameter: the change of the reading per unit of it.
+  template <typename Change>
+  [[nodiscard]] Reading column(const SteadyPoint& point, const Parameters& at, double x, double step,
+                               const Change& change) const {
+    return slope(
+        [&](double h) {
+          Parameters moved = at;
+          change(moved, h);
+          return drive(point, moved, x);
+        },
+        step);
+  }
+
+  void add_state(std::size_t i, const Parameters& at, const Deviations& deviations, Eigen::Index phase_row,
+                 Rows& rows) {
+    const SteadyPoint& point = points_[i];
+    double& xi = true_x_[i];
+    const bool has_phase = phase_row >= 0;
+    const Reading model = reading(drive(point, at, xi));
+    const Reading by_x = slope([&](double h) { return drive(point, at, xi + h); }, small);
+    Reading residual(point.Y - model[0], has_phase ? wrapped(point.phase - model[1]) : 0.0);
+    residual -= by_x * (point.x - xi);
+    if (!has_phase) residual[1] = 0.0;
+
+    Eigen::Matrix2d variance =
+        Eigen::Vector2d(deviations.Y * deviations.Y, deviations.phase * deviations.phase).asDiagonal();
+    const double x_variance = deviations.x * deviations.x;
+    variance += x_variance * by_x * by_x.transpose();
+    if (!has_phase) {
+      variance(0, 1) = variance(1, 0) = 0.0;
+      variance(1, 1) = 1.0;
+    }
+    const Eigen::LLT<Eigen::Matrix2d> factor(variance);
+    rows.log_variances += std::log(factor.matrixL()(0, 0)) + std::log(factor.matrixL()(1, 1));
+    const auto row = static_cast<Eigen::Index>(i);
+    const auto put = [&](const Reading& column, auto into) {
+      const Reading whitened = factor.matrixL().solve(column);
+      into(row) = whitened[0];
+      if (has_phase) into(phase_row) = whitened[1];
+    };
+    put(residual, rows.residuals.col(0));
+    put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3),
+               [](Parameters& p, double h) { p.friction.zeta += h; }),
+        rows.base.col(0));
+    put(column(point, at, xi, small, [](Parameters& p, double h) { p.friction.x_f += h; }), rows.base.col(1));
+    for (Eigen::Index j = 0; j < at.g.size(); ++j)
+      put(column(point, at, xi, small, [j](Parameters& p, double h) { p.g[j] += h; }), rows.relaxed.col(j));
+    const Reading solved = factor.solve(residual);
+    xi = std::max(point.x + x_variance * by_x.dot(solved), 1e-3 * point.x);
+  }
+
+  std::vector<SteadyPoint> points_;
+  std::vector<double> true_x_;
+  std::set<long> frequencies_;
+  std::vector<const AmplitudeTerm*> terms_;
+  int sweeps_ = 0;
+  Eigen::Index phases_ = 0;
+  bool with_phases_ = false;
+};
+
+struct Fit {
+  Parameters at;
+  Deviations deviations;
+  Rows rows;
+  double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
+};
+
+/// Relaxations that are fitted beside the friction, by their numbers.
+using Taken = std::vector<std::size_t>;
+
+Eigen::MatrixXd free_columns(const Rows& rows, const Taken& taken) {
+  Eigen::MatrixXd columns(rows.base.rows(), 2 + static_cast<Eigen::Index>(taken.size()));
+  columns.leftCols(2) = rows.base;
+  for (std::size_t j = 0; j < taken.size(); ++j)
+    columns.col(2 + static_cast<Eigen::Index>(j)) = rows.relaxed.col(static_cast<Eigen::Index>(taken[j]));
+  return columns;
+}
+
+/// Where to begin: the straight line of the quadrature at the mean frequency, by a grid in zeta.
+PlainFriction start(const std::vector<SteadyPoint>& points) {
+  PlainFriction best{0.05, 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  for (double zeta = 0.002; zeta < 0.9; zeta *= 1.25) {
+    for (double share = 0.0; share < 0.95; share += 0.05) {
+      // x_f as a share of what would take the whole drive of the lowest state.
+      const auto low = std::ranges::min_element(points, {}, &SteadyPoint::x);
+      const PlainFriction friction{zeta, share * low->x * 0.8};
+      double squares = 0.0;
+      for (const SteadyPoint& point : points) {
+        const double Y = std::abs(plain_drive(friction, point.x, point.r));
+        squares += std::pow(std::log(Y / point.Y), 2);
+      }
+      if (squares >= least) continue;
+      least = squares;
+      best = friction;
+    }
+  }
+  return best;
+}
+
+/// Of the curve that the noise of a channel is told from.
+Eigen::Index smooth_columns(const SteadyStates& states) { return states.frequencies() > 1 ? 6 : 3; }
+
+/// The noise of one channel: what a smooth curve over amplitude and frequency leaves of its residuals. A departure
+/// is smooth, too, and must not be taken for noise.
+double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
+                Eigen::Index count) {
+  Eigen::MatrixXd curve(count, smooth_columns(states));
+  Eigen::Index row = 0;
+  for (const SteadyPoint& point : states.points()) {
+    if (row == count || (first > 0 && std::isnan(point.phase))) continue;
+    const double x = point.x;
+    const double r = point.r - 1.0;
+    curve.row(row).head(3) << 1.0, x, x * x;
+    if (curve.cols() > 3) curve.row(row).tail(3) << r, r * r, r * r * r;
+    ++row;
+  }
+  const Eigen::VectorXd own = residuals.segment(first, count);
+  const Eigen::VectorXd left = own - curve * pivoted_least_squares(curve, own);
+  const double freedom = std::max(1.0, static_cast<double>(count - curve.cols()));
+  return std::sqrt(std::max(left.squaredNorm() / freedom, 1e-28));
+}
+
+/// One step of Gauss and Newton, held back.
+void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
+  const double most = 0.5 * at.friction.zeta;
+  at.friction.zeta = std::max(1e-5, at.friction.zeta + std::clamp(step[0], -most, most));
+  at.friction.x_f += std::clamp(step[1], -0.3, 0.3);
+  constexpr double most_relaxed = 0.2;
+  for (std::size_t j = 0; j < taken.size(); ++j)
+    at.g[static_cast<Eigen::Index>(taken[j])] +=
+        std::clamp(step[2 + static_cast<Eigen::Index>(j)], -most_relaxed, most_relaxed);
+}
+
+/// The fit where sigma_Y is `ratio` times sigma_x.
+Fit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio) {
+  Fit fit;
+  fit.at = {begin, states.none_relaxed()};
+  fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
+  constexpr int iterations = 14;
+  for (int i = 0; i < iterations; ++i) {
+    fit.rows = states.linearise(fit.at, fit.deviations);
+    const Eigen::MatrixXd columns = free_columns(fit.rows, taken);
+    const Eigen::VectorXd step = pivoted_least_squares(columns, fit.rows.residuals);
+    if (!step.allFinite()) return fit;
+    move(step, taken, fit.at);
+    if (i + 1 == iterations) break;
+    const Eigen::VectorXd left = fit.rows.residuals - columns * step;
+    const double amplitude = scale_of(states, left, 0, states.amplitudes());
+    fit.deviations.x *= amplitude;
+    fit.deviations.Y *= amplitude;
+    if (states.phases() > 0) fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
+  }
+  fit.rows = states.linearise(fit.at, fit.deviations);
+  const Eigen::MatrixXd columns = free_columns(fit.rows, taken);
+  const double left =
+      (fit.rows.residuals - columns * pivoted_least_squares(columns, fit.rows.residuals)).squaredNorm();
+  fit.deviance = left + 2.0 * fit.rows.log_variances;
+  return fit;
+}
+
+/// The best share of the deviations. At one frequency the gain of Y on x hardly varies and the record cannot tell:
+/// errors in x alone then, unless inputs that repeat say otherwise.
+Fit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken) {
+  Fit best = fit_with(states, begin, taken, 0.0);
+  if (states.frequencies() < 2 && states.phases() == 0) return best;
+  double slope = 0.0;  // of Y over x, about
+  for (const SteadyPoint& point : states.points())
+    slope += point.Y / point.x / static_cast<double>(states.points().size());
+  constexpr double clearly = 1.0;
+  for (const double ratio : {0.3 * slope, slope, 3.0 * slope, 1e4}) {
+    Fit fit = fit_with(states, begin, taken, ratio);
+    if (fit.deviance < best.deviance - clearly) best = std::move(fit);
+  }
+  return best;
+}
+
+bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction,
+                   std::vector<std::string>& said) {
+  if (!(friction.x_f > 0.0)) return false;
+  const std::size_t before = points.size();
+  std::erase_if(points, [&](const SteadyPoint& point) {
+    const double limit = sim::analytic::non_sticking_limit(sim::analytic::den_hartog(friction.zeta, point.r));
+    const bool sticks = !(point.x > limit * friction.x_f);
+    if (sticks) said.push_back("state " + std::to_string(point.number) + " sticks at the fit and is left out");
+    return sticks;
+  });
+  return points.size() < before;
+}
+
+std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownConstants& constants, double unit) {
+  const double natural = std::sqrt(constants.stiffness / constants.mass);
+  std::vector<std::string> labels;
+  std::vector<SteadyPoint> points;
+  for (const Pair& pair : states) {
+    auto label = std::ranges::find(labels, pair.sweep);
+    if (label == labels.end()) label = labels.insert(labels.end(), pair.sweep);
+    points.push_back({pair.Y / unit, pair.x / unit, pair.phase, pair.omega / natural,
+                      static_cast<int>(label - labels.begin()), pair.number});
+  }
+  return points;
+}
+
+/// A force in phase with the motion hardly changes the amplitude of a drive that is in quadrature, as it is at
+/// resonance: from amplitudes alone only an absurd one would be seen, and would be taken for what is not there.
+void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction, Eigen::MatrixXd& relaxed) {
+  if (states.with_phases()) return;
+  constexpr double seen = 0.2;
+  const std::vector<const AmplitudeTerm*>& terms = states.terms();
+  for (std::size_t j = 0; j < terms.size(); ++j) {
+    double radial = 0.0;
+    double whole = 0.0;
+    for (const SteadyPoint& point : states.points()) {
+      const std::complex<double> drive = plain_drive(friction, point.x, point.r);
+      const std::complex<double> change = terms[j]->drive(friction, point.x, point.r, small) - drive;
+      radial += std::pow(std::real(change * std::conj(drive)) / std::abs(drive), 2);
+      whole += std::norm(change);
+    }
+    if (radial < seen * seen * whole) relaxed.col(static_cast<Eigen::Index>(j)).setZero();
+  }
+}
+
+JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, const KnownConstants& constants) {
+  JointModel model;
+  model.data = std::to_string(states.points().size()) + " steady states" +
+               (states.with_phases() ? " with phases" : " without phases");
+  model.residuals = fit.rows.residuals;
+  model.base = fit.rows.base;
+  model.relaxations = states.relaxations();
+  model.relaxed = fit.rows.relaxed;
+  leave_out_unseen(states, fit.at.friction, model.relaxed);
+  model.spent = states.with_phases() ? 1.0 : 0.0;
+  model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
+  model.refit = [states, begin = fit.at.friction, unit, constants](const std::vector<std::size_t>& taken) {
+    return model_of(best_fit(states, begin, taken), states, unit, constants);
+  };
+  const double to_force = constants.stiffness * unit;
+  model.base.col(1) /= to_force;
+  model.value = parameters(fit.at.friction.zeta, fit.at.friction.x_f * unit, constants);
+  return model;
+}
+
+}  // namespace
+
+std::variant<JointModel, std::string> amplitude_model(const Record& record, const KnownConstants& constants) {
+  if (std::string fault = fault_of(constants); !fault.empty()) return fault;
+  Estimate taken;
+  const std::optional<std::vector<Pair>> pairs = take_states(record, constants, false, taken);
+  if (!pairs) return taken.reason;
+  constexpr std::size_t fewest = 4;
+  if (pairs->size() < fewest) return "fewer than four steady states";
+  const double unit = std::ranges::max_element(*pairs, {}, &Pair::x)->x;
+  std::vector<SteadyPoint> points = points_of(*pairs, constants, unit);
+  std::vector<std::string> said;
+  while (points.size() >= fewest) {
+    const SteadyStates states(points, true);
+    const Fit fit = best_fit(states, start(points), {});
+    if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
+    if (drop_sticking(points, fit.at.friction, said)) continue;
+    JointModel model = model_of(fit, states, unit, constants);
+    model.left_out = std::move(said);
+    return model;
+  }
+  return "fewer than four steady states do not stick";
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,81 @@
+#include "identify/ledger/amplitude_terms.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "sim/analytic/den_hartog.hpp"
+
+namespace dualdamp::identify {
+
+using Complex = std::complex<double>;
+
+namespace {
+
+constexpr Complex i{0.0, 1.0};
+
+}  // namespace
+
+Complex plain_drive(const PlainFriction& friction, double x, double r) {
+  const sim::analytic::DenHartog d = sim::analytic::den_hartog(friction.zeta, r);
+  const double x_f = friction.x_f;
+  const Complex stiffness((1.0 - r) * (1.0 + r), 2.0 * friction.zeta * r);
+  // From the turning point: the drive that the closed form asks for there, and what it leaves for the fundamental.
+  const Complex drive = Complex(x + d.G * x_f, -d.H * x_f) * stiffness;
+  const Complex fundamental = (drive - i * (4.0 / std::numbers::pi * x_f)) / stiffness;
+  return drive * std::polar(1.0, -std::arg(fundamental));
+}
+
+namespace {
+
+template <auto force>
+Complex with_force(const PlainFriction& friction, double x, double r, double g) {
+  return plain_drive(friction, x, r) + g * force(x, r);
+}
+
+// Fundamentals of forces: the real part is in phase with x, the imaginary part with its velocity.
+Complex cubic_spring(double x, double /*r*/) { return x * x * x; }
+Complex second_mode(double x, double r) { return -r * r * r * r * x; }
+Complex drag(double x, double r) { return i * (r * x) * (r * x); }
+Complex cubic_damping(double x, double r) { return i * std::pow(r * x, 3); }
+Complex low_speed(double x, double r) { return i / (r * x * r * x); }
+// A contact that yields before it slides loses a share of the work that falls as 1/x, and answers each reversal
+// with a restoring force whose fundamental goes as the root of its deflection over x.
+Complex presliding(double x, double /*r*/) { return i / x; }
+Complex presliding_stiffness(double x, double /*r*/) { return 1.0 / std::sqrt(x); }
+Complex position_slope(double x, double /*r*/) { return i * x; }
+
+Complex detuned(const PlainFriction& friction, double x, double r, double g) {
+  return plain_drive(friction, x, r * std::exp(g));
+}
+Complex gained(const PlainFriction& friction, double x, double r, double g) {
+  return plain_drive(friction, x * std::exp(g), r);
+}
+Complex lagging(const PlainFriction& friction, double x, double r, double g) {
+  return plain_drive(friction, x, r) * std::polar(1.0, g);
+}
+Complex delayed(const PlainFriction& friction, double x, double r, double g) {
+  return plain_drive(friction, x, r) * std::polar(1.0, g * r);
+}
+
+using enum Assumption;
+constexpr std::array<AmplitudeTerm, 12> terms = {{
+    {constants, "natural frequency free", false, detuned},
+    {sensors, "lag of the phase free", false, lagging},
+    {sensors, "delay of x free", true, delayed},
+    {sensors, "gain of x against y free", true, gained},
+    {spring, "cubic stiffness", false, with_force<cubic_spring>},
+    {one_mode, "residual inertia of a further mode", false, with_force<second_mode>},
+    {friction_velocity, "quadratic term over speed", false, with_force<drag>},
+    {friction_velocity, "cubic term over speed", false, with_force<cubic_damping>},
+    {friction_velocity, "force at low speed", false, with_force<low_speed>},
+    {friction_displacement, "deflection before sliding", false, with_force<presliding>},
+    {friction_displacement, "restoring force before sliding", false, with_force<presliding_stiffness>},
+    {friction_displacement, "slope over position", true, with_force<position_slope>},
+}};
+
+}  // namespace
+
+std::span<const AmplitudeTerm> amplitude_terms() { return terms; }
+
+}  // namespace dualdamp::identify

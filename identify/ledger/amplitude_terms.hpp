@@ -1,0 +1,49 @@
+#pragma once
+/// How assumptions may fail in steady states: the drive that a motion needs, with one of them relaxed.
+///
+/// A harmonic drive Y e^(i phi), phase counted from the fundamental of x, moves the mass by x. Coulomb and viscous
+/// friction alone need exactly D(x) = (Y, phi) of Den Hartog's closed form, read backwards. A further force whose
+/// fundamental is k e(x, w) adds e to D, to first order in its harmonics. So every relaxation is D with a
+/// coefficient g: a force g e, another frequency ratio, a gain or a lag.
+///
+/// Lengths in units of the largest output, frequencies over wn. Source: denhartog1931; the fundamentals of the
+/// forces as in harmonic_balance.
+
+#include <complex>
+#include <span>
+#include <string_view>
+
+#include "identify/assumption.hpp"
+
+namespace dualdamp::identify {
+
+/// Coulomb and viscous friction: zeta and x_f.
+struct PlainFriction {
+  double zeta = 0.0;
+  double x_f = 0.0;
+};
+
+/// D of plain friction, without the test whether the motion sticks.
+[[nodiscard]] std::complex<double> plain_drive(const PlainFriction& friction, double x, double r);
+
+/// The steady state that a term is evaluated at.
+struct SteadyPoint {
+  double Y = 0.0;
+  double x = 0.0;
+  double phase = 0.0;  ///< of x behind y [rad]; NaN: not measured
+  double r = 1.0;      ///< w/wn
+  int sweep = 0;
+  int number = 0;
+};
+
+struct AmplitudeTerm {
+  Assumption assumption;
+  std::string_view test;
+  bool several_frequencies;  ///< at one frequency it is another term, or none
+  std::complex<double> (*drive)(const PlainFriction& friction, double x, double r, double g);
+};
+
+/// The terms, by assumption.
+[[nodiscard]] std::span<const AmplitudeTerm> amplitude_terms();
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,218 @@
+#include "identify/ledger/answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/methods.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+std::string number(double value) {
+  constexpr int digits = 4;
+  return core::format_number(value, digits);
+}
+
+std::string joined(const std::vector<std::string>& list, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < list.size(); ++i) text += (i == 0 ? "" : i + 1 < list.size() ? ", " : last) + list[i];
+  return text;
+}
+
+std::string statements(const std::vector<Assumption>& list, const std::string& last) {
+  std::vector<std::string> texts;
+  for (const Assumption assumption : list) texts.emplace_back(statement_of(assumption));
+  return joined(texts, last);
+}
+
+/// What an estimate rests on; the joint model has relaxed what is violated.
+AssumptionSet rests_on(const Estimate& estimate) {
+  const MethodEntry* method = find_method(estimate.method);
+  return method == nullptr ? AssumptionSet() : method->rests_on;
+}
+
+void judge(Estimate& estimate, const Ledger& ledger) {
+  if (!estimate.outcome.ok()) return;
+  if (ledger.data.empty()) return;
+  if (!estimate.sound) return;
+  std::vector<Assumption> violated;
+  for (const LedgerEntry& entry : ledger.entries)
+    if (entry.standing == Standing::violated && rests_on(estimate).contains(entry.assumption))
+      violated.push_back(entry.assumption);
+  const bool contradicted = !estimate.usable;
+  estimate.usable = violated.empty();
+  if (!violated.empty())
+    estimate.reason = "it does not hold in this record that " + statements(violated, " or that ");
+  else if (contradicted)
+    estimate.reason = "the assumptions it rests on hold in this record";
+}
+
+/// A method whose bias is known states it in its interval alone: the middle of that is the corrected value. The
+/// bias of a line at resonance is mostly that of its formula, which is reported as it is unless its interval
+/// excludes it.
+void correct(Estimate& estimate) {
+  if (!estimate.outcome.ok() || !estimate.interval95) return;
+  const MethodEntry* method = find_method(estimate.method);
+  const bool always = method != nullptr && method->needs == RecordKind::history;
+  const auto move = [always](double& value, const std::array<double, 2>& interval) {
+    if (always || value < interval[0] || value > interval[1]) value = 0.5 * (interval[0] + interval[1]);
+  };
+  move(estimate.value.zeta, estimate.interval95->zeta);
+  move(estimate.value.c, estimate.interval95->c);
+  move(estimate.value.x_f, estimate.interval95->x_f);
+  move(estimate.value.F0, estimate.interval95->F0);
+}
+
+/// The area of the intervals; infinite where there are none.
+double area(const Estimate& estimate) {
+  if (!estimate.usable || !estimate.interval95) return std::numeric_limits<double>::infinity();
+  const ParameterIntervals& at = *estimate.interval95;
+  const double size = (at.c[1] - at.c[0]) * (at.F0[1] - at.F0[0]);
+  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+}
+
+/// The narrowest; of estimates without intervals the only one there is.
+std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
+  const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
+  const auto narrowest = std::ranges::min_element(estimates, {}, area);
+  if (narrowest == estimates.end()) return std::nullopt;
+  if (std::isfinite(area(*narrowest))) return place(narrowest);
+  if (std::ranges::count_if(estimates, &Estimate::usable) != 1) return std::nullopt;
+  return place(std::ranges::find_if(estimates, &Estimate::usable));
+}
+
+std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
+  std::vector<std::string> names;
+  for (const LedgerEntry& entry : ledger.entries)
+    if (entry.standing == standing) names.emplace_back(name_of(entry.assumption));
+  return names;
+}
+
+std::string why_preferred(const Identification& all) {
+  const auto rivals =
+      std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
+  std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
+                                             : "none of the assumptions it rests on is violated";
+  text +=
+      rivals > 1 ? ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest" : "";
+  const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
+  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + joined(untested, ", ");
+  return text;
+}
+
+/// What to measure or state so that there is an answer.
+std::string what_would_help(const Ledger& ledger) {
+  const auto violates = [&](Assumption assumption) { return ledger.is_violated(assumption); };
+  if (violates(Assumption::constants))
+    return "leave out --stiffness or --mass where the record can tell it, or measure them anew";
+  if (violates(Assumption::sensors)) return "calibrate the sensors against each other, or record the phase";
+  if (violates(Assumption::stationarity)) return "give the sweeps their labels, or measure them one by one";
+  if (violates(Assumption::spring) || violates(Assumption::one_mode))
+    return "measure at smaller amplitudes, or record the phase: the work of a forcing period does not depend on "
+           "the spring";
+  if (violates(Assumption::friction_displacement) || violates(Assumption::friction_velocity))
+    return "record the phase at several frequencies, or a history, and fit a law that has such a term";
+  if (violates(Assumption::symmetry)) return "measure each direction by itself";
+  return "more data, or less noise";
+}
+
+std::string why_none(const Identification& all) {
+  for (const std::vector<Assumption>& departure : all.ledger.departures)
+    return "it does not hold that " + statements(departure, ", or that ") +
+           "; what would help: " + what_would_help(all.ledger);
+  const auto there = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
+  if (there == all.estimates.end())
+    return all.estimates.empty() ? "" : all.estimates.front().method + ": " + all.estimates.front().outcome.reason;
+  if (there->usable) return there->method + " gives no interval; what would help: more data";
+  return there->method + ": " + there->reason;
+}
+
+std::string with_interval(double value, const std::optional<ParameterIntervals>& intervals,
+                          std::array<double, 2> ParameterIntervals::* member, const std::string& unit) {
+  std::string text = number(value) + unit;
+  if (intervals) {
+    const auto& [low, high] = (*intervals).*member;
+    text += " (95 %: " + number(low) + " to " + number(high) + unit + ")";
+  }
+  return text;
+}
+
+/// "c = 203.5 N.s/m" where there is no spring to make it a damping ratio.
+std::string numbers_of(const Estimate& estimate) {
+  const bool spring = std::isfinite(estimate.value.zeta);
+  const std::string damping =
+      spring ? "zeta = " + with_interval(estimate.value.zeta, estimate.interval95, &ParameterIntervals::zeta, "")
+             : "c = " + with_interval(estimate.value.c, estimate.interval95, &ParameterIntervals::c, " N.s/m");
+  return damping + ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, " N");
+}
+
+/// "It does not hold that ... (p = 0.002)", for each departure.
+std::string departures_text(const Ledger& ledger) {
+  std::string text;
+  for (const std::vector<Assumption>& departure : ledger.departures) {
+    const LedgerEntry& first = ledger.entry(departure.front());
+    text += " These data contradict that " + statements(departure, ", or that ") + " (" + first.test +
+            ", p = " + core::format_number(*first.p_value, 2) + ").";
+  }
+  return text;
+}
+
+std::string trend_text(const std::vector<Estimate>& estimates) {
+  const auto trend = std::ranges::find_if(estimates, [](const Estimate& e) { return e.subsets.size() > 1; });
+  if (trend == estimates.end()) return {};
+  const auto range = [&](double ParameterSet::* member) {
+    return number(trend->subsets.front().value.*member) + " to " + number(trend->subsets.back().value.*member);
+  };
+  return " From " + trend->subsets.front().label + " to " + trend->subsets.back().label +
+         " of the data zeta goes from " + range(&ParameterSet::zeta) + " and F0 from " + range(&ParameterSet::F0) +
+         " N.";
+}
+
+bool overlap(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  return a[0] <= b[1] && b[0] <= a[1];
+}
+
+bool disagree(const Estimate& a, const Estimate& b) {
+  if (!b.usable || !a.interval95 || !b.interval95) return false;
+  return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
+}
+
+std::string verdict_of(const Identification& all) {
+  std::string text = departures_text(all.ledger);
+  const bool of_friction = all.ledger.is_violated(Assumption::friction_velocity) ||
+                           all.ledger.is_violated(Assumption::friction_displacement);
+  if (!all.answer)
+    return (text.empty() ? "" : text.substr(1) + (of_friction ? trend_text(all.estimates) : "") + " ") +
+           "No estimate is to be used: " + all.reason + ".";
+  const Estimate& best = all.estimates[*all.answer];
+  const bool untested = all.ledger.data.empty();
+  text = numbers_of(best) + ", by " + best.method + ". " +
+         (!text.empty() ? text.substr(1)
+          : untested    ? "These data cannot tell whether friction is Coulomb + viscous."
+                        : "These data do not contradict any assumption that they can test.");
+  for (const Estimate& other : all.estimates)
+    if (disagree(best, other)) text += " " + other.method + " disagrees: " + numbers_of(other) + ".";
+  return text;
+}
+
+}  // namespace
+
+Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
+  Identification all{std::move(estimates), std::move(ledger), std::nullopt, {}, {}};
+  if (all.estimates.size() > 1 && all.ledger.joint) all.estimates.push_back(*all.ledger.joint);
+  for (Estimate& estimate : all.estimates) {
+    correct(estimate);
+    judge(estimate, all.ledger);
+  }
+  all.answer = preferred(all.estimates);
+  all.reason = all.answer ? why_preferred(all) : why_none(all);
+  const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
+  if (any) all.verdict = verdict_of(all);
+  return all;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,57 @@
+#include "identify/ledger/history_terms.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace dualdamp::identify {
+
+namespace {
+
+using At = SampledOscillator::Instant;
+
+double elongation(const At& at, const MotionScale& scale) { return (at.x - at.y) / scale.length; }
+double speed(const At& at, const MotionScale& scale) { return at.v / scale.speed; }
+
+double drive_gain(const At& at, const MotionScale& /*scale*/) { return -at.drive; }
+double cubic_spring(const At& at, const MotionScale& scale) { return std::pow(elongation(at, scale), 3); }
+double square_spring(const At& at, const MotionScale& scale) { return std::pow(elongation(at, scale), 2); }
+double friction_drift(const At& at, const MotionScale& /*scale*/) { return at.direction * (at.course - 0.5); }
+double damping_drift(const At& at, const MotionScale& scale) { return speed(at, scale) * (at.course - 0.5); }
+double drag(const At& at, const MotionScale& scale) { return at.direction * std::pow(speed(at, scale), 2); }
+double cubic_damping(const At& at, const MotionScale& scale) { return std::pow(speed(at, scale), 3); }
+// Shares of the largest speed and of the amplitude over which a Stribeck force and a presliding one fall.
+double low_speed(const At& at, const MotionScale& scale) {
+  constexpr double share = 0.1;
+  return at.direction * std::exp(-at.direction * speed(at, scale) / share);
+}
+double presliding(const At& at, const MotionScale& scale) {
+  constexpr double share = 0.03;
+  return -at.direction * std::exp(-at.way / (share * scale.length));
+}
+double position_slope(const At& at, const MotionScale& scale) {
+  return at.direction * std::abs(at.x) / scale.length;
+}
+double one_sided_friction(const At& /*at*/, const MotionScale& /*scale*/) { return 1.0; }
+double one_sided_damping(const At& at, const MotionScale& scale) { return at.direction * speed(at, scale); }
+
+using enum Assumption;
+constexpr std::array<HistoryTerm, 12> terms = {{
+    {sensors, "gain of the drive free", drive_gain},
+    {spring, "cubic stiffness", cubic_spring},
+    {spring, "quadratic stiffness", square_spring},
+    {stationarity, "friction force that drifts", friction_drift},
+    {stationarity, "damping that drifts", damping_drift},
+    {friction_velocity, "quadratic term over speed", drag},
+    {friction_velocity, "cubic term over speed", cubic_damping},
+    {friction_velocity, "force at low speed", low_speed},
+    {friction_displacement, "friction that builds up after a reversal", presliding},
+    {friction_displacement, "slope over position", position_slope},
+    {symmetry, "friction force of its own in each direction", one_sided_friction},
+    {symmetry, "damping of its own in each direction", one_sided_damping},
+}};
+
+}  // namespace
+
+std::span<const HistoryTerm> history_terms() { return terms; }
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,28 @@
+#pragma once
+/// How assumptions may fail in histories: forces beside those of the oscillator with plain friction.
+
+#include <span>
+#include <string_view>
+
+#include "identify/assumption.hpp"
+#include "identify/models/sampled_oscillator.hpp"
+
+namespace dualdamp::identify {
+
+/// What is large for the record.
+struct MotionScale {
+  double length = 1.0;  ///< m
+  double speed = 1.0;   ///< m/s
+};
+
+/// A force without unit, against the positive direction.
+struct HistoryTerm {
+  Assumption assumption;
+  std::string_view test;
+  double (*force)(const SampledOscillator::Instant& at, const MotionScale& scale);
+};
+
+/// The terms, by assumption.
+[[nodiscard]] std::span<const HistoryTerm> history_terms();
+
+}  // namespace dualdamp::identify

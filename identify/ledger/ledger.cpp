@@ -1,0 +1,230 @@
+#include "identify/ledger/ledger.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "core/numbers.hpp"
+#include "identify/ledger/amplitude_model.hpp"
+#include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/history_model.hpp"
+#include "identify/ledger/relaxation_tests.hpp"
+#include "identify/statistics/distributions.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/statistics.hpp"
+
+namespace dualdamp::identify {
+
+std::string_view name_of(Standing standing) {
+  constexpr std::array<std::string_view, 3> names = {"holds", "violated", "untested"};
+  return names[static_cast<std::size_t>(standing)];
+}
+
+namespace {
+
+using MaybeModel = std::variant<JointModel, std::string>;
+
+std::string rounded(double value) {
+  constexpr int digits = 2;
+  return core::format_number(value, digits);
+}
+
+std::string in_percent(double share) { return rounded(100.0 * share) + " %"; }
+
+/// The first of the models that the record allows; else why there is none.
+MaybeModel model_of(const Record& record, const KnownConstants& constants) {
+  MaybeModel model = std::string("the record holds nothing that can be tested");
+  if (!record.histories.empty()) model = history_model(record, constants);
+  if (std::holds_alternative<std::string>(model) && record.pairs) model = amplitude_model(record, constants);
+  if (std::holds_alternative<std::string>(model) && record.decay) model = decay_model(record, constants);
+  return model;
+}
+
+/// Changes over the values. Where a value is all but zero its own error is what a change is compared with.
+class Scale {
+ public:
+  Scale(const JointModel& model, double freedom)
+      : zeta_(std::abs(model.value.zeta)), F0_(std::abs(model.value.F0)) {
+    const std::optional<Eigen::MatrixXd> covariance = unit_covariance(model.base);
+    if (!covariance || !(freedom > 0.0)) return;
+    const double deviation = std::sqrt(model.residuals.squaredNorm() / std::max(1.0, freedom));
+    zeta_ = std::max(zeta_, deviation * std::sqrt((*covariance)(0, 0)));
+    F0_ = std::max(F0_, deviation * std::sqrt((*covariance)(1, 1)));
+  }
+  [[nodiscard]] double zeta(double change) const { return change / zeta_; }
+  [[nodiscard]] double F0(double change) const { return change / F0_; }
+
+ private:
+  double zeta_;
+  double F0_;
+};
+
+class Writer {
+ public:
+  Writer(const JointModel& model, const RelaxationTests& tests, const LedgerOptions& options)
+      : model_(model), tests_(tests), options_(options), scale_(model, tests.freedom) {}
+
+  void write(Ledger& ledger) {
+    for (const Departure& departure : tests_.departures) charge(departure, ledger);
+    for (const RelaxationTest& test : tests_.tests) hold(test, ledger);
+    for (LedgerEntry& entry : ledger.entries)
+      if (entry.standing == Standing::untested) explain(entry);
+  }
+
+ private:
+  [[nodiscard]] Assumption assumption_of(const RelaxationTest& test) const {
+    return model_.relaxations[test.index].assumption;
+  }
+
+  void set(const RelaxationTest& test, LedgerEntry& entry) const {
+    entry.test = model_.relaxations[test.index].test;
+    entry.p_value = test.p_value;
+    entry.zeta_change = scale_.zeta(test.zeta_change);
+    entry.F0_change = scale_.F0(test.F0_change);
+  }
+
+  [[nodiscard]] bool matters(const RelaxationTest& test) const {
+    return std::abs(scale_.zeta(test.zeta_change)) >= options_.least_change ||
+           std::abs(scale_.F0(test.F0_change)) >= options_.least_change;
+  }
+
+  void charge(const Departure& departure, Ledger& ledger) const {
+    const bool harms =
+        std::ranges::any_of(departure.explanations, [&](const RelaxationTest& t) { return matters(t); });
+    std::vector<Assumption> named;
+    for (const RelaxationTest& test : departure.explanations) {
+      LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
+      if (entry.standing == Standing::violated) continue;
+      set(test, entry);
+      entry.standing = harms ? Standing::violated : Standing::holds;
+      entry.reason =
+          harms ? alternatives(departure, test)
+                : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
+      if (harms) named.push_back(assumption_of(test));
+    }
+    if (!named.empty()) ledger.departures.push_back(std::move(named));
+  }
+
+  [[nodiscard]] std::string alternatives(const Departure& departure, const RelaxationTest& own) const {
+    std::string text;
+    for (const RelaxationTest& other : departure.explanations)
+      if (assumption_of(other) != assumption_of(own))
+        text += (text.empty() ? "" : ", ") + std::string(name_of(assumption_of(other)));
+    return text.empty() ? "no other assumption explains it as well" : "explained as well by: " + text;
+  }
+
+  /// Of the relaxations of an assumption the one with the least p-value speaks.
+  void hold(const RelaxationTest& test, Ledger& ledger) {
+    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
+    const bool charged = entry.standing != Standing::untested && !entry.reason.empty();
+    const bool weaker = entry.p_value && *entry.p_value <= test.p_value;
+    if (charged || entry.standing == Standing::violated || weaker) return;
+    set(test, entry);
+    const double blind = std::max(scale_.zeta(test.zeta_blind), scale_.F0(test.F0_blind));
+    blind_[static_cast<std::size_t>(entry.assumption)] = blind;
+    entry.standing = Standing::holds;
+    ledger.entries[static_cast<std::size_t>(entry.assumption)].reason.clear();
+  }
+
+  void explain(LedgerEntry& entry) const {
+    const auto is_alone = std::ranges::find_if(
+        tests_.alone, [&](std::size_t index) { return model_.relaxations[index].assumption == entry.assumption; });
+    entry.reason =
+        is_alone != tests_.alone.end() ? "in this record it does what zeta and F0 do" : "this record cannot tell";
+    entry.reason += "; " + std::string(what_would_tell(entry.assumption)) + " would";
+  }
+
+ public:
+  /// How small a departure would be seen, for those that hold.
+  void add_sight(Ledger& ledger) const {
+    for (LedgerEntry& entry : ledger.entries) {
+      const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
+      if (entry.standing == Standing::holds && entry.reason.empty() && std::isfinite(blind))
+        entry.reason = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
+    }
+  }
+
+ private:
+  const JointModel& model_;
+  const RelaxationTests& tests_;
+  const LedgerOptions& options_;
+  Scale scale_;
+  std::array<double, assumption_count> blind_ = [] {
+    std::array<double, assumption_count> none{};
+    none.fill(std::numeric_limits<double>::quiet_NaN());
+    return none;
+  }();
+};
+
+bool is_of_friction(Assumption assumption) {
+  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
+         assumption == Assumption::symmetry;
+}
+
+/// The fit of the joint model with the relaxations of the departures beside the base parameters.
+Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests, const KnownConstants& constants) {
+  Estimate estimate;
+  estimate.method = "joint_fit";
+  const Eigen::Index base = model.base.cols();
+  Eigen::MatrixXd columns(model.base.rows(), base + static_cast<Eigen::Index>(tests.departures.size()));
+  columns.leftCols(base) = model.base;
+  std::string relaxed;
+  for (std::size_t j = 0; j < tests.departures.size(); ++j) {
+    const std::size_t index = tests.departures[j].explanations.front().index;
+    columns.col(base + static_cast<Eigen::Index>(j)) = model.relaxed.col(static_cast<Eigen::Index>(index));
+    relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[index].test;
+  }
+  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
+  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+  if (!covariance || freedom < 1.0) {
+    refuse(estimate, "the record does not tell the parameters of the joint model apart");
+    return estimate;
+  }
+  const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
+  const double variance = (model.residuals - columns * step).squaredNorm() / freedom;
+  const double zeta = model.value.zeta + step[0];
+  const double F0 = model.value.F0 + step[1];
+  estimate.value = parameters(zeta, F0 / constants.stiffness, constants);
+  Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
+  const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
+  of_friction = to_length * of_friction * to_length;
+  set_uncertainty(estimate, of_friction, quantile95(std::min(freedom, std::max(1.0, model.scale_freedom))),
+                  constants);
+  std::vector<std::string> faults;
+  judge_signs(estimate, 0.0, faults);
+  conclude(estimate, faults,
+           "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
+  return estimate;
+}
+
+}  // namespace
+
+Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
+  Ledger ledger;
+  for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
+  const MaybeModel found = model_of(record, constants);
+  if (const auto* reason = std::get_if<std::string>(&found)) {
+    for (LedgerEntry& entry : ledger.entries) entry.reason = *reason;
+    return ledger;
+  }
+  const auto& model = std::get<JointModel>(found);
+  ledger.data = model.data;
+  ledger.plain = model.value;
+  ledger.left_out = model.left_out;
+  const RelaxationTests tests = test_relaxations(model);
+  Writer writer(model, tests, options);
+  writer.write(ledger);
+  writer.add_sight(ledger);
+  const bool is_friction = std::ranges::any_of(tests.departures, [&](const Departure& departure) {
+    return is_of_friction(model.relaxations[departure.explanations.front().index].assumption);
+  });
+  const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
+  if (!is_friction && has_spring)
+    ledger.joint = joint_estimate(tests.relaxed ? *tests.relaxed : model, tests, constants);
+  return ledger;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,217 @@
+#include "identify/ledger/relaxation_tests.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/random.hpp"
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Share of a column's length that the base parameters must leave for it to be told from them.
+constexpr double told_apart = 1e-4;
+/// Standard errors at which a departure is found in four records of five.
+constexpr double found_at = 2.8;
+
+/// The relaxations beside a base, projected.
+struct Projection {
+  Eigen::VectorXd residuals;
+  double freedom = 0.0;
+  std::vector<std::size_t> indices;  ///< of the relaxations that can be told apart
+  Eigen::MatrixXd unit;              ///< their columns beside the base, of unit length
+  Eigen::VectorXd lengths;
+  Eigen::MatrixXd shifts;  ///< of the base parameters for a unit of each relaxation
+};
+
+Projection project(const JointModel& model, const std::vector<std::size_t>& taken) {
+  const Eigen::Index own = model.base.cols();
+  const auto more = static_cast<Eigen::Index>(taken.size());
+  Eigen::MatrixXd base(model.base.rows(), own + more);
+  base.leftCols(own) = model.base;
+  for (Eigen::Index j = 0; j < more; ++j)
+    base.col(own + j) = model.relaxed.col(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(j)]));
+  const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
+  const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve(model.relaxed);
+  const Eigen::MatrixXd beside = model.relaxed - base * solved;
+
+  Projection result;
+  result.residuals = model.residuals - base * (scale.cwiseInverse().asDiagonal() * qr.solve(model.residuals));
+  result.freedom = static_cast<double>(base.rows() - qr.rank()) - model.spent;
+  for (Eigen::Index j = 0; j < beside.cols(); ++j)
+    if (beside.col(j).norm() > told_apart * model.relaxed.col(j).norm())
+      result.indices.push_back(static_cast<std::size_t>(j));
+  const auto count = static_cast<Eigen::Index>(result.indices.size());
+  result.unit.resize(base.rows(), count);
+  result.lengths.resize(count);
+  result.shifts.resize(own, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const auto from = static_cast<Eigen::Index>(result.indices[static_cast<std::size_t>(j)]);
+    result.lengths[j] = beside.col(from).norm();
+    result.unit.col(j) = beside.col(from) / result.lengths[j];
+    result.shifts.col(j) = -solved.col(from).head(own);
+  }
+  return result;
+}
+
+/// t statistics of unit columns beside residuals with `freedom`.
+Eigen::VectorXd statistics(const Eigen::VectorXd& along, double squares, double freedom) {
+  const Eigen::ArrayXd left = (squares - along.array().square()).max(1e-12 * squares) / (freedom - 1.0);
+  return along.array() / left.sqrt();
+}
+
+double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, freedom); }
+
+/// The largest |t| of draws under the base model, ascending.
+std::vector<double> largest_statistics(const Projection& projection) {
+  constexpr std::size_t draws = 2000;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projection.unit);
+  const auto rank = std::min<Eigen::Index>(qr.rank(), static_cast<Eigen::Index>(projection.freedom));
+  const Eigen::MatrixXd basis =
+      Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(projection.unit.rows(), rank));
+  const Eigen::MatrixXd directions = projection.unit.transpose() * basis;
+  const double beside = std::max(0.0, projection.freedom - static_cast<double>(rank));
+  constexpr core::RandomStream stream{20261122, 1};
+  std::uint64_t drawn = 0;
+  std::vector<double> largest;
+  largest.reserve(draws);
+  Eigen::VectorXd z(rank);
+  for (std::size_t i = 0; i < draws; ++i) {
+    for (double& value : z) value = stream.normal(drawn++);
+    double squares = z.squaredNorm();
+    // Chi-square beside the span of the columns, by Wilson and Hilferty's cube.
+    if (beside > 0.0) {
+      const double width = 2.0 / (9.0 * beside);
+      const double root = 1.0 - width + std::sqrt(width) * stream.normal(drawn++);
+      squares += beside * std::max(0.0, root * root * root);
+    }
+    largest.push_back(statistics(directions * z, squares, projection.freedom).cwiseAbs().maxCoeff());
+  }
+  std::ranges::sort(largest);
+  return largest;
+}
+
+double family_p_value(double t, double freedom, const std::vector<double>& largest, std::size_t tests) {
+  const auto above = largest.end() - std::ranges::lower_bound(largest, std::abs(t));
+  constexpr int enough = 20;  // fewer of the draws say little: then Bonferroni's bound
+  const double bound = std::min(1.0, static_cast<double>(tests) * two_sided(t, freedom));
+  if (above < enough) return bound;
+  return std::min(bound, static_cast<double>(above) / static_cast<double>(largest.size()));
+}
+
+/// Tests of all relaxations beside those taken.
+std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projection& projection) {
+  std::vector<RelaxationTest> tests;
+  if (projection.indices.empty() || projection.freedom < 2.0) return tests;
+  const double squares = projection.residuals.squaredNorm();
+  const Eigen::VectorXd along = projection.unit.transpose() * projection.residuals;
+  const Eigen::VectorXd t = statistics(along, squares, projection.freedom);
+  const std::vector<double> largest = largest_statistics(projection);
+  for (Eigen::Index j = 0; j < t.size(); ++j) {
+    RelaxationTest test;
+    test.index = projection.indices[static_cast<std::size_t>(j)];
+    test.t = t[j];
+    test.p_value = family_p_value(t[j], projection.freedom - 1.0, largest, projection.indices.size());
+    const double rows = projection.freedom + static_cast<double>(model.base.cols());
+    test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
+    const double gain = along[j] / projection.lengths[j];
+    const double error =
+        std::sqrt((squares - along[j] * along[j]) / (projection.freedom - 1.0)) / projection.lengths[j];
+    test.zeta_change = projection.shifts(0, j) * gain;
+    test.F0_change = projection.shifts(1, j) * gain;
+    test.zeta_blind = found_at * std::abs(projection.shifts(0, j)) * error;
+    test.F0_blind = found_at * std::abs(projection.shifts(1, j)) * error;
+    tests.push_back(test);
+  }
+  return tests;
+}
+
+/// The best relaxation of each assumption, best first, as far as they explain at least half as much as the best.
+std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests) {
+  std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
+  std::vector<RelaxationTest> list;
+  for (const RelaxationTest& test : tests) {
+    const double least = std::min(tests.front().explained - equal_likelihood, 0.5 * tests.front().explained);
+    if (test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) break;
+    const Assumption assumption = model.relaxations[test.index].assumption;
+    const bool known = std::ranges::any_of(
+        list, [&](const RelaxationTest& other) { return model.relaxations[other.index].assumption == assumption; });
+    if (!known) list.push_back(test);
+  }
+  return list;
+}
+
+/// What the model fitted with a candidate beside those taken leaves to the others.
+struct Rest {
+  double p_value = 1.0;
+  double largest = 0.0;
+};
+
+Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_t candidate) {
+  taken.push_back(candidate);
+  const JointModel fitted = model.refit(taken);
+  Rest rest;
+  for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken))) {
+    rest.p_value = std::min(rest.p_value, test.p_value);
+    rest.largest = std::max(rest.largest, test.explained);
+  }
+  return rest;
+}
+
+/// The departure that the tests show: the relaxation that explains it best, and those that explain it as well. Far
+/// from the fit a linearised model ranks them wrongly: where it can be fitted anew, candidates are judged by what
+/// they leave.
+Departure charged(const JointModel& model, const std::vector<std::size_t>& taken,
+                  const std::vector<RelaxationTest>& tests) {
+  const std::vector<RelaxationTest> list = candidates(model, tests);
+  if (!model.refit || list.size() == 1) return {list};
+  std::vector<Rest> rests;
+  for (const RelaxationTest& test : list) rests.push_back(rest_of(model, taken, test.index));
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < list.size(); ++i)
+    if (rests[i].largest < rests[best].largest - equal_likelihood) best = i;
+  Departure departure{{list[best]}};
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const bool as_well = rests[i].largest <= rests[best].largest + equal_likelihood &&
+                         (rests[i].p_value >= family_level || rests[best].p_value < family_level);
+    if (i != best && as_well) departure.explanations.push_back(list[i]);
+  }
+  return departure;
+}
+
+}  // namespace
+
+RelaxationTests test_relaxations(const JointModel& model) {
+  RelaxationTests result;
+  std::vector<std::size_t> taken;
+  constexpr std::size_t most_departures = 4;
+  Projection projection = project(model, taken);
+  for (std::size_t j = 0; j < model.relaxations.size(); ++j)
+    if (std::ranges::find(projection.indices, j) == projection.indices.end() &&
+        model.relaxed.col(static_cast<Eigen::Index>(j)).squaredNorm() > 0.0)
+      result.alone.push_back(j);
+  while (true) {
+    const JointModel& here = result.relaxed ? *result.relaxed : model;
+    result.tests = tests_beside(here, projection);
+    result.freedom = projection.freedom;
+    const auto least = std::ranges::min_element(result.tests, {}, &RelaxationTest::p_value);
+    if (least == result.tests.end() || least->p_value >= family_level || taken.size() == most_departures) break;
+    result.departures.push_back(charged(here, taken, result.tests));
+    RelaxationTest& best = result.departures.back().explanations.front();
+    taken.push_back(best.index);
+    if (model.refit) {
+      JointModel relaxed = model.refit(taken);
+      best.zeta_change = relaxed.value.zeta - here.value.zeta;
+      best.F0_change = relaxed.value.F0 - here.value.F0;
+      result.relaxed = std::move(relaxed);
+    }
+    projection = project(result.relaxed ? *result.relaxed : model, taken);
+  }
+  return result;
+}
+
+}  // namespace dualdamp::identify

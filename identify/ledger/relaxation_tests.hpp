@@ -1,0 +1,52 @@
+#pragma once
+/// Tests of all relaxations of a record at once, at one level for the family, and what a departure is charged to.
+///
+/// The t statistic of a relaxation is that of its coefficient beside the base parameters. Statistics of one record
+/// are correlated, so the family is controlled by the distribution of their maximum under the base model, which is
+/// simulated with the correlations as they are (westfall1993): the family-wise p-value of a test is how often the
+/// maximum is as large. Where one is below the level, the relaxation that explains most is taken into the model and
+/// the others are tested again beside it, until none is left.
+///
+/// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
+/// of parameters) is named beside it: the record cannot tell them apart.
+///
+/// Cost: a few milliseconds beside the projection of the columns.
+
+#include <optional>
+#include <vector>
+
+#include "identify/ledger/joint_model.hpp"
+
+namespace dualdamp::identify {
+
+/// Twice the difference of log-likelihoods: odds of one to ten.
+inline constexpr double equal_likelihood = 4.6;
+
+/// One relaxation beside those already taken into the model.
+struct RelaxationTest {
+  std::size_t index = 0;     ///< in the model's list
+  double t = 0.0;            ///< statistic
+  double p_value = 1.0;      ///< of the family
+  double explained = 0.0;    ///< twice the gain of the log-likelihood
+  double zeta_change = 0.0;  ///< of the damping ratio when relaxed; of c where there is no spring
+  double F0_change = 0.0;    ///< N
+  double zeta_blind = 0.0;   ///< change that a departure may make and be missed in one record of five
+  double F0_blind = 0.0;
+};
+
+/// A departure: the relaxation taken into the model and those that explain as much, best first.
+struct Departure {
+  std::vector<RelaxationTest> explanations;
+};
+
+struct RelaxationTests {
+  std::vector<RelaxationTest> tests;  ///< beside all departures; those that can be told from the base parameters
+  std::vector<std::size_t> alone;     ///< relaxations that are base parameters in another guise
+  std::vector<Departure> departures;  ///< in the order found
+  double freedom = 0.0;               ///< degrees of freedom left
+  std::optional<JointModel> relaxed;  ///< the model linearised with the departures relaxed, where it has such a fit
+};
+
+[[nodiscard]] RelaxationTests test_relaxations(const JointModel& model);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,247 @@
+#include "identify/methods/histories/forward_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "identify/methods/decays/free_decay.hpp"
+#include "identify/methods/histories/acceleration_velocity_displacement.hpp"
+#include "identify/records/derived_records.hpp"
+#include "identify/statistics/noise_level.hpp"
+
+namespace dualdamp::identify {
+
+using By = SampledOscillator::By;
+
+namespace {
+
+double range_of(const std::vector<double>& signal) {
+  const auto [low, high] = std::ranges::minmax_element(signal);
+  return *high - *low;
+}
+
+}  // namespace
+
+ForwardTest::ForwardTest(const NumberedHistory& item)
+    : number(item.number), history(item.history), model(*item.history) {
+  constexpr std::size_t samples = 8;
+  const std::vector<double> begin(history->x.begin(), history->x.begin() + samples);
+  x0 = begin[0];
+  // Noise moves the extremes of eight samples three deviations apart, hardly ever six.
+  starts_at_rest = range_of(begin) <= 6.0 * noise_level(begin) + 1e-12 * range_of(history->x);
+  if (!history->v.empty())
+    v0 = history->v[0];
+  else if (!starts_at_rest)
+    v0 = central_difference(five_point_average(history->x), history->sample_rate)[2];
+}
+
+double ForwardLayout::length(const std::vector<ForwardTest>& tests) {
+  double longest = 0.0;
+  for (const ForwardTest& test : tests) longest = std::max(longest, 0.5 * range_of(test.history->x));
+  return longest;
+}
+
+ForwardLayout::ForwardLayout(const std::vector<ForwardTest>& tests, const KnownConstants& constants,
+                             const ForceParameters& start) {
+  shared_ = {{By::damping, std::sqrt(start.m * start.k)}, {By::friction, start.k * length(tests)}};
+  if (std::isnan(constants.mass)) shared_.push_back({By::mass, start.m});
+  if (std::isnan(constants.stiffness)) shared_.push_back({By::stiffness, start.k});
+  count_ = static_cast<Eigen::Index>(shared_.size());
+  for (const ForwardTest& test : tests) {
+    first_.push_back(count_);
+    count_ += test.starts_at_rest ? 1 : 2;
+  }
+  length_ = length(tests);
+  speed_ = length_ * std::sqrt(start.k / start.m);
+  known_ = start;
+}
+
+Eigen::VectorXd ForwardLayout::pack(const ForceParameters& force, const std::vector<ForwardTest>& tests) const {
+  Eigen::VectorXd p(count_);
+  for (std::size_t i = 0; i < shared_.size(); ++i)
+    p[static_cast<Eigen::Index>(i)] = value(force, shared_[i].by) / shared_[i].scale;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    p[first_[t]] = tests[t].x0 / length_;
+    if (!tests[t].starts_at_rest) p[first_[t] + 1] = tests[t].v0 / speed_;
+  }
+  return p;
+}
+
+bool ForwardResiduals::evaluate(const Eigen::VectorXd& p, Eigen::VectorXd& residuals,
+                                Eigen::MatrixXd* jacobian) const {
+  residuals.resize(count_);
+  if (jacobian != nullptr) jacobian->setZero(count_, layout_.count());
+  Eigen::VectorXd x;
+  SampledOscillator::Derivatives derivatives;
+  for (std::size_t t = 0; t < tests_.size(); ++t) {
+    const std::vector<ForwardLayout::Column> columns = layout_.columns(t, tests_[t]);
+    std::vector<By> by;
+    for (const ForwardLayout::Column& column : columns) by.push_back(column.by);
+    if (!tests_[t].model.run(layout_.parameters(p, t, tests_[t]), by, x,
+                             jacobian != nullptr ? &derivatives : nullptr))
+      return false;
+    const std::vector<double>& measured = tests_[t].history->x;
+    residuals.segment(blocks_[t], x.size()) =
+        (x - Eigen::Map<const Eigen::VectorXd>(measured.data(), x.size())) / layout_.length();
+    if (jacobian == nullptr) continue;
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      jacobian->col(columns[j].column).segment(blocks_[t], x.size()) =
+          derivatives.x.col(static_cast<Eigen::Index>(j)) * (columns[j].scale / layout_.length());
+  }
+  return true;
+}
+
+namespace {
+
+bool is_free(const ForwardTest& test) { return test.history->y.empty() && test.history->force.empty(); }
+
+/// What the extremes of a free vibration say: a long decay has many local minima of the fit, and this lies in the
+/// valley of the least.
+std::optional<ForceParameters> from_extremes(const ForwardTest& test, const ForceParameters& known) {
+  Record record;
+  record.decay = decay_of(*test.history).record;
+  const Estimate estimate = free_decay(record, {known.m, known.k, unknown}, {});
+  if (!estimate.outcome.ok()) return std::nullopt;
+  return ForceParameters{known.m, std::max(0.0, estimate.value.c), known.k, std::max(0.0, estimate.value.F0)};
+}
+
+/// Where to start: the regression of forces when it gives something, else a guess; `all`: what the fit may begin
+/// with.
+std::vector<ForceParameters> starts(const Record& record, const std::vector<ForwardTest>& tests,
+                                    const KnownConstants& constants, const RegressionOptions& options) {
+  Record used;
+  for (const ForwardTest& test : tests) used.histories.push_back(*test.history);
+  const Estimate regression = acceleration_velocity_displacement(
+      record.histories.size() == tests.size() ? record : used, constants, options);
+  ForceParameters force{constants.mass, 0.0, constants.stiffness, 0.0};
+  if (regression.outcome.ok()) {
+    force.c = regression.value.c;
+    force.F0 = std::max(0.0, regression.value.F0);
+    for (const FurtherParameter& parameter : regression.others) {
+      if (parameter.name == "mass") force.m = parameter.value;
+      if (parameter.name == "stiffness") force.k = parameter.value;
+    }
+  }
+  if (!(force.m > 0.0) || !(force.k > 0.0)) return {};
+  std::vector<ForceParameters> list{force};
+  for (const ForwardTest& test : tests)
+    if (const auto start = is_free(test) ? from_extremes(test, force) : std::nullopt) list.push_back(*start);
+  const double length = ForwardLayout::length(tests);
+  const double critical = 2.0 * std::sqrt(force.m * force.k);
+  for (const double zeta : {0.02, 0.1, 0.25})
+    for (const double share : {0.02, 0.1, 0.25})
+      list.push_back({force.m, zeta * critical, force.k, share * force.k * length});
+  return list;
+}
+
+/// The best start of all, by the squares it leaves.
+Eigen::VectorXd best_start(const std::vector<ForceParameters>& list, const std::vector<ForwardTest>& tests,
+                           const ForwardLayout& layout, const ForwardResiduals& residuals) {
+  Eigen::VectorXd best = layout.pack(list.front(), tests);
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd r;
+  for (const ForceParameters& force : list) {
+    const Eigen::VectorXd p = layout.pack(force, tests);
+    if (!residuals.evaluate(p, r, nullptr) || !(r.squaredNorm() < least)) continue;
+    least = r.squaredNorm();
+    best = p;
+  }
+  return best;
+}
+
+/// Free vibrations cut off where they have fallen below `share` of their largest deflection for good; nothing where
+/// that cuts off little. What comes after ends in a rest, whose place jumps with the parameters.
+std::optional<Record> large_motion(const std::vector<ForwardTest>& tests, double share) {
+  Record record;
+  bool shorter = false;
+  for (const ForwardTest& test : tests) {
+    History history = *test.history;
+    const auto [low, high] = std::ranges::minmax_element(history.x);
+    const double least = share * std::max(std::abs(*low), std::abs(*high));
+    std::size_t last = history.x.size();
+    while (last > 0 && std::abs(history.x[last - 1]) < least) --last;
+    constexpr double little = 0.9;
+    if (is_free(test) && static_cast<double>(last) < little * static_cast<double>(history.x.size())) {
+      for (std::vector<double>* signal : {&history.x, &history.v, &history.a})
+        if (!signal->empty()) signal->resize(last);
+      shorter = true;
+    }
+    record.histories.push_back(std::move(history));
+  }
+  return shorter ? std::optional(std::move(record)) : std::nullopt;
+}
+
+/// Why there is nothing to fit; empty when there is.
+std::string fault_of_tests(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
+  constexpr std::size_t most_samples = 300'000;  // each step of the fit goes through all of them
+  std::size_t samples = 0;
+  for (const ForwardTest& test : tests) samples += test.history->x.size();
+  if (samples > most_samples)
+    return "the method takes at most " + std::to_string(most_samples) + " samples, and the record has " +
+           std::to_string(samples) + ": give it a part, or every n-th sample";
+  if (tests.empty()) return "the mass moves in no history";
+  const auto is_usable = [](double value) { return std::isnan(value) || (value > 0.0 && std::isfinite(value)); };
+  if (!is_usable(constants.stiffness)) return "the method needs a spring: without one the position drifts";
+  if (!is_usable(constants.mass)) return "the mass must be positive and finite";
+  return {};
+}
+
+}  // namespace
+
+ForwardFit::ForwardFit(const Record& record, const KnownConstants& constants, const RegressionOptions& options,
+                       Estimate& estimate) {
+  for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
+    if (range_of(item.history->x) > 0.0)
+      tests_.emplace_back(item);
+    else
+      estimate.excluded.push_back({item.number, "the mass does not move"});
+  }
+  problem_ = estimate.outcome.ok() ? fault_of_tests(tests_, constants) : estimate.outcome.reason;
+  if (problem_.empty()) search(record, constants, options);
+}
+
+void ForwardFit::search(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
+  const std::vector<ForceParameters> list = starts(record, tests_, constants, options);
+  if (list.empty()) {
+    problem_ = "the method needs the mass and the stiffness: the record does not tell them";
+    return;
+  }
+  layout_ = std::make_unique<ForwardLayout>(tests_, constants, list.front());
+  residuals_ = std::make_unique<ForwardResiduals>(tests_, *layout_);
+  LeastSquaresProblem problem;
+  problem.residuals = residuals_->count();
+  constexpr double far = 1e3;  // in units of the scales
+  problem.low = Eigen::VectorXd::Constant(layout_->count(), -far);
+  problem.high = Eigen::VectorXd::Constant(layout_->count(), far);
+  problem.low[1] = 0.0;  // friction that drives is none
+  problem.evaluate = [this](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    return residuals_->evaluate(p, r, jacobian);
+  };
+  problem.start = best_start(list, tests_, *layout_, *residuals_);
+  constexpr double large = 0.3;
+  if (const std::optional<Record> part = large_motion(tests_, large)) {
+    Estimate taken;
+    ForwardFit first(*part, constants, options, taken);
+    if (first.problem().empty() && first.tests().size() == tests_.size()) {
+      found_ = fit(problem);
+      problem.start = first.as_start(*layout_, tests_);
+    }
+  }
+  LeastSquaresFit last = fit(problem);
+  const bool is_first = found_.parameters.size() == 0;
+  if (is_first || (last.outcome.ok() && last.sum_of_squares < found_.sum_of_squares)) found_ = std::move(last);
+  if (!found_.outcome.ok()) problem_ = found_.outcome.reason;
+}
+
+Eigen::VectorXd ForwardFit::as_start(const ForwardLayout& layout, std::vector<ForwardTest>& tests) const {
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const SampledOscillator::Parameters begin = layout_->parameters(found_.parameters, t, tests_[t]);
+    tests[t].x0 = begin.x0;
+    tests[t].v0 = begin.v0;
+  }
+  return layout.pack(layout_->force(found_.parameters), tests);
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,152 @@
+#pragma once
+/// The fit of a simulated motion to measured displacements: parameters, residuals and where to begin. What
+/// output_error estimates with, and what the ledger of assumptions is tested beside.
+///
+///   min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2,   m x'' + c x' + k x + F0 sgn x' = k y + f
+///
+/// Mass and stiffness are fitted where they are not known. Cost: tens of runs of the forward model
+/// (sampled_oscillator.hpp).
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identify/models/force_parameters.hpp"
+#include "identify/models/sampled_oscillator.hpp"
+#include "identify/options.hpp"
+#include "identify/records/signals.hpp"
+#include "identify/statistics/least_squares.hpp"
+
+namespace dualdamp::identify {
+
+/// One history with its forward model.
+struct ForwardTest {
+  int number = 0;
+  const History* history = nullptr;
+  SampledOscillator model;
+  double x0 = 0.0;
+  double v0 = 0.0;
+  bool starts_at_rest = false;  ///< its initial velocity is zero and not fitted
+
+  explicit ForwardTest(const NumberedHistory& item);
+};
+
+/// The parameters of the fit, each divided by a scale: c, F0, then mass and stiffness where unknown, then the
+/// initial states of each test.
+class ForwardLayout {
+ public:
+  ForwardLayout(const std::vector<ForwardTest>& tests, const KnownConstants& constants,
+                const ForceParameters& start);
+
+  struct Entry {
+    SampledOscillator::By by;
+    double scale;
+  };
+
+  [[nodiscard]] static double length(const std::vector<ForwardTest>& tests);
+
+  [[nodiscard]] Eigen::Index count() const { return count_; }
+  [[nodiscard]] double length() const { return length_; }
+  [[nodiscard]] const std::vector<Entry>& shared() const { return shared_; }
+
+  [[nodiscard]] Eigen::VectorXd pack(const ForceParameters& force, const std::vector<ForwardTest>& tests) const;
+  [[nodiscard]] ForceParameters force(const Eigen::VectorXd& p) const {
+    ForceParameters force = known_;
+    for (std::size_t i = 0; i < shared_.size(); ++i)
+      value(force, shared_[i].by) = p[static_cast<Eigen::Index>(i)] * shared_[i].scale;
+    return force;
+  }
+
+  [[nodiscard]] SampledOscillator::Parameters parameters(const Eigen::VectorXd& p, std::size_t t,
+                                                         const ForwardTest& test) const {
+    const ForceParameters f = force(p);
+    return {f.m, f.c, f.k, f.F0, p[first_[t]] * length_, test.starts_at_rest ? 0.0 : p[first_[t] + 1] * speed_};
+  }
+
+  /// What test t is differentiated by, with the column and the scale of each.
+  struct Column {
+    SampledOscillator::By by;
+    Eigen::Index column;
+    double scale;
+  };
+  [[nodiscard]] std::vector<Column> columns(std::size_t t, const ForwardTest& test) const {
+    std::vector<Column> list;
+    for (std::size_t i = 0; i < shared_.size(); ++i)
+      list.push_back({shared_[i].by, static_cast<Eigen::Index>(i), shared_[i].scale});
+    list.push_back({SampledOscillator::By::position, first_[t], length_});
+    if (!test.starts_at_rest) list.push_back({SampledOscillator::By::velocity, first_[t] + 1, speed_});
+    return list;
+  }
+
+  static double& value(ForceParameters& force, SampledOscillator::By by) {
+    return by == SampledOscillator::By::damping    ? force.c
+           : by == SampledOscillator::By::friction ? force.F0
+           : by == SampledOscillator::By::mass     ? force.m
+                                                   : force.k;
+  }
+  static double value(const ForceParameters& force, SampledOscillator::By by) {
+    ForceParameters copy = force;
+    return value(copy, by);
+  }
+
+ private:
+  std::vector<Entry> shared_;
+  std::vector<Eigen::Index> first_;
+  Eigen::Index count_ = 0;
+  double length_ = 1.0;
+  double speed_ = 1.0;
+  ForceParameters known_;
+};
+
+/// Residuals of all tests [in units of the layout's length], and their derivatives.
+class ForwardResiduals {
+ public:
+  ForwardResiduals(std::vector<ForwardTest>& tests, const ForwardLayout& layout) : tests_(tests), layout_(layout) {
+    for (const ForwardTest& test : tests_) {
+      blocks_.push_back(count_);
+      count_ += static_cast<Eigen::Index>(test.history->x.size());
+    }
+  }
+
+  [[nodiscard]] Eigen::Index count() const { return count_; }
+  [[nodiscard]] const std::vector<Eigen::Index>& blocks() const { return blocks_; }
+
+  bool evaluate(const Eigen::VectorXd& p, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) const;
+
+ private:
+  std::vector<ForwardTest>& tests_;
+  const ForwardLayout& layout_;
+  std::vector<Eigen::Index> blocks_;
+  Eigen::Index count_ = 0;
+};
+
+/// A fit with all it refers to.
+class ForwardFit {
+ public:
+  /// `problem` says why there is no fit; empty when there is one. Histories that cannot be used, and those in which
+  /// the mass does not move, go to the exclusions of `estimate`.
+  ForwardFit(const Record& record, const KnownConstants& constants, const RegressionOptions& options,
+             Estimate& estimate);
+  ForwardFit(const ForwardFit&) = delete;
+  ForwardFit& operator=(const ForwardFit&) = delete;
+
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+  [[nodiscard]] std::vector<ForwardTest>& tests() { return tests_; }
+  [[nodiscard]] const ForwardLayout& layout() const { return *layout_; }
+  [[nodiscard]] const ForwardResiduals& residuals() const { return *residuals_; }
+  [[nodiscard]] const LeastSquaresFit& found() const { return found_; }
+
+ private:
+  /// Where the fit of the same tests at full length begins; their initial states are set.
+  [[nodiscard]] Eigen::VectorXd as_start(const ForwardLayout& layout, std::vector<ForwardTest>& tests) const;
+  void search(const Record& record, const KnownConstants& constants, const RegressionOptions& options);
+
+  std::string problem_;
+  std::vector<ForwardTest> tests_;
+  std::unique_ptr<ForwardLayout> layout_;
+  std::unique_ptr<ForwardResiduals> residuals_;
+  LeastSquaresFit found_;
+};
+
+}  // namespace dualdamp::identify

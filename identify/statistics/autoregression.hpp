@@ -1,0 +1,32 @@
+#pragma once
+/// Errors that are alike from sample to sample, made independent: an autoregression.
+///
+///   e_t = a_1 e_(t-1) + ... + a_p e_(t-p) + s n_t,   n of unit variance
+///
+/// by the equations of Yule and Walker, the order p by Akaike's criterion. The rows of a regression with such
+/// errors, filtered by 1 - a_1 B - ... - a_p B^p and divided by s, have independent errors of unit variance
+/// (box2016). Cost: p times that of reading the rows.
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace dualdamp::identify {
+
+struct Autoregression {
+  Eigen::VectorXd coefficients;  ///< a_1 ... a_p; empty: independent errors
+  double deviation = 1.0;        ///< s
+};
+
+/// Mean products of errors at lags 0 ... most. `blocks`: rows at which another record begins, across which nothing
+/// correlates; 0 need not be named. `freedom`: what sums are divided by.
+[[nodiscard]] Eigen::VectorXd covariances_of(const Eigen::VectorXd& errors, const std::vector<Eigen::Index>& blocks,
+                                             int most, double freedom);
+
+/// From covariances at lags 0 ... the order at most. `count`: rows that the order is chosen for.
+[[nodiscard]] Autoregression autoregression_of(const Eigen::VectorXd& covariances, double count);
+
+/// The rows with independent errors; the first p of each block are gone, or the whole block where it has no more.
+[[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows, const std::vector<Eigen::Index>& blocks,
+                                       const Autoregression& autoregression);
+
+}  // namespace dualdamp::identify

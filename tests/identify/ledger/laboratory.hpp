@@ -1,0 +1,47 @@
+#pragma once
+/// Records of random rigs: what a laboratory would measure, with what may be off about it.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "identify/record.hpp"
+#include "tests/identify/ledger/rig.hpp"
+
+namespace dualdamp::identify::testing {
+
+enum class Kind {
+  xy,        ///< 8 levels x 3 sweeps at resonance, amplitudes alone
+  xy_phase,  ///< the same with phases
+  response,  ///< 25 frequencies across resonance, noise in x and Y, phases
+  extremes,  ///< extremes of a decay to rest, with times
+  decay,     ///< history of a decay to rest and into noise
+  forced,    ///< history of x, and of the force, from rest, near resonance
+  beat,      ///< history under two close forces, from rest
+  ramp,      ///< history under a force whose frequency rises through resonance
+  random,    ///< history under a random force
+};
+
+[[nodiscard]] std::string_view name_of(Kind kind);
+
+/// What is off beside the rig itself.
+struct Off {
+  double stiffness = 0.0;    ///< relative error of the stated stiffness
+  double frequency = 0.0;    ///< of the stated frequency
+  double delay = 0.0;        ///< of x, in periods
+  double gain = 0.0;         ///< of x
+  double sweep_drift = 0.0;  ///< F0 of the last sweep over that of the first, less one
+  double v_noise = 0.0;      ///< of a measured velocity, over its largest value; 0: not measured
+  double noise = 1.0;        ///< factor on all noise
+};
+
+struct Measured {
+  Record record;
+  KnownConstants constants;
+  Rig rig;  ///< the truth
+};
+
+/// `alter` makes the rig depart. The same seed gives the same rig and noise.
+[[nodiscard]] Measured measured(Kind kind, std::uint64_t seed, void (*alter)(Rig&) = nullptr, const Off& off = {});
+
+}  // namespace dualdamp::identify::testing

@@ -1,0 +1,100 @@
+#include "identify/ledger/answer.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/identify/methods/histories/bearing.hpp"
+
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+Estimate estimate(const std::string& method, double zeta, double F0, double spread) {
+  Estimate e;
+  e.method = method;
+  e.sound = e.usable = true;
+  e.value = {zeta, 100.0 * zeta, F0 / 1000.0, F0};
+  const auto around = [spread](double value) {
+    return std::array<double, 2>{value * (1.0 - spread), value * (1.0 + spread)};
+  };
+  e.interval95 = {around(zeta), around(100.0 * zeta), around(F0 / 1000.0), around(F0)};
+  return e;
+}
+
+Ledger ledger(const std::vector<Assumption>& violated) {
+  Ledger ledger;
+  ledger.data = "24 steady states";
+  for (const Assumption assumption : assumptions()) {
+    LedgerEntry& entry = ledger.entries.emplace_back();
+    entry.assumption = assumption;
+    entry.standing = Standing::holds;
+  }
+  for (const Assumption assumption : violated) {
+    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption)];
+    entry.standing = Standing::violated;
+    entry.test = "something free";
+    entry.p_value = 0.003;
+  }
+  if (!violated.empty()) ledger.departures.push_back(violated);
+  return ledger;
+}
+
+const std::string& answering(const Identification& found) {
+  REQUIRE(found.answer);
+  return found.estimates[*found.answer].method;
+}
+
+}  // namespace
+
+TEST_CASE("The narrowest interval answers, whatever the order of the list") {
+  const Estimate wide = estimate("den_hartog_fit", 0.1, 4.0, 0.02);
+  const Estimate narrow = estimate("resonance_least_squares", 0.101, 4.0, 0.01);
+  CHECK(answering(concluded({wide, narrow}, ledger({}))) == "resonance_least_squares");
+  const Identification found = concluded({narrow, wide}, ledger({}));
+  CHECK(answering(found) == "resonance_least_squares");
+  CHECK(mentions(found.verdict, "zeta = 0.101 (95 %: 0.09999 to 0.102), F0 = 4 N (95 %: 3.96 to 4.04 N)"));
+  CHECK(mentions(found.verdict, "do not contradict any assumption"));
+}
+
+TEST_CASE("An estimate cannot be used when an assumption that it rests on is violated") {
+  const Estimate balance = estimate("energy_balance", 0.1, 4.0, 0.05);
+  const Estimate fit = estimate("den_hartog_fit", 0.12, 4.0, 0.01);
+  const Identification found = concluded({fit, balance}, ledger({Assumption::constants}));
+  CHECK(answering(found) == "energy_balance");
+  CHECK_FALSE(found.estimates[0].usable);
+  CHECK(mentions(found.estimates[0].reason, "mass, stiffness and frequency are as stated"));
+  CHECK(mentions(found.verdict, "These data contradict that mass, stiffness and frequency are as stated"));
+}
+
+TEST_CASE("A departure of friction leaves no answer, and the verdict says what would help") {
+  const Identification found =
+      concluded({estimate("energy_balance", 0.1, 4.0, 0.05)},
+                ledger({Assumption::friction_velocity, Assumption::friction_displacement}));
+  CHECK_FALSE(found.answer);
+  CHECK(mentions(found.verdict, "or that friction does not depend on the position"));
+  CHECK(mentions(found.reason, "what would help: record the phase at several frequencies"));
+}
+
+TEST_CASE("Findings of a method decide only where the ledger could test nothing") {
+  Estimate contradicted = estimate("acceleration_velocity_displacement", 0.1, 4.0, 0.01);
+  contradicted.usable = false;
+  contradicted.findings = {"friction over speed is not a straight line"};
+  contradicted.reason = contradicted.findings.front();
+  CHECK(concluded({contradicted}, ledger({})).answer);
+  Ledger nothing = ledger({});
+  nothing.data.clear();
+  const Identification found = concluded({contradicted}, nothing);
+  CHECK_FALSE(found.answer);
+  CHECK(mentions(found.reason, "friction over speed is not a straight line"));
+}
+
+TEST_CASE("Who disagrees with the answer is named, and without estimates nothing is said") {
+  const Identification found = concluded(
+      {estimate("den_hartog_fit", 0.12, 4.0, 0.01), estimate("resonance_deming", 0.1, 4.0, 0.02)}, ledger({}));
+  CHECK(mentions(found.verdict, "resonance_deming disagrees: zeta = 0.1 "));
+  Estimate none = estimate("free_decay", 0.1, 4.0, 0.01);
+  none.outcome = {dualdamp::core::OutcomeKind::not_identifiable, "no data"};
+  none.usable = none.sound = false;
+  CHECK(concluded({none}, ledger({})).verdict.empty());
+  CHECK(concluded({}, ledger({})).verdict.empty());
+}

@@ -1,0 +1,71 @@
+#include "identify/ledger/relaxation_tests.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/random.hpp"
+
+using namespace dualdamp::identify;
+
+namespace {
+
+/// A straight line over u in [-1, 1]; relaxations: u^2, u^3, sin 3u, all but alike in pairs, and the line itself.
+JointModel line_with(double square, std::uint32_t number) {
+  constexpr Eigen::Index count = 30;
+  JointModel model;
+  model.residuals.resize(count);
+  model.base.resize(count, 2);
+  model.relaxed.resize(count, 4);
+  const dualdamp::core::RandomStream noise{3, number};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double u = 2.0 * static_cast<double>(i) / (count - 1.0) - 1.0;
+    model.base.row(i) << u, 1.0;
+    model.relaxed.row(i) << u * u, u * u * u, std::sin(3.0 * u), 2.0 * u;
+    model.residuals[i] = square * u * u + noise.normal(static_cast<std::uint64_t>(i));
+  }
+  model.relaxations = {{Assumption::friction_velocity, "square"},
+                       {Assumption::spring, "cube"},
+                       {Assumption::one_mode, "sine"},
+                       {Assumption::constants, "the line"}};
+  model.value.zeta = 1.0;
+  model.value.F0 = 1.0;
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("All tests of a record together reject once in twenty where nothing is wrong") {
+  constexpr std::uint32_t records = 400;
+  int rejected = 0;
+  for (std::uint32_t i = 0; i < records; ++i)
+    rejected += test_relaxations(line_with(0.0, i)).departures.empty() ? 0 : 1;
+  // 20 expected, with a standard deviation of 4.4.
+  CHECK(rejected >= 8);
+  CHECK(rejected <= 33);
+}
+
+TEST_CASE("A departure is charged to the relaxation that explains it, and what it does to the base is told") {
+  const RelaxationTests found = test_relaxations(line_with(5.0, 0));
+  REQUIRE(found.departures.size() == 1);
+  REQUIRE(found.departures[0].explanations.size() == 1);
+  const RelaxationTest& test = found.departures[0].explanations[0];
+  CHECK(test.index == 0);
+  CHECK(test.p_value < 1e-4);
+  // The mean of u^2 over the points is 0.356: so much the constant falls when the square is set free.
+  CHECK(test.F0_change == Approx(-5.0 * 0.356).epsilon(0.35));
+  CHECK(std::abs(test.zeta_change) < 1e-9);
+}
+
+TEST_CASE("A relaxation that is a base parameter in another guise is not tested") {
+  const RelaxationTests found = test_relaxations(line_with(0.0, 1));
+  CHECK(found.alone == std::vector<std::size_t>{3});
+  CHECK(found.tests.size() == 3);
+}
+
+TEST_CASE("Relaxations that explain alike are named together") {
+  JointModel model = line_with(0.0, 2);
+  for (Eigen::Index i = 0; i < model.residuals.size(); ++i) model.residuals[i] += 6.0 * model.relaxed(i, 1);
+  const RelaxationTests found = test_relaxations(model);
+  REQUIRE(found.departures.size() == 1);
+  REQUIRE(found.departures[0].explanations.size() == 2);  // beside a line, sin 3u is all but u^3
+}

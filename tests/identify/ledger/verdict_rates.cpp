@@ -1,0 +1,154 @@
+/// How often the ledger of assumptions and the answer are right: records of random rigs, identified as the program
+/// does it. usage: verdict_rates RECORDS FIRST_SEED [ROW]...   A ROW is a part of its name. One line a row.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "identify/ledger/answer.hpp"
+#include "identify/methods.hpp"
+#include "identify/records/derived_records.hpp"
+#include "tests/identify/ledger/laboratory.hpp"
+
+namespace {
+
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+struct Row {
+  std::string name;
+  Kind kind;
+  void (*alter)(Rig&) = nullptr;
+  Off off = {};
+};
+
+const std::vector<Kind> all = {Kind::xy,     Kind::xy_phase, Kind::response, Kind::extremes, Kind::decay,
+                               Kind::forced, Kind::beat,     Kind::ramp,     Kind::random};
+
+std::vector<Row> rows() {
+  std::vector<Row> list;
+  const auto add = [&](const std::string& what, void (*alter)(Rig&), const Off& off,
+                       const std::vector<Kind>& kinds) {
+    for (const Kind kind : kinds) list.push_back({what + ", " + std::string(name_of(kind)), kind, alter, off});
+  };
+  const std::vector<Kind> pairs = {Kind::xy, Kind::xy_phase, Kind::response};
+  const std::vector<Kind> driven = {Kind::forced, Kind::beat, Kind::ramp, Kind::random};
+  add("exact", nullptr, {}, all);
+  add("stiffness 2 %", nullptr, {.stiffness = 0.02}, all);
+  add("cubic spring", [](Rig& rig) { rig.cubic = 0.03; }, {}, all);
+  add("second mode", [](Rig& rig) { rig.second_mass = 0.05; }, {}, all);
+  add("delay 1 %", nullptr, {.delay = 0.01},
+      {Kind::xy_phase, Kind::response, Kind::forced, Kind::beat, Kind::ramp, Kind::random});
+  add("gain 1 %", nullptr, {.gain = 0.01}, all);
+  add("detuning 2 %", nullptr, {.frequency = 0.02}, pairs);
+  add("drift", nullptr, {.sweep_drift = 0.2}, {Kind::xy, Kind::xy_phase});
+  add("drift", [](Rig& rig) { rig.drift = 0.3; }, {}, driven);
+  add("noise in v", nullptr, {.v_noise = 0.02}, {Kind::decay, Kind::forced, Kind::beat, Kind::ramp, Kind::random});
+  add("friction: quadratic", [](Rig& rig) { rig.drag = 0.5; }, {}, all);
+  add("friction: saturating", [](Rig& rig) { rig.saturation = 0.5; }, {}, all);
+  add("friction: Stribeck", [](Rig& rig) { rig.stribeck = 0.5; }, {}, all);
+  add("friction: compliance", [](Rig& rig) { rig.compliance = 0.05; }, {}, all);
+  add("friction: LuGre", [](Rig& rig) { rig.lugre = 0.03; }, {}, all);
+  add("friction: asymmetric", [](Rig& rig) { rig.asymmetry = 0.3; }, {}, all);
+  add("friction: free play", [](Rig& rig) { rig.play = 0.03; }, {}, all);
+  return list;
+}
+
+Identification identified(Measured& measured) {
+  Record& record = measured.record;
+  static_cast<void>(complete(record, measured.constants.frequency));
+  std::vector<Estimate> estimates;
+  for (const MethodEntry& method : methods())
+    if (method.lacks(record).empty()) estimates.push_back(method.run(record, measured.constants));
+  return concluded(std::move(estimates), ledger_of(record, measured.constants));
+}
+
+bool covers(const std::array<double, 2>& interval, double value) {
+  return interval[0] <= value && value <= interval[1];
+}
+
+struct Counts {
+  int records = 0, rejected = 0, friction = 0, answers = 0, zeta = 0, F0 = 0, off = 0, off_rejected = 0, misled = 0;
+  int tested = 0;
+  std::map<std::string, int> named, named_off, by;
+  double seconds = 0.0;
+};
+
+void count(const Row& row, std::uint64_t seed, Counts& counts) {
+  Measured record = measured(row.kind, seed, row.alter, row.off);
+  const auto start = std::chrono::steady_clock::now();
+  const Identification found = identified(record);
+  counts.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Rig& rig = record.rig;
+  ++counts.records;
+  counts.tested += found.ledger.data.empty() ? 0 : 1;
+  const auto violated = [&](Assumption assumption) { return found.ledger.is_violated(assumption); };
+  const bool any = std::ranges::any_of(assumptions(), violated);
+  const auto error = [](double value, double truth) { return std::abs(value / truth - 1.0); };
+  const double largest = 0.05;
+  const bool is_off = found.ledger.data.empty() || error(found.ledger.plain.zeta, rig.zeta) > largest ||
+                      error(found.ledger.plain.F0, rig.F0) > largest;
+  counts.rejected += any ? 1 : 0;
+  counts.friction += violated(Assumption::friction_velocity) || violated(Assumption::friction_displacement) ||
+                             violated(Assumption::symmetry)
+                         ? 1
+                         : 0;
+  counts.off += is_off ? 1 : 0;
+  counts.off_rejected += is_off && any ? 1 : 0;
+  for (const Assumption assumption : assumptions()) {
+    if (!violated(assumption)) continue;
+    ++counts.named[std::string(name_of(assumption))];
+    if (is_off) ++counts.named_off[std::string(name_of(assumption))];
+  }
+  if (!found.answer) return;
+  const Estimate& answer = found.estimates[*found.answer];
+  ++counts.answers;
+  ++counts.by[answer.method];
+  const bool in = covers(answer.interval95->zeta, rig.zeta);
+  counts.zeta += in ? 1 : 0;
+  counts.F0 += covers(answer.interval95->F0, rig.F0) ? 1 : 0;
+  counts.misled += !in && error(answer.value.zeta, rig.zeta) > largest ? 1 : 0;
+}
+
+std::string list_of(const std::map<std::string, int>& map, int total) {
+  std::string text;
+  for (const auto& [name, number] : map)
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(100 * number / std::max(1, total));
+  return text;
+}
+
+void print(const Row& row, const Counts& c) {
+  const auto share = [](int part, int whole) { return 100.0 * part / std::max(1, whole); };
+  std::printf(
+      "%-34s n %3d tested %3.0f rejected %5.1f friction %5.1f answer %5.1f zeta %5.1f F0 %5.1f misled %4.1f "
+      "off %3.0f found %3.0f %4.2f s | named: %s | where off: %s | by: %s\n",
+      row.name.c_str(), c.records, share(c.tested, c.records), share(c.rejected, c.records),
+      share(c.friction, c.records), share(c.answers, c.records), share(c.zeta, c.answers), share(c.F0, c.answers),
+      share(c.misled, c.records), share(c.off, c.records), share(c.off_rejected, c.off),
+      c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(), list_of(c.named_off, c.off).c_str(),
+      list_of(c.by, c.answers).c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) return 2;
+  const int records = std::atoi(argv[1]);
+  const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
+  for (const Row& row : rows()) {
+    const bool wanted = argc == 3 || std::any_of(argv + 3, argv + argc, [&](const char* part) {
+                          return row.name.find(part) != std::string::npos;
+                        });
+    if (!wanted) continue;
+    Counts counts;
+    for (int i = 0; i < records; ++i) count(row, first + static_cast<std::uint64_t>(i), counts);
+    print(row, counts);
+  }
+  return 0;
+}
