@@ -218,8 +218,11 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Writer writer(model, tests, options);
   writer.write(ledger);
   writer.add_sight(ledger);
+  // Where friction may be what departs, no relaxed model stands by its zeta and F0.
   const bool is_friction = std::ranges::any_of(tests.departures, [&](const Departure& departure) {
-    return is_of_friction(model.relaxations[departure.explanations.front().index].assumption);
+    return std::ranges::any_of(departure.explanations, [&](const RelaxationTest& test) {
+      return is_of_friction(model.relaxations[test.index].assumption);
+    });
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
   if (!is_friction && has_spring)
