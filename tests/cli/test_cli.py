@@ -334,7 +334,7 @@ class Identify(Case):
         (estimate,) = document["result"]["estimates"]
         self.assertAlmostEqual(estimate["F0"], 2.00278357380023, delta=1e-12)
         self.assertTrue(estimate["usable"])
-        self.assertEqual(list(tree(self.folder / "results")), ["pairs/estimates.csv", "pairs/report.html", "pairs/result.json"])
+        self.assertEqual(list(tree(self.folder / "results")), ["pairs/assumptions.csv", "pairs/estimates.csv", "pairs/report.html", "pairs/result.json"])
 
     def test_a_simulated_history_read_back_gives_its_friction(self):
         # Signals without noise. Methods that regress forces or follow the motion exactly leave rounding, 1e-9 at most.

@@ -237,7 +237,7 @@ void add_uncertainty(const AmplitudeLaw& law, const Fit& fit, double unit, const
 }
 
 /// Is the friction another one at larger amplitudes, and is the natural frequency another one?
-void test_fit(const AmplitudeLaw& law, const Fit& fit, Estimate& estimate, std::vector<std::string>& faults) {
+void test_fit(const AmplitudeLaw& law, const Fit& fit, Estimate& estimate) {
   const Eigen::MatrixXd columns = fit.jacobian.leftCols(law.size());
   const Eigen::VectorXd residual = -fit.residual;  // measurement less law
   Eigen::VectorXd square(law.rows());
@@ -359,7 +359,7 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * law.pairs().front().Y * data->unit, faults);
-  test_fit(law, *fit, estimate, faults);
+  test_fit(law, *fit, estimate);
   judge_phases(record, law, *fit, estimate);
   if (options.profile && scatter)
     add_profiles(estimate, deviance_of(law, *fit, data->unit, scatter->variance), scatter->half_width,
