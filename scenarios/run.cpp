@@ -17,8 +17,8 @@ namespace {
 /// The numbers of the result that are no part of a list of records, in the order of the tables of the format.
 void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
-    // Sentences are told apart from numbers.
-    if (value.is_structured() || name == "verdict" || name == "answer_reason" || name == "answer.reason") return;
+    // Sentences are told apart from numbers; the verdict says the answer, and the table of estimates holds it.
+    if (value.is_structured() || name == "verdict" || name.starts_with("answer")) return;
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
     table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(value.get<double>(), digits)
