@@ -128,6 +128,7 @@ class ForwardFit {
   /// the mass does not move, go to the exclusions of `estimate`.
   ForwardFit(const Record& record, const KnownConstants& constants, const RegressionOptions& options,
              Estimate& estimate);
+  ~ForwardFit() = default;
   ForwardFit(const ForwardFit&) = delete;
   ForwardFit& operator=(const ForwardFit&) = delete;
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Data files as the programs of laboratories write them, made by no code of the readers.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,11 +15,12 @@
 
 namespace dualdamp::identify::testing {
 
-/// A file of the test's own, deleted with the object.
+/// A file of the test's own, deleted with the object. Tests run side by side: its name holds the process.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& bytes)
-      : path_((std::filesystem::temp_directory_path() / ("dualdamp_" + name)).string()) {
+      : path_((std::filesystem::temp_directory_path() / ("dualdamp_" + std::to_string(getpid()) + "_" + name))
+                  .string()) {
     std::ofstream(path_, std::ios::binary) << bytes;
   }
   TemporaryFile(const TemporaryFile&) = delete;
