@@ -15,14 +15,24 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Parameters of the decay, lengths in units of the first amplitude, times in half periods of the fit.
+/// Parameters of the decay, lengths in units of the first amplitude, times in half periods of the fit. The amplitudes
+/// alone say what zeta is: the period depends on it in the second order only, and just as well on all that makes a
+/// motion other than the model's. The times say by what share the period is `longer` than stated.
 struct Decay {
   double zeta = 0.0;
   double x_f = 0.0;
   double first = 1.0;
   double offset = 0.0;
   double start = 0.0;
+  double longer = 0.0;
 };
+
+/// Share by which the period may differ from that of the constants stated and a zeta within its least change of note.
+double period_tolerance(double zeta) {
+  // Constants are stated with six digits; 2 % of zeta.
+  constexpr double rounded = 1e-6;
+  return std::hypot(rounded, 0.02 * zeta * zeta);
+}
 
 /// One way in which a half swing may differ: what it takes from the amplitude, and by what share it lasts longer.
 struct DecayTerm {
@@ -66,10 +76,8 @@ struct Course {
 };
 
 /// `term` with coefficient g beside plain friction; nullptr: none.
-Course course(const Decay& decay, double side, std::size_t count, double half_period, const DecayTerm* term,
-              double g) {
-  const double s = std::sqrt((1.0 - decay.zeta) * (1.0 + decay.zeta));
-  const double R = std::exp(-std::numbers::pi * decay.zeta / s);
+Course course(const Decay& decay, double side, std::size_t count, const DecayTerm* term, double g) {
+  const double R = std::exp(-std::numbers::pi * decay.zeta / std::sqrt((1.0 - decay.zeta) * (1.0 + decay.zeta)));
   Course result;
   double X = decay.first;
   double t = decay.start;
@@ -79,17 +87,17 @@ Course course(const Decay& decay, double side, std::size_t count, double half_pe
     const double next = R * X - decay.x_f * (1.0 + R);
     const double mean = std::max(0.5 * (X + next), 1e-3);
     X = next - (term == nullptr ? 0.0 : g * term->loss(mean, side, X - next));
-    t += half_period / s * (1.0 + (term == nullptr ? 0.0 : g * term->lasting(mean)));
+    t += 1.0 + decay.longer + (term == nullptr ? 0.0 : g * term->lasting(mean));
   }
   return result;
 }
 
-/// The rows of a course, amplitudes and then times where there are any.
-Eigen::VectorXd rows_of(const Course& course, bool timed) {
+/// The rows of a course: amplitudes; where there are times, these, and the tolerance of the period as one more.
+Eigen::VectorXd rows_of(const Course& course, bool timed, double longer) {
   const auto count = static_cast<Eigen::Index>(course.extremes.size());
-  Eigen::VectorXd rows(timed ? 2 * count : count);
+  Eigen::VectorXd rows(timed ? 2 * count + 1 : count);
   rows.head(count) = Eigen::Map<const Eigen::VectorXd>(course.extremes.data(), count);
-  if (timed) rows.tail(count) = Eigen::Map<const Eigen::VectorXd>(course.times.data(), count);
+  if (timed) rows.tail(count + 1) << Eigen::Map<const Eigen::VectorXd>(course.times.data(), count), longer;
   return rows;
 }
 
@@ -104,7 +112,7 @@ double scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) 
   const Eigen::VectorXd target = model.residuals.segment(first, count);
   const Eigen::VectorXd left = target - used * pivoted_least_squares(used, target);
   const double freedom = std::max(1.0, static_cast<double>(count - own(used)));
-  const double scale = std::sqrt(std::max(left.squaredNorm() / freedom, 1e-30));
+  const double scale = std::sqrt(std::max(left.squaredNorm() / freedom, 1e-18));
   model.residuals.segment(first, count) /= scale;
   model.base.middleRows(first, count) /= scale;
   model.relaxed.middleRows(first, count) /= scale;
@@ -112,28 +120,30 @@ double scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) 
 }
 
 /// Derivatives by central differences.
-void add_columns(const Decay& decay, double side, std::size_t count, double half_period, bool timed,
-                 JointModel& model) {
+void add_columns(const Decay& decay, double side, std::size_t count, bool timed, JointModel& model) {
   constexpr double step = 1e-6;
   const auto rows = [&](const Decay& at, const DecayTerm* term, double g) {
-    return rows_of(course(at, side, count, half_period, term, g), timed);
+    return rows_of(course(at, side, count, term, g), timed, at.longer);
   };
+  const auto slope = [&](const Eigen::VectorXd& up, const Eigen::VectorXd& down) {
+    return Eigen::VectorXd((up - down) / (2.0 * step));
+  };
+  constexpr std::array<double Decay::*, 6> members = {&Decay::zeta,   &Decay::x_f,   &Decay::first,
+                                                      &Decay::offset, &Decay::start, &Decay::longer};
   const Eigen::Index size = model.residuals.size();
-  model.base.resize(size, timed ? 5 : 4);
-  constexpr std::array<double Decay::*, 5> members = {&Decay::zeta, &Decay::x_f, &Decay::first, &Decay::offset,
-                                                      &Decay::start};
+  model.base.resize(size, timed ? 6 : 4);
   for (Eigen::Index j = 0; j < model.base.cols(); ++j) {
     Decay up = decay;
     Decay down = decay;
     up.*members[static_cast<std::size_t>(j)] += step;
     down.*members[static_cast<std::size_t>(j)] -= step;
-    model.base.col(j) = (rows(up, nullptr, 0.0) - rows(down, nullptr, 0.0)) / (2.0 * step);
+    model.base.col(j) = slope(rows(up, nullptr, 0.0), rows(down, nullptr, 0.0));
   }
   std::vector<Eigen::VectorXd> columns;
   for (const DecayTerm& term : terms) {
     if (term.loss == no_loss && !timed) continue;
     model.relaxations.push_back({term.assumption, std::string(term.test)});
-    columns.emplace_back((rows(decay, &term, step) - rows(decay, &term, -step)) / (2.0 * step));
+    columns.emplace_back(slope(rows(decay, &term, step), rows(decay, &term, -step)));
   }
   model.relaxed.resize(size, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t j = 0; j < columns.size(); ++j) model.relaxed.col(static_cast<Eigen::Index>(j)) = columns[j];
@@ -148,7 +158,8 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
   const std::size_t count = fit.used.size();
   if (count < fewest) return "fewer than six extremes";
   const double unit = std::abs(fit.decay->first_amplitude);
-  const double half_period = std::numbers::pi * std::sqrt(constants.mass / constants.stiffness);
+  const double half_period = std::numbers::pi * std::sqrt(constants.mass / constants.stiffness) /
+                             std::sqrt((1.0 - fit.value.zeta) * (1.0 + fit.value.zeta));
   const bool timed = record.decay->times.size() == record.decay->extremes.size();
   const Decay decay{fit.value.zeta, fit.value.x_f / unit, 1.0, fit.decay->offset / unit,
                     timed ? record.decay->times.front() / half_period : 0.0};
@@ -161,11 +172,14 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
     measured.extremes.push_back(record.decay->extremes[i] / unit);
     measured.times.push_back(timed ? record.decay->times[i] / half_period : 0.0);
   }
-  model.residuals = rows_of(measured, timed) - rows_of(course(decay, side, count, 1.0, nullptr, 0.0), timed);
-  add_columns(decay, side, count, 1.0, timed, model);
+  model.residuals = rows_of(measured, timed, 0.0) - rows_of(course(decay, side, count, nullptr, 0.0), timed, 0.0);
+  add_columns(decay, side, count, timed, model);
   const auto rows = static_cast<Eigen::Index>(count);
   model.scale_freedom = scale_channel(model, 0, rows);
-  if (timed) static_cast<void>(scale_channel(model, rows, rows));
+  if (timed) {
+    static_cast<void>(scale_channel(model, rows, rows));
+    model.base.bottomRows(1) /= period_tolerance(fit.value.zeta);
+  }
   model.spent = timed ? 1.0 : 0.0;
   model.base.col(1) /= constants.stiffness * unit;
   model.value = fit.value;

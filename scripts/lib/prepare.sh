@@ -54,6 +54,9 @@ installed_packages() {
   dpkg-query -W -f='${db:Status-Status} ${Package}\n' $(awk '!/^#/ { print $1 }' "$root/scripts/packages.txt") 2>/dev/null | sed -n 's/^installed //p'
 }
 
+# ccache takes a precompiled header from another tree only where the generated header that it stands for has the same age.
+same_age_of_precompiled() { find "$1" -name 'cmake_pch.hxx' -exec touch -d 2000-01-01 {} +; }
+
 # Configures when that was never done, when the presets or the installed packages changed, or when the tree has moved since.
 configure() {
   local tree=$root/build/$1 fresh=() packages
@@ -66,7 +69,7 @@ configure() {
   fi
   say "configuring build/$1"
   (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$tree/configure.log" 2>&1 </dev/null &&
-    printf '%s' "$packages" >"$tree/.packages" && return 0
+    same_age_of_precompiled "$tree" && printf '%s' "$packages" >"$tree/.packages" && return 0
   tail -n 40 "$tree/configure.log" >&2
   return 1
 }
