@@ -231,7 +231,7 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   scenarios::Answer answer;
   answer.result = summary(scores, grid);
   answer.tables = {ranking_table(scores, grid), breakdown_table(scores, grid), score_table(scores, grid)};
-  answer.some_cases_failed = scores.failed_cases > 0;
+  if (scores.failed_cases > 0) answer.status = core::ExitStatus::some_cases_failed;
   return answer;
 }
 

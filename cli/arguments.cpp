@@ -143,6 +143,9 @@ class Parser {
                     "Standard uncertainty of a sensor's gain: --gain-uncertainty x='1 %'")
         ->allow_extra_args(false)
         ->type_name("SIGNAL=SHARE");
+    command.add_flag(
+        "--robust", identify_.robust,
+        "Bounds the influence of readings that do not belong to the others (Huber), and replaces spikes");
     add_file_options(command);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }

@@ -54,6 +54,7 @@ struct IdentifyCommand {
   std::string decimal;
   std::string sigma_x, sigma_Y;
   bool no_header = false;
+  bool robust = false;
   std::string out;
   bool json = false;
   bool quiet = false;

@@ -44,6 +44,7 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
     if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
   if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
   if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
+  if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
   for (const std::string& text : command.gain_uncertainties)
     options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
   add_maps(command, options);

@@ -52,19 +52,17 @@ Answer answer_of(const Scenario& scenario, const RunOptions& options) {
 RunResult result_of(const Scenario& scenario, Answer answer) {
   RunResult result;
   result.warnings = scenario.warnings;
+  result.status = answer.status;
+  result.failure = std::move(answer.failure);
   if (answer.result.is_null()) {
     result.status = core::ExitStatus::numerical_failure;
-    result.failure = std::move(answer.failure);
   } else {
     result.result = answer.result.dump();
     if (answer.result.contains("verdict")) result.verdict = answer.result.at("verdict").get<std::string>();
     summarise(scenario, answer.result, result.summary);
     result.tables = std::move(answer.tables);
     result.checks = compare(scenario.expect, answer.result, result.tables);
-    if (!std::ranges::all_of(result.checks, &Check::ok))
-      result.status = core::ExitStatus::check_failed;
-    else if (answer.some_cases_failed)
-      result.status = core::ExitStatus::some_cases_failed;
+    if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
   }
   std::ranges::move(answer.warnings, std::back_inserter(result.warnings));
   return result;

@@ -30,7 +30,7 @@ struct Check {
 struct RunResult {
   core::ExitStatus status = core::ExitStatus::done;  ///< done, check_failed, numerical_failure, some_cases_failed
   std::string result = "null";                       ///< JSON; null stands for a list that is one of `tables`
-  std::string failure;                               ///< why there is no result
+  std::string failure;                               ///< why there is no result, or no answer in it
   std::vector<std::string> warnings;
   /// The single numbers of the result as text, for people.
   Table summary{"summary",

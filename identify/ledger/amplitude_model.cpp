@@ -27,18 +27,18 @@ struct Deviations {
 };
 
 /// Y and phase that a motion asks for.
-using Reading = Eigen::Vector2d;
+using Asked = Eigen::Vector2d;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
-Reading reading(std::complex<double> drive) { return {std::abs(drive), std::arg(drive)}; }
+Asked asked(std::complex<double> drive) { return {std::abs(drive), std::arg(drive)}; }
 
-/// Change of a reading by a small step, per unit of the step.
+/// Change of what is asked by a small step, per unit of the step.
 template <typename At>
-Reading slope(const At& at, double step) {
-  const Reading up = reading(at(step));
-  const Reading down = reading(at(-step));
-  return Reading(up[0] - down[0], wrapped(up[1] - down[1])) / (2.0 * step);
+Asked slope(const At& at, double step) {
+  const Asked up = asked(at(step));
+  const Asked down = asked(at(-step));
+  return Asked(up[0] - down[0], wrapped(up[1] - down[1])) / (2.0 * step);
 }
 
 constexpr double small = 1e-5;
@@ -54,7 +54,8 @@ struct Rows {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd base;
   Eigen::MatrixXd relaxed;
-  double log_variances = 0.0;  ///< half the log of the determinant of V
+  std::vector<Reading> readings;  ///< lengths in units of the largest amplitude
+  double log_variances = 0.0;     ///< half the log of the determinant of V
 };
 
 class SteadyStates {
@@ -96,6 +97,7 @@ class SteadyStates {
     rows.residuals.resize(count);
     rows.base.resize(count, 2);
     rows.relaxed.setZero(count, at.g.size());
+    rows.readings.resize(static_cast<std::size_t>(count));
     Eigen::Index phase_row = amplitudes();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const bool has_phase = with_phases_ && !std::isnan(points_[i].phase);
@@ -130,10 +132,10 @@ class SteadyStates {
     return sum;
   }
 
-  /// Column of a parameter: the change of the reading per unit of it.
+  /// Column of a parameter: the change of what is asked per unit of it.
   template <typename Change>
-  [[nodiscard]] Reading column(const SteadyPoint& point, const Parameters& at, double x, double step,
-                               const Change& change) const {
+  [[nodiscard]] Asked column(const SteadyPoint& point, const Parameters& at, double x, double step,
+                             const Change& change) const {
     return slope(
         [&](double h) {
           Parameters moved = at;
@@ -148,9 +150,9 @@ class SteadyStates {
     const SteadyPoint& point = points_[i];
     double& xi = true_x_[i];
     const bool has_phase = phase_row >= 0;
-    const Reading model = reading(drive(point, at, xi));
-    const Reading by_x = slope([&](double h) { return drive(point, at, xi + h); }, small);
-    Reading residual(point.Y - model[0], has_phase ? wrapped(point.phase - model[1]) : 0.0);
+    const Asked model = asked(drive(point, at, xi));
+    const Asked by_x = slope([&](double h) { return drive(point, at, xi + h); }, small);
+    Asked residual(point.Y - model[0], has_phase ? wrapped(point.phase - model[1]) : 0.0);
     residual -= by_x * (point.x - xi);
     if (!has_phase) residual[1] = 0.0;
 
@@ -165,19 +167,22 @@ class SteadyStates {
     const Eigen::LLT<Eigen::Matrix2d> factor(variance);
     rows.log_variances += std::log(factor.matrixL()(0, 0)) + std::log(factor.matrixL()(1, 1));
     const auto row = static_cast<Eigen::Index>(i);
-    const auto put = [&](const Reading& column, auto into) {
-      const Reading whitened = factor.matrixL().solve(column);
+    const auto put = [&](const Asked& column, auto into) {
+      const Asked whitened = factor.matrixL().solve(column);
       into(row) = whitened[0];
       if (has_phase) into(phase_row) = whitened[1];
     };
     put(residual, rows.residuals.col(0));
+    const Eigen::Matrix2d L = factor.matrixL();
+    rows.readings[i] = {Channel::amplitude, point.number, by_x[0] == 0.0 ? 0.0 : -L(0, 0) / by_x[0]};
+    if (has_phase) rows.readings[static_cast<std::size_t>(phase_row)] = {Channel::phase, point.number, L(1, 1)};
     put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3),
                [](Parameters& p, double h) { p.friction.zeta += h; }),
         rows.base.col(0));
     put(column(point, at, xi, small, [](Parameters& p, double h) { p.friction.x_f += h; }), rows.base.col(1));
     for (Eigen::Index j = 0; j < at.g.size(); ++j)
       put(column(point, at, xi, small, [j](Parameters& p, double h) { p.g[j] += h; }), rows.relaxed.col(j));
-    const Reading solved = factor.solve(residual);
+    const Asked solved = factor.solve(residual);
     xi = std::max(point.x + x_variance * by_x.dot(solved), 1e-3 * point.x);
   }
 
@@ -357,6 +362,9 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, con
   model.data = std::to_string(states.points().size()) + " steady states" +
                (states.with_phases() ? " with phases" : " without phases");
   model.residuals = fit.rows.residuals;
+  model.readings = fit.rows.readings;
+  for (Reading& reading : model.readings)
+    if (reading.channel == Channel::amplitude) reading.per_deviation *= unit;
   model.base = fit.rows.base;
   model.relaxations = states.relaxations();
   model.relaxed = fit.rows.relaxed;

@@ -75,14 +75,29 @@ double area(const Estimate& estimate) {
   return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
-/// The narrowest; of estimates without intervals the only one there is.
+/// Do all estimates with these places agree with one of them in c and F0, but for what matters?
+bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t>& places, std::size_t with) {
+  const double share = LedgerOptions{}.least_change;
+  return std::ranges::all_of(places, [&](std::size_t place) {
+    const ParameterSet& a = estimates[place].value;
+    const ParameterSet& b = estimates[with].value;
+    return std::abs(a.c - b.c) <= share * std::abs(b.c) && std::abs(a.F0 - b.F0) <= share * std::abs(b.F0);
+  });
+}
+
+/// The narrowest; of estimates without intervals the one in the middle, if all agree.
 std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
-  const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
   const auto narrowest = std::ranges::min_element(estimates, {}, area);
   if (narrowest == estimates.end()) return std::nullopt;
-  if (std::isfinite(area(*narrowest))) return place(narrowest);
-  if (std::ranges::count_if(estimates, &Estimate::usable) != 1) return std::nullopt;
-  return place(std::ranges::find_if(estimates, &Estimate::usable));
+  if (std::isfinite(area(*narrowest))) return static_cast<std::size_t>(narrowest - estimates.begin());
+  std::vector<std::size_t> usable;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (estimates[i].usable) usable.push_back(i);
+  if (usable.empty()) return std::nullopt;
+  std::ranges::sort(usable, {},
+                    [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });
+  const std::size_t middle = usable[usable.size() / 2];
+  return agree(estimates, usable, middle) ? std::optional(middle) : std::nullopt;
 }
 
 std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
@@ -97,6 +112,10 @@ std::string why_preferred(const Identification& all) {
       std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
   std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
                                              : "none of the assumptions it rests on is violated";
+  const auto usable = std::ranges::count_if(all.estimates, &Estimate::usable);
+  if (rivals == 0 && usable > 1)
+    text += ", and " + std::to_string(usable) +
+            " methods agree; the record has no more readings than parameters, so there is no interval";
   text +=
       rivals > 1 ? ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest" : "";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
@@ -104,30 +123,51 @@ std::string why_preferred(const Identification& all) {
   return text;
 }
 
-/// What to measure or state so that there is an answer.
-std::string what_would_help(const Ledger& ledger) {
-  const auto violates = [&](Assumption assumption) { return ledger.is_violated(assumption); };
-  if (violates(Assumption::constants))
-    return "leave out --stiffness or --mass where the record can tell it, or measure them anew";
-  if (violates(Assumption::sensors)) return "calibrate the sensors against each other, or record the phase";
-  if (violates(Assumption::stationarity)) return "give the sweeps their labels, or measure them one by one";
-  if (violates(Assumption::spring) || violates(Assumption::one_mode))
-    return "measure at smaller amplitudes, or record the phase: the work of a forcing period does not depend on "
-           "the spring";
-  if (violates(Assumption::friction_displacement) || violates(Assumption::friction_velocity))
-    return "record the phase at several frequencies, or a history, and fit a law that has such a term";
-  if (violates(Assumption::symmetry)) return "measure each direction by itself";
+/// What to measure or state so that an assumption can be done without.
+std::string what_would_help(Assumption assumption) {
+  using enum Assumption;
+  switch (assumption) {
+    case constants:
+      return "leave out --stiffness or --mass where the record can tell it, or measure them anew";
+    case sensors:
+      return "calibrate the sensors against each other, or record the phase";
+    case stationarity:
+      return "give the sweeps their labels, or measure them one by one";
+    case drive:
+      return "record the drive, or leave out where it is not steady";
+    case spring:
+    case one_mode:
+      return "measure at smaller amplitudes, or record the phase: the work of a forcing period does not depend on "
+             "the spring";
+    case friction_velocity:
+    case friction_displacement:
+      return "record the phase at several frequencies, or a history, and fit a law that has such a term";
+    case symmetry:
+      return "measure each direction by itself";
+  }
   return "more data, or less noise";
 }
 
+/// Why no estimate is used though there are some: every departure, and what would help with each.
+std::string why_contradicted(const Ledger& ledger) {
+  std::vector<std::string> held;
+  std::vector<std::string> helps;
+  for (const std::vector<Assumption>& departure : ledger.departures) {
+    held.push_back(statements(departure, ", or that "));
+    std::string help = what_would_help(departure.front());
+    if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
+  }
+  return "it does not hold that " + joined(held, "; nor that ") + "; what would help: " + joined(helps, "; and ");
+}
+
 std::string why_none(const Identification& all) {
-  for (const std::vector<Assumption>& departure : all.ledger.departures)
-    return "it does not hold that " + statements(departure, ", or that ") +
-           "; what would help: " + what_would_help(all.ledger);
+  if (!all.ledger.departures.empty()) return why_contradicted(all.ledger);
   const auto there = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (there == all.estimates.end())
     return all.estimates.empty() ? "" : all.estimates.front().method + ": " + all.estimates.front().outcome.reason;
-  if (there->usable) return there->method + " gives no interval; what would help: more data";
+  const auto usable = std::ranges::find_if(all.estimates, &Estimate::usable);
+  if (usable != all.estimates.end())
+    return "the usable estimates have no intervals and do not agree; what would help: more data";
   return there->method + ": " + there->reason;
 }
 

@@ -15,9 +15,9 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Parameters of the decay, lengths in units of the first amplitude, times in half periods of the fit. The amplitudes
-/// alone say what zeta is: the period depends on it in the second order only, and just as well on all that makes a
-/// motion other than the model's. The times say by what share the period is `longer` than stated.
+/// Parameters of the decay, lengths in units of the first amplitude, times in half periods of the fit. The
+/// amplitudes alone say what zeta is: the period depends on it in the second order only, and just as well on all
+/// that makes a motion other than the model's. The times say by what share the period is `longer` than stated.
 struct Decay {
   double zeta = 0.0;
   double x_f = 0.0;
@@ -27,7 +27,8 @@ struct Decay {
   double longer = 0.0;
 };
 
-/// Share by which the period may differ from that of the constants stated and a zeta within its least change of note.
+/// Share by which the period may differ from that of the constants stated and a zeta within its least change of
+/// note.
 double period_tolerance(double zeta) {
   // Constants are stated with six digits; 2 % of zeta.
   constexpr double rounded = 1e-6;
@@ -101,9 +102,13 @@ Eigen::VectorXd rows_of(const Course& course, bool timed, double longer) {
   return rows;
 }
 
-/// Brings the rows of one channel to unit deviation, which is taken from what its own columns leave. Returns the
-/// degrees of freedom of the deviation.
-double scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) {
+struct ChannelScale {
+  double deviation = 0.0;
+  double freedom = 0.0;
+};
+
+/// Brings the rows of one channel to unit deviation, which is taken from what its own columns leave.
+ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) {
   Eigen::MatrixXd columns(count, model.base.cols() + model.relaxed.cols());
   columns << model.base.middleRows(first, count), model.relaxed.middleRows(first, count);
   const auto own = [](const Eigen::MatrixXd& list) { return (list.colwise().norm().array() > 0.0).count(); };
@@ -116,7 +121,11 @@ double scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) 
   model.residuals.segment(first, count) /= scale;
   model.base.middleRows(first, count) /= scale;
   model.relaxed.middleRows(first, count) /= scale;
-  return freedom;
+  return {scale, freedom};
+}
+
+void add_readings(JointModel& model, Channel channel, Eigen::Index count, double per_deviation) {
+  for (int i = 1; i <= count; ++i) model.readings.push_back({channel, i, per_deviation});
 }
 
 /// Derivatives by central differences.
@@ -175,10 +184,13 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
   model.residuals = rows_of(measured, timed, 0.0) - rows_of(course(decay, side, count, nullptr, 0.0), timed, 0.0);
   add_columns(decay, side, count, timed, model);
   const auto rows = static_cast<Eigen::Index>(count);
-  model.scale_freedom = scale_channel(model, 0, rows);
+  const ChannelScale amplitudes = scale_channel(model, 0, rows);
+  model.scale_freedom = amplitudes.freedom;
+  add_readings(model, Channel::extreme, rows, amplitudes.deviation * unit);
   if (timed) {
-    static_cast<void>(scale_channel(model, rows, rows));
+    add_readings(model, Channel::time, rows, scale_channel(model, rows, rows).deviation * half_period);
     model.base.bottomRows(1) /= period_tolerance(fit.value.zeta);
+    model.readings.emplace_back();
   }
   model.spent = timed ? 1.0 : 0.0;
   model.base.col(1) /= constants.stiffness * unit;

@@ -21,9 +21,20 @@ struct Relaxation {
   std::string test;  ///< "natural frequency free", ...: what is set free
 };
 
+/// What was read.
+enum class Channel { amplitude, phase, extreme, time };
+
+/// The reading behind a row.
+struct Reading {
+  Channel channel = Channel::amplitude;
+  int number = 0;              ///< of the pair or of the extreme, from 1
+  double per_deviation = 0.0;  ///< change of the reading that raises the row's residual by one; 0: no reading
+};
+
 struct JointModel {
   std::string data;  ///< "24 steady states"
   Eigen::VectorXd residuals;
+  std::vector<Reading> readings;  ///< of each row; empty where rows are means of many
   Eigen::MatrixXd base;
   std::vector<Relaxation> relaxations;
   Eigen::MatrixXd relaxed;  ///< a column for each relaxation

@@ -65,22 +65,36 @@ struct Constant {
   std::string_view name;
   void (*multiply)(Input& input, double factor);
   double (*relative)(const ConstantUncertainties& uncertainties, const KnownConstants& constants);
+  bool (*is_present)(const Input& input);
 };
+
+template <Signal signal>
+bool holds(const Input& input) {
+  return std::ranges::any_of(input.record.histories, [](const History& h) { return !(h.*signal).empty(); });
+}
+
+bool has_pairs(const Input& input) { return input.record.pairs.has_value(); }
 
 constexpr std::array<Constant, 8> all_constants = {{
     {"mass", [](Input& input, double factor) { input.constants.mass *= factor; },
-     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.mass / known.mass; }},
+     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.mass / known.mass; },
+     [](const Input& input) { return input.constants.mass > 0.0; }},
     {"stiffness", [](Input& input, double factor) { input.constants.stiffness *= factor; },
-     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.stiffness / known.stiffness; }},
+     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.stiffness / known.stiffness; },
+     [](const Input& input) { return input.constants.stiffness > 0.0; }},
     {"frequency", multiply_frequency,
-     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.frequency / known.frequency; }},
-    {"gain of y", multiply_y, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_y; }},
-    {"gain of x", multiply_x, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_x; }},
-    {"gain of v", multiply_v, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_v; }},
+     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.frequency / known.frequency; },
+     [](const Input& input) { return input.constants.frequency > 0.0 && !input.record.decay; }},
+    {"gain of y", multiply_y, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_y; },
+     [](const Input& input) { return has_pairs(input) || holds<&History::y>(input); }},
+    {"gain of x", multiply_x, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_x; },
+     [](const Input& input) { return has_pairs(input) || input.record.decay || holds<&History::x>(input); }},
+    {"gain of v", multiply_v, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_v; },
+     [](const Input& input) { return has_pairs(input) || holds<&History::v>(input); }},
     {"gain of a", [](Input& input, double factor) { multiply(input.record, &History::a, factor); },
-     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_a; }},
+     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_a; }, holds<&History::a>},
     {"gain of force", [](Input& input, double factor) { multiply(input.record, &History::force, factor); },
-     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_force; }},
+     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_force; }, holds<&History::force>},
 }};
 
 /// The estimates with one constant lower and higher than stated; where one of them fails, that as stated stands in.
@@ -196,21 +210,24 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
   return estimate;
 }
 
-std::vector<Sensitivity> sensitivities(const Reader& read, const Record& record, const KnownConstants& constants) {
-  constexpr double deviation = 0.01;
-  const Estimate stated = read(record, constants);
+std::vector<Sensitivity> sensitivities(const Reader& read, const Estimate& stated, const Record& record,
+                                       const KnownConstants& constants,
+                                       const ConstantUncertainties& uncertainties) {
+  constexpr double higher = 1.01;
   std::vector<Sensitivity> list;
   if (!stated.outcome.ok()) return list;
-  const Input input{record, constants};
-  Variation variation(read, input, stated);
   for (const Constant& constant : all_constants) {
-    const std::optional<Bracket> bracket = variation.at(constant, deviation);
-    if (!bracket) continue;
+    if (constant.relative(uncertainties, constants) > 0.0) continue;
+    Input input{record, constants};
+    if (!constant.is_present(input)) continue;
+    constant.multiply(input, higher);
+    const Estimate moved = read(input.record, input.constants);
+    if (!moved.outcome.ok()) continue;
     const Sensitivity found{std::string(constant.name),
-                            relative(difference(*bracket, &ParameterSet::zeta), stated.value.zeta),
-                            relative(difference(*bracket, &ParameterSet::F0), stated.value.F0)};
+                            relative(moved.value.zeta - stated.value.zeta, stated.value.zeta),
+                            relative(moved.value.F0 - stated.value.F0, stated.value.F0)};
     // A constant that the method does not use moves nothing.
-    constexpr double nothing = 1e-6;
+    constexpr double nothing = 1e-5;
     if (std::abs(found.zeta_change) > nothing || std::abs(found.F0_change) > nothing) list.push_back(found);
   }
   std::ranges::sort(list, std::ranges::greater{}, [](const Sensitivity& one) {

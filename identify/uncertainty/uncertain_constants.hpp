@@ -43,8 +43,10 @@ using Reader = std::function<Estimate(const Record&, const KnownConstants&)>;
 [[nodiscard]] Estimate with_uncertainties(const Reader& read, const Record& record, const KnownConstants& constants,
                                           const ConstantUncertainties& uncertainties);
 
-/// How the estimate answers to each constant that it depends on, the strongest first. Empty when there is none.
-[[nodiscard]] std::vector<Sensitivity> sensitivities(const Reader& read, const Record& record,
-                                                     const KnownConstants& constants);
+/// How `stated`, which `read` gives, answers to each constant that it depends on and whose uncertainty is not
+/// stated, the strongest first. Cost: a reading for each constant.
+[[nodiscard]] std::vector<Sensitivity> sensitivities(const Reader& read, const Estimate& stated,
+                                                     const Record& record, const KnownConstants& constants,
+                                                     const ConstantUncertainties& uncertainties);
 
 }  // namespace dualdamp::identify

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/ledger/outliers.hpp"
 #include "scenarios/analyses/identify_options.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
@@ -14,6 +14,7 @@
 #include "scenarios/measurements/method_choice.hpp"
 #include "scenarios/measurements/sensors.hpp"
 #include "scenarios/results/estimates.hpp"
+#include "scenarios/results/outliers.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -40,6 +41,10 @@ Section keys() {
                "relative change of zeta or F0, when an assumption is relaxed, from which on a departure matters")
           .with_fallback(identify::LedgerOptions{}.least_change)
           .at_least(0));
+  fields.push_back(
+      boolean("robust",
+              "bounds the influence of readings that do not belong to the others (Huber), and replaces "
+              "spikes in histories of a data file"));
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
@@ -94,6 +99,13 @@ identify::ConstantUncertainties uncertainties_of(const CheckedValues& values) {
   return uncertainties;
 }
 
+/// What a method makes of any record.
+identify::Reader reader_of(const identify::MethodEntry& method, const identify::OptionValues& options) {
+  return [&method, &options](const identify::Record& record, const identify::KnownConstants& constants) {
+    return method.run(record, constants, method.own(options));
+  };
+}
+
 /// The estimate of the ledger's joint model, of any record.
 identify::Reader joint_estimate(const identify::LedgerOptions& options) {
   return [options](const identify::Record& record, const identify::KnownConstants& constants) {
@@ -114,7 +126,8 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
                                                                           : identify::unknown},
       uncertainties_of(values),
       method_options(section),
-      {section.at("least_change").get<double>()}};
+      {section.at("least_change").get<double>()},
+      section.value("robust", false)};
   if (values.data) return std::make_unique<IdentifyQuestion>(std::move(*values.data), std::move(methods));
   IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), model)};
   if (section.contains("sensors")) {
@@ -147,26 +160,42 @@ identify::Record IdentifyQuestion::record(const RunContext& context, std::vector
   return reading(motion, sensors, seed, warnings);
 }
 
-identify::Estimate IdentifyQuestion::with_uncertainties(const identify::Reader& read,
-                                                        const identify::Record& record) const {
-  return identify::with_uncertainties(read, record, methods_.constants, methods_.uncertainties);
+identify::Identification IdentifyQuestion::conclude(const identify::Record& record, double within) const {
+  const auto read = [&](const identify::Reader& reader) {
+    return identify::with_uncertainties(reader, record, methods_.constants, methods_.uncertainties);
+  };
+  std::vector<identify::Estimate> estimates;
+  for (const identify::MethodEntry* method : methods_.list)
+    estimates.push_back(read(reader_of(*method, methods_.options)));
+  identify::Ledger ledger = identify::ledger_of(record, methods_.constants, methods_.ledger);
+  if (ledger.joint && methods_.uncertainties.any()) ledger.joint = read(joint_estimate(methods_.ledger));
+  for (identify::Estimate& estimate : estimates) identify::widen(estimate, within);
+  if (ledger.joint) identify::widen(*ledger.joint, within);
+  return identify::concluded(std::move(estimates), std::move(ledger));
+}
+
+std::vector<identify::Sensitivity> IdentifyQuestion::sensitivities(const identify::Identification& found,
+                                                                   const identify::Record& record) const {
+  if (!found.answer) return {};
+  const identify::Estimate& best = found.estimates[*found.answer];
+  const identify::MethodEntry* method = identify::find_method(best.method);
+  const identify::Reader reader =
+      method == nullptr ? joint_estimate(methods_.ledger) : reader_of(*method, methods_.options);
+  return identify::sensitivities(reader, best, record, methods_.constants, methods_.uncertainties);
 }
 
 Answer IdentifyQuestion::run(const RunContext& context) const {
   std::vector<std::string> warnings;
   const identify::Record data = record(context, warnings);
   std::ranges::move(unused_options(methods_.options, methods_.list), std::back_inserter(warnings));
-  std::vector<identify::Estimate> estimates;
-  for (const identify::MethodEntry* method : methods_.list)
-    estimates.push_back(with_uncertainties(
-        [&](const identify::Record& read, const identify::KnownConstants& constants) {
-          return method->run(read, constants, method->own(methods_.options));
-        },
-        data));
-  identify::Ledger ledger = identify::ledger_of(data, methods_.constants, methods_.ledger);
-  if (ledger.joint && methods_.uncertainties.any())
-    ledger.joint = with_uncertainties(joint_estimate(methods_.ledger), data);
-  Answer answer = answer_of(identify::concluded(std::move(estimates), std::move(ledger)), data);
+  const identify::BoundedInfluence bounded = identify::bounded_influence(data, methods_.constants);
+  const identify::Record& read = methods_.robust ? bounded.record : data;
+  const identify::Identification found = conclude(read, methods_.robust ? bounded.within : 1.0);
+  Answer answer = answer_of(found, data);
+  if (!answer.result.is_null()) {
+    add_outliers(bounded.outliers, methods_.robust, answer);
+    add_sensitivities(sensitivities(found, read), answer);
+  }
   answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
   return answer;
 }
@@ -177,7 +206,7 @@ const Analysis& identify_analysis() {
       .summary = "estimates by the identification methods from measured or simulated data",
       .keys = keys(),
       .needs = needs(),
-      .results = estimate_fields(),
+      .results = joined(estimate_fields(), outlier_fields()),
       .uses_uncertainties = true,
       .check = check,
       .ask = ask,

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "identify/ledger/answer.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
@@ -29,6 +30,7 @@ class IdentifyQuestion final : public Question {
     identify::ConstantUncertainties uncertainties;
     identify::OptionValues options;
     identify::LedgerOptions ledger;
+    bool robust = false;  ///< bounds the influence of readings that do not belong to the others
   };
 
   IdentifyQuestion(identify::MeasuredRecord data, Methods methods)
@@ -44,7 +46,9 @@ class IdentifyQuestion final : public Question {
 
  private:
   identify::Record record(const RunContext& context, std::vector<std::string>& warnings) const;
-  identify::Estimate with_uncertainties(const identify::Reader& read, const identify::Record& record) const;
+  identify::Identification conclude(const identify::Record& record, double within) const;
+  std::vector<identify::Sensitivity> sensitivities(const identify::Identification& found,
+                                                   const identify::Record& record) const;
 
   std::variant<identify::MeasuredRecord, Synthetic> source_;
   Methods methods_;

@@ -70,7 +70,15 @@ function ledgerLine(entry) {
           entry.reason ? make('small', {class: 'under'}, entry.reason) : null));
 }
 
-function ledger({assumptions, family_level: level, tested}) {
+/** What 1 % of each constant would do to the answer. */
+function sensitivityLine(sensitivities) {
+  if (!sensitivities?.length) return null;
+  const parts = sensitivities.map(
+      (one) => `${one.constant} (ζ ${shareOf(one.zeta_change) ?? '–'}, F0 ${shareOf(one.F0_change) ?? '–'})`);
+  return make('p', {class: 'soft'}, `1 % more of a constant moves the answer by: ${parts.join(', ')}.`);
+}
+
+function ledger({assumptions, family_level: level, tested, sensitivities}) {
   return [
     heading('Ledger of assumptions'),
     make(
@@ -78,8 +86,8 @@ function ledger({assumptions, family_level: level, tested}) {
         tested ?
             `Tested in ${tested}; all tests together reject wrongly in ${short(100 * level, 2)} % of records.` :
             'Nothing could be tested in this record.'),
-    make('dl', {class: 'ledger'}, assumptions.map(ledgerLine))
-  ];
+    make('dl', {class: 'ledger'}, assumptions.map(ledgerLine)), sensitivityLine(sensitivities)
+  ].filter(Boolean);
 }
 
 function estimateTable(estimates) {

@@ -7,6 +7,7 @@
 #include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/plausibility.hpp"
+#include "identify/records/spikes.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -128,6 +129,9 @@ void read_data(CheckedFile& file) {
   take_gain_uncertainties(file);
   try {
     identify::MeasuredRecord data = identify::read_record(path->string(), read_options(file, name));
+    const Json& analysis = file.values().at("analysis");
+    for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
+      data.warnings.push_back(std::move(sentence));
     // A frequency that could not be resolved is still a word, and complained about elsewhere.
     const bool known = file.text_at("excitation", "frequency").ends_with("rad/s");
     const double frequency = known ? *file.number_at("excitation", "frequency") : identify::unknown;

@@ -92,6 +92,10 @@ Table readable_assumptions(const std::vector<LedgerEntry>& entries) {
 void add_ledger(const identify::Identification& found, Answer& answer) {
   answer.result["answer"] = found.answer ? answer_json(found) : Json(nullptr);
   answer.result["answer_reason"] = found.reason;
+  if (!found.answer) {
+    answer.status = core::ExitStatus::numerical_failure;
+    answer.failure = "there is no answer: " + found.reason;
+  }
   answer.result["family_level"] = identify::family_level;
   answer.result["assumptions"] = Json::array();
   for (const LedgerEntry& entry : found.ledger.entries)

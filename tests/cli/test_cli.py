@@ -321,7 +321,12 @@ class Others(Case):
 
     def test_shipped_scenarios(self):
         files = sorted((ROOT / "scenarios/paper").glob("*.yaml")) + sorted((ROOT / "scenarios/examples").glob("*.yaml"))
-        self.run_program("run", *files, "--jobs", "2", "--quiet", timeout=900)  # open_question.yaml alone takes a minute
+        # Friction departs from Coulomb and viscous there, or the method reads the damping alone.
+        without = {"open_question_two_frequencies", "random_decrement", "section4_laws", "section4_subsets"}
+        answered = [file for file in files if file.stem not in without]
+        self.run_program("run", *answered, "--jobs", "2", "--quiet", timeout=900)  # open_question.yaml alone takes a minute
+        for file in set(files) - set(answered):
+            self.run_program("run", file, "--quiet", status=4)
 
 
 class Identify(Case):
@@ -335,6 +340,41 @@ class Identify(Case):
         self.assertAlmostEqual(estimate["F0"], 2.00278357380023, delta=1e-12)
         self.assertTrue(estimate["usable"])
         self.assertEqual(list(tree(self.folder / "results")), ["pairs/assumptions.csv", "pairs/estimates.csv", "pairs/report.html", "pairs/result.json"])
+
+    # Coulomb and viscous friction at resonance, zeta 0.1, x_f 20 mm, rounded to 0.1 mm; one reading is spoilt.
+    LEVELS = [(0.1, 0.4745), (0.2, 0.9746), (0.3, 1.4746), (0.4, 1.9746), (0.5, 2.4746), (0.6, 2.9747), (0.7, 3.4747), (0.8, 3.9747)]
+
+    def table(self, spoilt=None):
+        rows = [f"{Y},{x * (1.3 if i == spoilt else 1) + (-1) ** i * 2e-3}" for i, (Y, x) in enumerate(self.LEVELS)]
+        return "Y [m],x [m]\n" + "\n".join(rows) + "\n"
+
+    def test_an_outlier_is_named_and_bounded_on_request(self):
+        self.write("pairs.csv", self.table())
+        self.write("spoilt.csv", self.table(spoilt=3))
+        given = [*self.KNOWN, "--method", "resonance_least_squares", "--json"]
+        sound = self.document("identify", "pairs.csv", *given)["result"]
+        self.assertEqual(sound["outliers"], [])
+        errors = []
+        for options in [], ["--robust"]:
+            document = self.document("identify", "spoilt.csv", *given, *options)
+            (outlier,) = document["result"]["outliers"]
+            self.assertEqual(outlier["reading"], "x of pair 4")
+            self.assertGreater(outlier["deviations"], 20)
+            (warning,) = [line for line in document["warnings"] if line.startswith("x of pair 4 lies")]
+            self.assertIn("it counts" if options else "--robust", warning)
+            errors.append(abs(document["result"]["estimates"][0]["F0"] / sound["estimates"][0]["F0"] - 1))
+        self.assertLess(errors[1], 0.2 * errors[0])
+
+    def test_without_an_answer_the_status_tells_it_and_the_result_is_there(self):
+        rows = "".join(f"{Y},{x - 0.04 * x * x}\n" for Y, x in self.LEVELS)  # bends as under quadratic drag
+        self.write("bent.csv", "Y [m],x [m]\n" + rows)
+        document = self.document("identify", "bent.csv", *self.KNOWN, "--json", "--out", "bent", status=4)
+        self.assertEqual(document["status"], 4)
+        self.assertIsNone(document["result"]["answer"])
+        self.assertIn("it does not hold that friction", document["result"]["answer_reason"])
+        self.assertIn("there is no answer: it does not hold", document["errors"][0]["message"])
+        self.assertTrue(document["result"]["estimates"])
+        self.assertIn("bent/estimates.csv", tree(self.folder))
 
     def test_a_simulated_history_read_back_gives_its_friction(self):
         # Signals without noise. Methods that regress forces or follow the motion exactly leave rounding, 1e-9 at most.

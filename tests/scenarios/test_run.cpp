@@ -2,10 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "identify/readers/record_reader.hpp"
 #include "scenarios/output.hpp"
@@ -31,6 +33,14 @@ std::string csv(const scenarios::Table& table, const core::Provenance& provenanc
 /// Takes long: the tests of bench/ and of the program run it.
 bool answered_elsewhere(const Scenario& scenario) { return scenario.analysis_name == "mechanisms"; }
 
+/// Scenarios of records that hold no answer, because friction departs from what is asked for, or because a method
+/// reads the damping alone.
+bool has_no_answer(const std::filesystem::path& path) {
+  const std::set<std::string> names = {"open_question_two_frequencies", "section4_laws", "section4_subsets",
+                                       "random_decrement"};
+  return names.contains(path.stem().string());
+}
+
 /// No number of the document is infinite or NaN: JSON would not have it, and null must say so.
 void check_finite(const json& value) {
   if (value.is_structured())
@@ -47,7 +57,7 @@ TEST_CASE("run: every shipped scenario gives what it expects", "[scenarios][run]
       const Scenario scenario = testing::load(path);
       if (answered_elsewhere(scenario)) continue;
       const RunResult result = scenarios::run(scenario);
-      CHECK(result.status == core::ExitStatus::done);
+      CHECK(result.status == (has_no_answer(path) ? core::ExitStatus::numerical_failure : core::ExitStatus::done));
       for (const scenarios::Check& check : result.checks) {
         CAPTURE(check.path, check.expected, check.found);
         CHECK(check.ok);

@@ -56,6 +56,22 @@ TEST_CASE("The narrowest interval answers, whatever the order of the list") {
   CHECK(mentions(found.verdict, "do not contradict any assumption"));
 }
 
+TEST_CASE("Of estimates without intervals that agree the one in the middle answers") {
+  const auto bare = [](const std::string& method, double zeta) {
+    Estimate e = estimate(method, zeta, 4.0, 0.0);
+    e.interval95.reset();
+    return e;
+  };
+  const Estimate low = bare("den_hartog_fit", 0.1);
+  const Estimate middle = bare("resonance_two_point", 0.1001);
+  const Estimate high = bare("resonance_deming", 0.1002);
+  CHECK(answering(concluded({high, low, middle}, ledger({}))) == "resonance_two_point");
+  CHECK(answering(concluded({middle, high, low}, ledger({}))) == "resonance_two_point");
+  const Identification apart = concluded({low, bare("resonance_two_point", 0.11)}, ledger({}));
+  CHECK_FALSE(apart.answer);
+  CHECK(mentions(apart.reason, "do not agree"));
+}
+
 TEST_CASE("An estimate cannot be used when an assumption that it rests on is violated") {
   const Estimate balance = estimate("energy_balance", 0.1, 4.0, 0.05);
   const Estimate fit = estimate("den_hartog_fit", 0.12, 4.0, 0.01);

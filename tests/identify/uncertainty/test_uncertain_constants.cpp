@@ -103,7 +103,9 @@ TEST_CASE("Intervals with stated uncertainties hold the truth as often as they s
 }
 
 TEST_CASE("Sensitivities say what one percent of each constant would do") {
-  const std::vector<Sensitivity> list = sensitivities(by_free_decay, decay(0.9, 2e-4, 0.0, 3), constants);
+  const Record record = decay(0.9, 2e-4, 0.0, 3);
+  const std::vector<Sensitivity> list =
+      sensitivities(by_free_decay, by_free_decay(record, constants), record, constants, {});
   REQUIRE(list.size() == 2);
   for (const Sensitivity& one : list) {
     CAPTURE(one.constant);
@@ -111,6 +113,9 @@ TEST_CASE("Sensitivities say what one percent of each constant would do") {
     CHECK(one.F0_change == Approx(0.01).epsilon(1e-6));
     CHECK(one.zeta_change == Approx(0.0).margin(1e-9));
   }
+  // One whose uncertainty is stated is in the intervals already.
+  CHECK(sensitivities(by_free_decay, by_free_decay(record, constants), record, constants, {.stiffness = 1.0})
+            .size() == 1);
 }
 
 TEST_CASE("Where a constant cannot be lower by its uncertainty, the higher one alone counts") {

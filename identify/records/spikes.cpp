@@ -1,0 +1,93 @@
+#include "identify/records/spikes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/statistics/median.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr std::size_t neighbours = 2;  ///< on each side
+
+/// The cubic through the four neighbours, at sample i.
+double smooth_at(const std::vector<double>& signal, std::size_t i) {
+  return (4.0 * (signal[i - 1] + signal[i + 1]) - (signal[i - 2] + signal[i + 2])) / 6.0;
+}
+
+std::vector<double> differences(const std::vector<double>& signal) {
+  std::vector<double> list(signal.size(), 0.0);
+  for (std::size_t i = neighbours; i + neighbours < signal.size(); ++i)
+    list[i] = std::abs(signal[i] - smooth_at(signal, i));
+  return list;
+}
+
+/// The median of some differences as a standard deviation of normal noise.
+double deviation_of(std::vector<double> differences) {
+  constexpr double normal = 1.4826;
+  return normal * upper_median(std::move(differences));
+}
+
+/// The least step between neighbouring samples: the resolution of a signal that is rounded.
+double resolution_of(const std::vector<double>& signal) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < signal.size(); ++i)
+    if (signal[i] != signal[i - 1]) least = std::min(least, std::abs(signal[i] - signal[i - 1]));
+  return std::isfinite(least) ? least : 0.0;
+}
+
+double local_deviation(const std::vector<double>& differences, std::size_t i) {
+  constexpr std::size_t reach = 20;
+  const auto begin = static_cast<std::ptrdiff_t>(i - std::min(i, reach));
+  const auto end = static_cast<std::ptrdiff_t>(std::min(differences.size(), i + reach + 1));
+  return deviation_of({differences.begin() + begin, differences.begin() + end});
+}
+
+}  // namespace
+
+std::vector<Spike> spikes_of(const std::vector<double>& signal) {
+  constexpr std::size_t fewest = 50;
+  if (signal.size() < fewest) return {};
+  constexpr double far = 8.0;
+  constexpr double clearly = 1.3;
+  const std::vector<double> off = differences(signal);
+  const double deviation = std::max(deviation_of(off), resolution_of(signal));
+  std::vector<Spike> spikes;
+  for (std::size_t i = neighbours; i + neighbours < signal.size(); ++i) {
+    if (!(off[i] > far * deviation) || !(off[i] > clearly * std::max(off[i - 1], off[i + 1]))) continue;
+    const double noise = std::max(deviation, local_deviation(off, i));
+    if (off[i] > far * noise) spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
+  }
+  return spikes;
+}
+
+std::vector<std::string> treat_spikes(std::vector<History>& histories, bool replace) {
+  constexpr std::array<std::pair<std::string_view, std::vector<double> History::*>, 5> signals = {
+      {{"y", &History::y}, {"x", &History::x}, {"v", &History::v}, {"a", &History::a}, {"force", &History::force}}};
+  std::vector<std::string> sentences;
+  for (History& history : histories) {
+    for (const auto& [name, member] : signals) {
+      std::vector<double>& signal = history.*member;
+      const std::vector<Spike> spikes = spikes_of(signal);
+      if (spikes.empty()) continue;
+      if (replace)
+        for (const Spike& spike : spikes) signal[spike.sample] = spike.smooth;
+      constexpr int digits = 4;
+      const double first = history.start + static_cast<double>(spikes.front().sample) / history.sample_rate;
+      sentences.push_back(std::string(name) + (history.sweep.empty() ? "" : " of " + history.sweep) + " holds " +
+                          std::to_string(spikes.size()) + (spikes.size() == 1 ? " spike" : " spikes") +
+                          ", the first at t = " + core::format_number(first, digits) + " s, " +
+                          core::format_number(spikes.front().deviations, 2) + " standard deviations off: " +
+                          (replace ? "replaced by what the neighbours say" : "'robust' (--robust) replaces them"));
+    }
+  }
+  return sentences;
+}
+
+}  // namespace dualdamp::identify

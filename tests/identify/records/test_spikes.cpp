@@ -1,0 +1,62 @@
+#include "identify/records/spikes.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/random.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+
+namespace {
+
+constexpr double rate = 200.0;
+
+/// A decay that ends in noise, with that share of its first amplitude as noise.
+std::vector<double> decay(double noise, std::uint64_t seed) {
+  const core::RandomStream stream{seed, 0};
+  std::vector<double> signal;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const double t = static_cast<double>(i) / rate;
+    signal.push_back(std::exp(-t) * std::cos(30.0 * t) + noise * stream.normal(i));
+  }
+  return signal;
+}
+
+}  // namespace
+
+TEST_CASE("A spike of one sample is found and replaced") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    History history;
+    history.sample_rate = rate;
+    history.x = decay(0.001, seed);
+    const std::vector<double> clean = history.x;
+    history.x[3] += 0.3;
+    history.x[700] -= 0.05;
+    history.x[1997] += 0.02;
+    std::vector<History> histories = {history};
+    CHECK(treat_spikes(histories, false).size() == 1);
+    CHECK(histories[0].x == history.x);
+    const std::vector<std::string> said = treat_spikes(histories, true);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].starts_with("x holds 3 spikes, the first at t = 0.015 s"));
+    for (const std::size_t i : {3, 700, 1997}) CHECK(std::abs(histories[0].x[i] - clean[i]) < 0.01);
+    CHECK(histories[0].x[4] == clean[4]);
+  }
+}
+
+TEST_CASE("Noise, steps, peaks and rounding are no spikes") {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    CHECK(spikes_of(decay(0.001, seed)).empty());
+    CHECK(spikes_of(decay(0.0, seed)).empty());
+    std::vector<double> rounded = decay(0.0, seed);
+    for (double& value : rounded) value = 0.01 * std::round(value / 0.01);
+    CHECK(spikes_of(rounded).empty());
+    std::vector<double> stepped = decay(0.001, seed);
+    for (std::size_t i = 0; i < stepped.size(); ++i) stepped[i] += (i / 40) % 2 == 0 ? 1.0 : -1.0;
+    CHECK(spikes_of(stepped).empty());
+    std::vector<double> coarse;
+    for (int i = 0; i < 400; ++i) coarse.push_back(std::sin(0.9 * i + static_cast<double>(seed)));
+    CHECK(spikes_of(coarse).empty());
+  }
+}
