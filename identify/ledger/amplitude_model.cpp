@@ -357,8 +357,20 @@ void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction,
   }
 }
 
-JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, const KnownConstants& constants) {
+/// What a natural frequency other than stated makes of the constants: the stiffness is not as stated, or the mass.
+KnownConstants constants_at(const Fit& fit, const SteadyStates& states, KnownConstants constants) {
+  for (std::size_t j = 0; j < states.terms().size(); ++j) {
+    const double g = fit.at.g[static_cast<Eigen::Index>(j)];
+    if (states.terms()[j]->test == stiffness_free) constants.stiffness *= std::exp(-2.0 * g);
+    if (states.terms()[j]->test == mass_free) constants.mass *= std::exp(2.0 * g);
+  }
+  return constants;
+}
+
+JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, const KnownConstants& stated) {
+  const KnownConstants constants = constants_at(fit, states, stated);
   JointModel model;
+  model.constants = constants;
   model.data = std::to_string(states.points().size()) + " steady states" +
                (states.with_phases() ? " with phases" : " without phases");
   model.residuals = fit.rows.residuals;
@@ -371,10 +383,16 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, con
   leave_out_unseen(states, fit.at.friction, model.relaxed);
   model.spent = states.with_phases() ? 1.0 : 0.0;
   model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
-  model.refit = [states, begin = fit.at.friction, unit, constants](const std::vector<std::size_t>& taken) {
-    return model_of(best_fit(states, begin, taken), states, unit, constants);
+  model.refit = [states, begin = fit.at.friction, unit, stated](const std::vector<std::size_t>& taken) {
+    return model_of(best_fit(states, begin, taken), states, unit, stated);
   };
   const double to_force = constants.stiffness * unit;
+  // At a constant F0 = k x_f.
+  for (std::size_t j = 0; j < states.terms().size(); ++j) {
+    auto column = model.relaxed.col(static_cast<Eigen::Index>(j));
+    if (states.terms()[j]->test == stiffness_free && !column.isZero(0.0))
+      column += 2.0 * fit.at.friction.x_f * model.base.col(1);
+  }
   model.base.col(1) /= to_force;
   model.value = parameters(fit.at.friction.zeta, fit.at.friction.x_f * unit, constants);
   return model;

@@ -59,8 +59,9 @@ Complex delayed(const PlainFriction& friction, double x, double r, double g) {
 }
 
 using enum Assumption;
-constexpr std::array<AmplitudeTerm, 12> terms = {{
-    {constants, "natural frequency free", false, detuned},
+constexpr std::array<AmplitudeTerm, 13> terms = {{
+    {constants, mass_free, false, detuned},
+    {constants, stiffness_free, false, detuned},
     {sensors, "lag of the phase free", false, lagging},
     {sensors, "delay of x free", true, delayed},
     {sensors, "gain of x against y free", true, gained},

@@ -43,6 +43,10 @@ struct AmplitudeTerm {
   std::complex<double> (*drive)(const PlainFriction& friction, double x, double r, double g);
 };
 
+/// A natural frequency other than stated, or a forcing frequency: alike but for F0 = k x_f.
+inline constexpr std::string_view mass_free = "natural frequency free, stiffness as stated";
+inline constexpr std::string_view stiffness_free = "natural frequency free, mass as stated";
+
 /// The terms, by assumption.
 [[nodiscard]] std::span<const AmplitudeTerm> amplitude_terms();
 

@@ -195,6 +195,7 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
   model.spent = timed ? 1.0 : 0.0;
   model.base.col(1) /= constants.stiffness * unit;
   model.value = fit.value;
+  model.constants = constants;
   for (const Exclusion& exclusion : fit.excluded)
     model.left_out.push_back("extreme " + std::to_string(exclusion.number) + ": " + exclusion.reason);
   return model;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -57,124 +60,258 @@ Eigen::MatrixXd differentiated(const Eigen::MatrixXd& columns, double rate) {
   return slopes;
 }
 
+enum class Sensor { x, v, a };
+
+/// What a relaxation sets free.
+struct Way {
+  enum class Kind { constant, force, friction_of_test, gain, delay, zero } kind = Kind::constant;
+  By by = By::mass;                   ///< of a constant
+  const HistoryTerm* term = nullptr;  ///< of a force
+  std::size_t test = 0;
+  Sensor sensor = Sensor::x;
+};
+
+/// Where the model is linearised: the parameters of the fit, and a coefficient for each relaxation.
+struct Place {
+  Eigen::VectorXd p;
+  Eigen::VectorXd g;
+};
+
+using Numbers = std::vector<std::size_t>;
+
+/// The histories of one record with their fit, which the joint model is linearised beside.
 class Histories {
  public:
-  Histories(ForwardFit& fit, const KnownConstants& constants) : fit_(fit), constants_(constants) {
-    const ForceParameters force = fit.layout().force(fit.found().parameters);
-    scale_ = {fit.layout().length(), fit.layout().length() * std::sqrt(force.k / force.m)};
+  Histories(const Record& record, const KnownConstants& constants, Estimate& taken)
+      : constants_(constants), fit_(record, constants, {}, taken) {
+    if (!fit_.problem().empty()) return;
+    start_.p = fit_.found().parameters;
+    const ForceParameters force = fit_.layout().force(start_.p);
+    scale_ = {fit_.layout().length(), fit_.layout().length() * std::sqrt(force.k / force.m)};
     natural_ = std::sqrt(force.k / force.m);
     unit_force_ = force.k * scale_.length;
     list_relaxations();
+    start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(relaxations_.size()));
+    for (const ForwardTest& test : fit_.tests()) noise_.push_back(noise_levels(*test.history, force.k));
   }
 
-  JointModel model() {
-    for (std::size_t t = 0; t < fit_.tests().size(); ++t) add_test(t);
-    JointModel model;
-    model.relaxations = relaxations_;
-    std::vector<Eigen::MatrixXd> white;
-    for (const Channel* channel : {&x_, &v_, &a_})
-      if (channel->rows.rows() > 0) white.push_back(made_white(*channel));
-    Eigen::Index rows = 0;
-    for (const Eigen::MatrixXd& part : white) rows += part.rows();
-    const Eigen::Index base = fit_.layout().count();
-    model.residuals.resize(rows);
-    model.base.resize(rows, base);
-    model.relaxed.resize(rows, static_cast<Eigen::Index>(relaxations_.size()));
-    Eigen::Index at = 0;
-    for (const Eigen::MatrixXd& part : white) {
-      model.residuals.segment(at, part.rows()) = part.col(0);
-      model.base.middleRows(at, part.rows()) = part.middleCols(1, base);
-      model.relaxed.middleRows(at, part.rows()) = part.rightCols(model.relaxed.cols());
-      at += part.rows();
+  [[nodiscard]] ForwardFit& fit() { return fit_; }
+
+  /// The model linearised where the relaxations taken are fitted beside the parameters.
+  [[nodiscard]] JointModel fitted(const Numbers& taken) {
+    Numbers all(relaxations_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    Place at = start_;
+    std::optional<Linearised> here = linearised(at, taken, false);
+    constexpr int most_steps = 8;
+    for (int i = 0; here && i < most_steps; ++i) {
+      Eigen::MatrixXd columns(here->residuals.size(), here->base.cols() + here->relaxed.cols());
+      columns << here->base, here->relaxed;
+      const Eigen::VectorXd step = pivoted_least_squares(columns, here->residuals);
+      constexpr double little = 0.01;  // of a standard error, squared
+      if (!step.allFinite() || (columns * step).squaredNorm() < little * here->variance) break;
+      std::optional<Linearised> next;
+      Place moved;
+      for (double share = 1.0; share > 0.05; share *= 0.4) {
+        moved = stepped(at, share * step, taken);
+        next = linearised(moved, taken, false);
+        if (next && next->squares < here->squares) break;
+        next.reset();
+      }
+      if (!next) break;
+      at = std::move(moved);
+      here = std::move(next);
     }
-    return model;
+    return joint(at, all);
   }
 
  private:
-  void list_relaxations() {
-    if (!std::isnan(constants_.mass)) stated_.push_back(By::mass);
-    if (!std::isnan(constants_.stiffness)) stated_.push_back(By::stiffness);
-    for (const By by : stated_)
-      relaxations_.push_back({Assumption::constants, by == By::mass ? "mass free" : "stiffness free"});
-    for (const HistoryTerm& term : history_terms()) {
-      relaxations_.push_back({term.assumption, std::string(term.test)});
-      forces_.emplace_back(
-          [&term, scale = scale_, unit = term.assumption == Assumption::sensors ? 1.0 : unit_force_](
-              const SampledOscillator::Instant& at) { return unit * term.force(at, scale); });
+  struct Linearised {
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd base;
+    Eigen::MatrixXd relaxed;
+    double squares = 0.0;   ///< of the innovations of x
+    double variance = 1.0;  ///< of one residual
+  };
+
+  [[nodiscard]] JointModel joint(const Place& at, const Numbers& all) {
+    JointModel model;
+    model.relaxations = relaxations_;
+    if (std::optional<Linearised> found = linearised(at, all, true)) {
+      model.residuals = std::move(found->residuals);
+      model.base = std::move(found->base);
+      model.relaxed = std::move(found->relaxed);
     }
+    const ForceParameters force = force_at(at);
+    const std::vector<ForwardLayout::Entry>& shared = fit_.layout().shared();
+    // From the scales of the fit to zeta and F0.
+    model.base.col(0) *= 2.0 * std::sqrt(force.m * force.k) / shared[0].scale;
+    model.base.col(1) /= shared[1].scale;
+    model.value = parameters(force);
+    model.constants = {force.m, force.k, constants_.frequency};
+    model.scale_freedom = static_cast<double>(model.residuals.size());
+    return model;
+  }
+
+  [[nodiscard]] ForceParameters force_at(const Place& at) const {
+    ForceParameters force = fit_.layout().force(at.p);
+    for (std::size_t j = 0; j < ways_.size(); ++j)
+      if (ways_[j].kind == Way::Kind::constant)
+        ForwardLayout::value(force, ways_[j].by) += at.g[static_cast<Eigen::Index>(j)];
+    return force;
+  }
+
+  /// The first parameter steps in zeta, so that a mass that moves leaves zeta where it is.
+  [[nodiscard]] Place stepped(Place at, const Eigen::VectorXd& step, const Numbers& taken) const {
+    const double scale = fit_.layout().shared()[0].scale;
+    const ForceParameters before = force_at(at);
+    const double zeta = (before.c + step[0] * scale) / (2.0 * std::sqrt(before.m * before.k));
+    const Eigen::Index base = fit_.layout().count();
+    at.p += step.head(base);
+    for (std::size_t j = 0; j < taken.size(); ++j)
+      at.g[static_cast<Eigen::Index>(taken[j])] += step[base + static_cast<Eigen::Index>(j)];
+    at.p[1] = std::max(0.0, at.p[1]);
+    const ForceParameters after = force_at(at);
+    if (after.m > 0.0 && after.k > 0.0) at.p[0] = 2.0 * zeta * std::sqrt(after.m * after.k) / scale;
+    return at;
+  }
+
+  /// Rows of every channel, whitened by its own residuals where `white`.
+  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white) {
+    const ForceParameters force = force_at(at);
+    if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
+    Channel x{.most_lags = 4};
+    // Innovations are white but for what the levels of noise leave; of a, noise of the drive may last for a period.
+    Channel v{.most_lags = 4};
+    Channel a{.most_lags = 24};
+    for (std::size_t t = 0; t < fit_.tests().size(); ++t)
+      if (!add_test(t, at, wanted, x, v, a)) return std::nullopt;
+    Linearised result;
+    result.squares = x.rows.col(0).squaredNorm();
+    std::vector<Eigen::MatrixXd> parts;
+    for (Channel* channel : {&x, &v, &a}) {
+      if (channel->rows.rows() == 0) continue;
+      if (!white) channel->most_lags = 0;
+      parts.push_back(made_white(*channel));
+    }
+    Eigen::Index rows = 0;
+    for (const Eigen::MatrixXd& part : parts) rows += part.rows();
+    const Eigen::Index base = fit_.layout().count();
+    result.residuals.resize(rows);
+    result.base.resize(rows, base);
+    result.relaxed.resize(rows, static_cast<Eigen::Index>(wanted.size()));
+    Eigen::Index row = 0;
+    for (const Eigen::MatrixXd& part : parts) {
+      result.residuals.segment(row, part.rows()) = part.col(0);
+      result.base.middleRows(row, part.rows()) = part.middleCols(1, base);
+      result.relaxed.middleRows(row, part.rows()) = part.rightCols(result.relaxed.cols());
+      row += part.rows();
+    }
+    return result;
+  }
+
+  void add_relaxation(Assumption assumption, std::string test, const Way& way) {
+    relaxations_.push_back({assumption, std::move(test)});
+    ways_.push_back(way);
+  }
+
+  void list_relaxations() {
+    using enum Way::Kind;
+    if (!std::isnan(constants_.mass))
+      add_relaxation(Assumption::constants, "mass free", {.kind = constant, .by = By::mass});
+    if (!std::isnan(constants_.stiffness))
+      add_relaxation(Assumption::constants, "stiffness free", {.kind = constant, .by = By::stiffness});
+    for (const HistoryTerm& term : history_terms())
+      add_relaxation(term.assumption, std::string(term.test), {.kind = Way::Kind::force, .term = &term});
     const std::size_t tests = fit_.tests().size();
     constexpr std::size_t most = 8;
-    contrasts_ = tests < 2 ? 0 : tests == 2 ? 1 : std::min(tests, most);
-    for (std::size_t t = 0; t < contrasts_; ++t)
-      relaxations_.push_back(
-          {Assumption::stationarity, "friction force of history " + std::to_string(t + 1) + " free"});
-    readings_ = relaxations_.size();
+    const std::size_t contrasts = tests < 2 ? 0 : tests == 2 ? 1 : std::min(tests, most);
+    for (std::size_t t = 0; t < contrasts; ++t)
+      add_relaxation(Assumption::stationarity, "friction force of history " + std::to_string(t + 1) + " free",
+                     {.kind = friction_of_test, .test = t});
     const auto has = [&](std::vector<double> History::* signal) {
       return std::ranges::any_of(fit_.tests(),
                                  [&](const ForwardTest& test) { return !(test.history->*signal).empty(); });
     };
-    add_readings("x", true);
-    relaxations_.push_back({Assumption::sensors, "zero of x free"});
-    add_readings("v", has(&History::v));
-    add_readings("a", has(&History::a));
+    add_readings("x", Sensor::x);
+    add_relaxation(Assumption::sensors, "zero of x free", {.kind = zero});
+    if (has(&History::v)) add_readings("v", Sensor::v);
+    if (has(&History::a)) add_readings("a", Sensor::a);
   }
 
-  void add_readings(const std::string& signal, bool measured) {
-    if (!measured) return;
-    relaxations_.push_back({Assumption::sensors, "gain of " + signal + " free"});
-    relaxations_.push_back({Assumption::sensors, "delay of " + signal + " free"});
+  void add_readings(const std::string& signal, Sensor sensor) {
+    add_relaxation(Assumption::sensors, "gain of " + signal + " free",
+                   {.kind = Way::Kind::gain, .sensor = sensor});
+    add_relaxation(Assumption::sensors, "delay of " + signal + " free",
+                   {.kind = Way::Kind::delay, .sensor = sensor});
   }
 
   /// The motion of a test and its derivatives by base parameters and relaxations, in the order of the columns.
-  void add_test(std::size_t t) {
+  bool add_test(std::size_t t, const Place& at, const Numbers& wanted, Channel& in_x, Channel& in_v,
+                Channel& in_a) {
     ForwardTest& test = fit_.tests()[t];
     const ForwardLayout& layout = fit_.layout();
-    const std::vector<ForwardLayout::Column> columns = layout.columns(t, test);
+    const ForceParameters force = force_at(at);
+    SampledOscillator::Parameters parameters = layout.parameters(at.p, t, test);
+    parameters.m = force.m;
+    parameters.k = force.k;
     std::vector<By> by;
-    for (const ForwardLayout::Column& column : columns) by.push_back(column.by);
-    by.insert(by.end(), stated_.begin(), stated_.end());
-    Eigen::VectorXd x;
-    Eigen::VectorXd v;
-    SampledOscillator::Derivatives derivatives;
-    if (!test.model.run(layout.parameters(fit_.found().parameters, t, test), by, x, &derivatives, &v, forces_))
-      return;
-    const History& history = *test.history;
-    const double rate = history.sample_rate;
-    const Eigen::MatrixXd in_x = arranged(t, columns, derivatives.x);
-    const Eigen::MatrixXd in_v = arranged(t, columns, derivatives.v);
+    for (const ForwardLayout::Column& column : layout.columns(t, test)) by.push_back(column.by);
+    std::vector<SampledOscillator::Force> forces;
+    for (const std::size_t j : wanted) {
+      const Way& way = ways_[j];
+      const double g = at.g[static_cast<Eigen::Index>(j)];
+      if (way.kind == Way::Kind::constant) by.push_back(way.by);
+      if (way.kind == Way::Kind::friction_of_test && way.test == t) parameters.F0 += g;
+      if (way.kind != Way::Kind::force) continue;
+      const double unit = way.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
+      forces.emplace_back([term = way.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
+        return unit * term->force(instant, scale);
+      });
+      parameters.further.push_back(g);
+    }
+    Motion motion;
+    if (!test.model.run(parameters, by, motion.x, &motion.derivatives, &motion.v, forces)) return false;
+    const double rate = test.history->sample_rate;
+    motion.a = differentiated(motion.v, rate);
+    const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
+    const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
     const auto width = std::max<Eigen::Index>(1, std::lround(rate * 2.0 * std::numbers::pi / natural_ / 24.0));
-    std::size_t place = readings_ + 3;
-    Eigen::MatrixXd rows_x = rows_of(history.x, x, v, in_x, readings_);
-    rows_x.col(1 + fit_.layout().count() + static_cast<Eigen::Index>(readings_) + 2).setConstant(scale_.length);
+    const History& history = *test.history;
+    const Reader read{*this, at, wanted};
+    Eigen::MatrixXd rows_x = read(Sensor::x, history.x, motion.x, motion.v, motion.a, columns_x, columns_v);
+    const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
     Eigen::MatrixXd rows_v;
-    if (!history.v.empty()) rows_v = rows_of(history.v, v, differentiated(v, rate), in_v, place);
-    make_innovations(derivatives.steps, noise_levels(history), rows_x, rows_v);
-    x_.add(averaged(rows_x, width));
-    if (!history.v.empty()) v_.add(averaged(rows_v, width));
-    const bool any_v = relaxations_.size() > place && relaxations_[place].test == "gain of v free";
-    if (any_v) place += 2;
-    if (history.a.empty()) return;
-    const Eigen::VectorXd a = differentiated(v, rate);
-    Eigen::MatrixXd in_a = differentiated(in_v, rate);
-    std::vector<double> measured = history.a;
-    Eigen::VectorXd modelled = a;
+    const Eigen::VectorXd jerk = differentiated(motion.a, rate);
+    if (!history.v.empty())
+      rows_v = read(Sensor::v, history.v, motion.v, motion.a, jerk, columns_v, columns_a);
+    make_innovations(motion.derivatives.steps, noise_[t], rows_x, rows_v);
+    in_x.add(averaged(rows_x, width));
+    if (!history.v.empty()) in_v.add(averaged(rows_v, width));
+    if (history.a.empty()) return true;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(jerk.size());
+    Eigen::MatrixXd rows_a =
+        read(Sensor::a, history.a, motion.a, jerk, none, columns_a, Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
+    leave_out_reversals(motion.v, rows_a);
+    in_a.add(averaged(rows_a, width));
+    return true;
+  }
+
+  struct Motion {
+    Eigen::VectorXd x, v, a;
+    SampledOscillator::Derivatives derivatives;
+  };
+
+  static void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows) {
     for (Eigen::Index i = 0; i < v.size(); ++i) {
       const Eigen::Index first = std::max<Eigen::Index>(0, i - 2);
       const Eigen::Index last = std::min<Eigen::Index>(v.size() - 1, i + 2);
-      if (v.segment(first, last - first + 1).minCoeff() > 0.0 ||
-          v.segment(first, last - first + 1).maxCoeff() < 0.0)
-        continue;
-      in_a.row(i).setZero();
-      measured[static_cast<std::size_t>(i)] = modelled[i] = 0.0;
+      const auto near = v.segment(first, last - first + 1);
+      if (!(near.minCoeff() > 0.0) && !(near.maxCoeff() < 0.0)) rows.row(i).setZero();
     }
-    Eigen::VectorXd jerk = differentiated(a, rate);
-    for (Eigen::Index i = 0; i < v.size(); ++i)
-      if (modelled[i] == 0.0) jerk[i] = 0.0;
-    a_.add(averaged(rows_of(measured, modelled, jerk, in_a, place), width));
   }
 
-  [[nodiscard]] ReadingNoise noise_levels(const History& history) const {
-    const double k = fit_.layout().force(fit_.found().parameters).k;
+  [[nodiscard]] ReadingNoise noise_levels(const History& history, double k) const {
     // Readings without any noise still round.
     constexpr double rounding = 1e-9;
     return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
@@ -182,33 +319,79 @@ class Histories {
             std::max(noise_of(history.v), rounding * scale_.speed)};
   }
 
-  /// Base columns, then relaxations but for readings, from the derivatives of one test.
-  [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const std::vector<ForwardLayout::Column>& columns,
-                                         const Eigen::MatrixXd& derivatives) const {
-    const Eigen::Index base = fit_.layout().count();
+  /// Base columns, then those of the relaxations wanted but for readings, from the derivatives of one test. Those of
+  /// mass and stiffness are at a constant zeta.
+  [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Numbers& wanted, const ForceParameters& force,
+                                         const Eigen::MatrixXd& derivatives) {
+    const ForwardLayout& layout = fit_.layout();
+    const Eigen::Index base = layout.count();
     Eigen::MatrixXd result =
-        Eigen::MatrixXd::Zero(derivatives.rows(), base + static_cast<Eigen::Index>(relaxations_.size()));
+        Eigen::MatrixXd::Zero(derivatives.rows(), base + static_cast<Eigen::Index>(wanted.size()));
     Eigen::Index from = 0;
-    for (const ForwardLayout::Column& column : columns)
-      result.col(column.column) = derivatives.col(from++) * column.scale;
-    Eigen::Index to = base;
-    while (from < derivatives.cols()) result.col(to++) = derivatives.col(from++);
-    if (t < contrasts_) result.col(to + static_cast<Eigen::Index>(t)) = result.col(1);
+    const auto at_constant_zeta = [&](By by) {
+      const double share = by == By::mass ? 0.5 * force.c / force.m : 0.5 * force.c / force.k;
+      return Eigen::VectorXd(derivatives.col(from) + share * derivatives.col(0));
+    };
+    for (const ForwardLayout::Column& column : layout.columns(t, fit_.tests()[t])) {
+      const bool constant = column.by == By::mass || column.by == By::stiffness;
+      result.col(column.column) =
+          (constant ? at_constant_zeta(column.by) : Eigen::VectorXd(derivatives.col(from))) * column.scale;
+      ++from;
+    }
+    for (std::size_t j = 0; j < wanted.size(); ++j)
+      if (const Way& way = ways_[wanted[j]]; way.kind == Way::Kind::constant) {
+        result.col(base + static_cast<Eigen::Index>(j)) = at_constant_zeta(way.by);
+        ++from;
+      }
+    for (std::size_t j = 0; j < wanted.size(); ++j) {
+      const Way& way = ways_[wanted[j]];
+      const Eigen::Index to = base + static_cast<Eigen::Index>(j);
+      if (way.kind == Way::Kind::force) result.col(to) = derivatives.col(from++);
+      if (way.kind == Way::Kind::friction_of_test && way.test == t)
+        result.col(to) = result.col(1) / layout.shared()[1].scale;
+    }
     return result;
   }
 
-  /// Rows of one reading; its gain and delay are the relaxations from `place` on.
-  [[nodiscard]] Eigen::MatrixXd rows_of(std::span<const double> measured, const Eigen::VectorXd& modelled,
-                                        const Eigen::VectorXd& slope, const Eigen::MatrixXd& columns,
-                                        std::size_t place) const {
-    Eigen::MatrixXd rows(modelled.size(), columns.cols() + 1);
-    rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), modelled.size()) - modelled;
-    rows.rightCols(columns.cols()) = columns;
-    const Eigen::Index gain = 1 + fit_.layout().count() + static_cast<Eigen::Index>(place);
-    rows.col(gain) = modelled;
-    rows.col(gain + 1) = -slope;
-    return rows;
-  }
+  /// Rows of one reading with its gain, delay and zero, to second order in the delay.
+  struct Reader {
+    const Histories& owner;
+    const Place& at;
+    const Numbers& wanted;
+
+    Eigen::MatrixXd operator()(Sensor sensor, const std::vector<double>& measured, const Eigen::VectorXd& modelled,
+                               const Eigen::VectorXd& slope, const Eigen::VectorXd& curvature,
+                               const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) const {
+      const Eigen::Index base = owner.fit_.layout().count();
+      double gain = 1.0;
+      double delay = 0.0;
+      double zero = 0.0;
+      const auto own = [&](auto act) {
+        for (std::size_t j = 0; j < wanted.size(); ++j) {
+          const Way& way = owner.ways_[wanted[j]];
+          const bool reads = way.kind == Way::Kind::gain || way.kind == Way::Kind::delay || way.kind == Way::Kind::zero;
+          if (reads && way.sensor == sensor) act(way, static_cast<Eigen::Index>(wanted[j]), static_cast<Eigen::Index>(j));
+        }
+      };
+      own([&](const Way& way, Eigen::Index index, Eigen::Index) {
+        if (way.kind == Way::Kind::gain) gain += at.g[index];
+        if (way.kind == Way::Kind::delay) delay = at.g[index];
+        if (way.kind == Way::Kind::zero) zero = at.g[index] * owner.scale_.length;
+      });
+      const Eigen::VectorXd late = modelled - delay * slope + 0.5 * delay * delay * curvature;
+      Eigen::MatrixXd rows(modelled.size(), columns.cols() + 1);
+      rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), modelled.size()) - gain * late;
+      rows.col(0).array() -= zero;
+      rows.rightCols(columns.cols()) = gain * (columns - delay * slopes);
+      own([&](const Way& way, Eigen::Index, Eigen::Index j) {
+        const Eigen::Index to = 1 + base + j;
+        if (way.kind == Way::Kind::gain) rows.col(to) = late;
+        if (way.kind == Way::Kind::delay) rows.col(to) = gain * (delay * curvature - slope);
+        if (way.kind == Way::Kind::zero) rows.col(to).setConstant(owner.scale_.length);
+      });
+      return rows;
+    }
+  };
 
   /// A channel with independent errors of unit variance, by what is left of it beside all columns.
   [[nodiscard]] static Eigen::MatrixXd made_white(const Channel& channel) {
@@ -223,20 +406,15 @@ class Histories {
     return whitened(channel.rows, channel.blocks, errors);
   }
 
-  ForwardFit& fit_;
-  const KnownConstants& constants_;
+  KnownConstants constants_;
+  ForwardFit fit_;
+  Place start_;
   MotionScale scale_;
   double natural_ = 1.0;     ///< rad/s
   double unit_force_ = 1.0;  ///< N
-  std::vector<By> stated_;
-  std::vector<SampledOscillator::Force> forces_;
-  std::size_t contrasts_ = 0;
-  std::size_t readings_ = 0;  ///< place of the first relaxation of a sensor
   std::vector<Relaxation> relaxations_;
-  // Innovations are white but for what the levels of noise leave; of a, noise of the drive may last for a period.
-  Channel x_{.most_lags = 4};
-  Channel v_{.most_lags = 4};
-  Channel a_{.most_lags = 24};
+  std::vector<Way> ways_;  ///< of each relaxation
+  std::vector<ReadingNoise> noise_;
 };
 
 /// Why the motion cannot be simulated; empty when it can.
@@ -256,16 +434,11 @@ std::string fault_of(const Record& record) {
 std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants) {
   if (std::string fault = fault_of(record); !fault.empty()) return fault;
   Estimate taken;
-  ForwardFit fit(record, constants, {}, taken);
+  const auto histories = std::make_shared<Histories>(record, constants, taken);
+  ForwardFit& fit = histories->fit();
   if (!fit.problem().empty()) return fit.problem();
-  JointModel model = Histories(fit, constants).model();
-  const ForceParameters force = fit.layout().force(fit.found().parameters);
-  const std::vector<ForwardLayout::Entry>& shared = fit.layout().shared();
-  // From the scales of the fit to zeta and F0.
-  model.base.col(0) *= 2.0 * std::sqrt(force.m * force.k) / shared[0].scale;
-  model.base.col(1) /= shared[1].scale;
-  model.value = parameters(force);
-  model.scale_freedom = static_cast<double>(model.residuals.size());
+  JointModel model = histories->fitted({});
+  model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
                (fit.tests().size() == 1 ? " history" : " histories");
   for (const Exclusion& exclusion : taken.excluded)

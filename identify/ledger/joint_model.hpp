@@ -13,6 +13,7 @@
 
 #include "identify/assumption.hpp"
 #include "identify/estimate.hpp"
+#include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
@@ -42,6 +43,7 @@ struct JointModel {
   double spent = 0.0;
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
   ParameterSet value;          ///< of the fit
+  KnownConstants constants;    ///< as stated, or as fitted
   /// The model linearised where these relaxations are fitted, too; empty: it is as good where it is.
   std::function<JointModel(const std::vector<std::size_t>& taken)> refit;
   std::vector<std::string>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <variant>
 
 #include "core/numbers.hpp"
@@ -26,6 +27,8 @@ std::string_view name_of(Standing standing) {
 namespace {
 
 using MaybeModel = std::variant<JointModel, std::string>;
+/// Of relaxations, by their place in the model.
+using Numbers = std::vector<std::size_t>;
 
 std::string rounded(double value) {
   constexpr int digits = 2;
@@ -164,19 +167,15 @@ bool is_of_friction(Assumption assumption) {
          assumption == Assumption::symmetry;
 }
 
-/// The fit of the joint model with the relaxations of the departures beside the base parameters.
-Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests, const KnownConstants& constants) {
+/// The fit of the joint model with relaxations beside the base parameters.
+Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::string basis) {
   Estimate estimate;
   estimate.method = "joint_fit";
   const Eigen::Index base = model.base.cols();
-  Eigen::MatrixXd columns(model.base.rows(), base + static_cast<Eigen::Index>(tests.departures.size()));
+  Eigen::MatrixXd columns(model.base.rows(), base + static_cast<Eigen::Index>(relaxed.size()));
   columns.leftCols(base) = model.base;
-  std::string relaxed;
-  for (std::size_t j = 0; j < tests.departures.size(); ++j) {
-    const std::size_t index = tests.departures[j].explanations.front().index;
-    columns.col(base + static_cast<Eigen::Index>(j)) = model.relaxed.col(static_cast<Eigen::Index>(index));
-    relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[index].test;
-  }
+  for (std::size_t j = 0; j < relaxed.size(); ++j)
+    columns.col(base + static_cast<Eigen::Index>(j)) = model.relaxed.col(static_cast<Eigen::Index>(relaxed[j]));
   const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
   const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
   if (!covariance || freedom < 1.0) {
@@ -185,9 +184,8 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests, c
   }
   const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
   const double variance = (model.residuals - columns * step).squaredNorm() / freedom;
-  const double zeta = model.value.zeta + step[0];
-  const double F0 = model.value.F0 + step[1];
-  estimate.value = parameters(zeta, F0 / constants.stiffness, constants);
+  const KnownConstants& constants = model.constants;
+  estimate.value = parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
   Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
   const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
   of_friction = to_length * of_friction * to_length;
@@ -195,8 +193,41 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests, c
                   constants);
   std::vector<std::string> faults;
   judge_signs(estimate, 0.0, faults);
-  conclude(estimate, faults,
-           "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
+  conclude(estimate, faults, std::move(basis));
+  return estimate;
+}
+
+void widen(std::array<double, 2>& interval, const std::array<double, 2>& other) {
+  interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
+}
+
+/// The estimate with the best explanation of each departure relaxed. Where others explain one as well, its intervals
+/// reach to theirs.
+Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
+  Numbers best;
+  std::string relaxed;
+  for (const Departure& departure : tests.departures) {
+    best.push_back(departure.explanations.front().index);
+    relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
+  }
+  const auto with = [&](const Numbers& numbers) {
+    return joint_estimate(model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
+                          "all of " + model.data + " together" +
+                              (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
+  };
+  Estimate estimate = with(best);
+  for (std::size_t d = 0; d < tests.departures.size(); ++d) {
+    for (const RelaxationTest& other : tests.departures[d].explanations | std::views::drop(1)) {
+      Numbers instead = best;
+      instead[d] = other.index;
+      const Estimate rival = with(instead);
+      if (!estimate.interval95 || !rival.interval95) continue;
+      widen(estimate.interval95->zeta, rival.interval95->zeta);
+      widen(estimate.interval95->c, rival.interval95->c);
+      widen(estimate.interval95->x_f, rival.interval95->x_f);
+      widen(estimate.interval95->F0, rival.interval95->F0);
+    }
+  }
   return estimate;
 }
 
@@ -226,7 +257,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
   if (!is_friction && has_spring)
-    ledger.joint = joint_estimate(tests.relaxed ? *tests.relaxed : model, tests, constants);
+    ledger.joint = joint_estimate(model, tests);
   return ledger;
 }
 

@@ -130,7 +130,8 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   return tests;
 }
 
-/// The best relaxation of each assumption, best first, as far as they explain at least half as much as the best.
+/// Relaxations that may explain the departure, best first: two of an assumption at most. Far from the fit one that
+/// explains half as much as the best may be it.
 std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests) {
   std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
   std::vector<RelaxationTest> list;
@@ -138,9 +139,9 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
     const double least = std::min(tests.front().explained - equal_likelihood, 0.5 * tests.front().explained);
     if (test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) break;
     const Assumption assumption = model.relaxations[test.index].assumption;
-    const bool known = std::ranges::any_of(
+    const auto known = std::ranges::count_if(
         list, [&](const RelaxationTest& other) { return model.relaxations[other.index].assumption == assumption; });
-    if (!known) list.push_back(test);
+    if (known < 2) list.push_back(test);
   }
   return list;
 }

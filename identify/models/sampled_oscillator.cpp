@@ -106,6 +106,9 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   for (int j = 0; j < most_terms; ++j)
     integration_[static_cast<std::size_t>(j)] = 1.0 / (inertia_ * (j + 1) * (j + 2));
 
+  acting_.clear();
+  for (std::size_t j = 0; j < p_.further.size(); ++j)
+    if (p_.further[j] != 0.0) acting_.push_back({&forces[j], p_.further[j]});
   tangents_.clear();
   if (derivatives != nullptr) {
     start_tangents(by, forces);
@@ -188,17 +191,39 @@ bool SampledOscillator::walk_interval(std::size_t interval) {
       at = event < most_events ? slip(at, 1.0) : 1.0;
     } else {
       at = rest(at, 1.0);
-      if (at < 1.0) direction_ = pull(at) > 0.0 ? 1 : -1;
+      if (at < 1.0) direction_ = balance(at).pull > 0.0 ? 1 : -1;
     }
   }
   return std::isfinite(x_) && std::isfinite(v_);
 }
 
-double SampledOscillator::pull(double at) const { return value_at(drive_, nodes, at) - p_.k * x_; }
+SampledOscillator::Balance SampledOscillator::balance(double at) const {
+  Balance balance{value_at(drive_, nodes, at) - p_.k * x_, p_.F0};
+  if (acting_.empty()) return balance;
+  Instant here;
+  here.x = x_;
+  here.y = value_at(y_[interval_], nodes, at);
+  here.drive = value_at(drive_, nodes, at);
+  here.way = std::abs(x_ - reversal_);
+  here.course = (static_cast<double>(interval_) + at) / static_cast<double>(count_ - 1);
+  Instant back = here;
+  here.direction = 1.0;
+  back.direction = -1.0;
+  for (const auto& [force, g] : acting_) {
+    const double ahead = g * (*force)(here);
+    const double behind = g * (*force)(back);
+    balance.pull -= 0.5 * (ahead + behind);
+    balance.limit += 0.5 * (ahead - behind);
+  }
+  return balance;
+}
 
 /// Time of release, or `end`.
 double SampledOscillator::rest(double begin, double end) const {
-  const auto excess = [this](double at) { return std::abs(pull(at)) - p_.F0; };
+  const auto excess = [this](double at) {
+    const Balance here = balance(at);
+    return std::abs(here.pull) - here.limit;
+  };
   double low = begin;
   for (int i = 1; i <= parts; ++i) {
     const double high = begin + (end - begin) * i / parts;
@@ -222,7 +247,8 @@ double SampledOscillator::slip(double begin, double end) {
   reversal_ = x_;
   const double at = begin + reversal;
   settle(at);
-  const double force = pull(at) - p_.F0 * direction_;
+  const Balance here = balance(at);
+  const double force = here.pull - here.limit * direction_;
   const double after = direction_ == 0 ? 0.0 : force / inertia_;
   for (Tangent& tangent : tangents_) tangent.v = before != 0.0 ? tangent.v * after / before : 0.0;
   return at;
@@ -247,7 +273,20 @@ double SampledOscillator::first_reversal(double length) const {
 /// Where a slip ends.
 void SampledOscillator::settle(double at) {
   const auto sticks = [] { return friction::Direction::none; };
-  direction_ = static_cast<int>(sim::direction_after_slip(pull(at), p_.F0, 0.0, sticks));
+  const Balance here = balance(at);
+  direction_ = static_cast<int>(sim::direction_after_slip(here.pull, here.limit, 0.0, sticks));
+}
+
+SampledOscillator::Instant SampledOscillator::instant(double u) const {
+  Instant instant;
+  instant.x = value_at(series_, terms_, u);
+  instant.v = slope_at(series_, terms_, u) * rate_;
+  instant.direction = direction_;
+  instant.y = value_at(y_here_, nodes, u);
+  instant.drive = value_at(drive_here_, nodes, u);
+  instant.way = std::abs(instant.x - reversal_);
+  instant.course = (static_cast<double>(interval_) + begin_ + u) / static_cast<double>(count_ - 1);
+  return instant;
 }
 
 /// A force along the motion, as a polynomial through eight points of what is left of the interval. It is smooth
@@ -261,18 +300,7 @@ SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
   }();
   const double length = 1.0 - begin_;
   Eigen::Matrix<double, nodes, 1> values;
-  for (int i = 0; i < nodes; ++i) {
-    const double u = place(i) * length;
-    Instant instant;
-    instant.x = value_at(series_, terms_, u);
-    instant.v = slope_at(series_, terms_, u) * rate_;
-    instant.direction = direction_;
-    instant.y = value_at(y_here_, nodes, u);
-    instant.drive = value_at(drive_here_, nodes, u);
-    instant.way = std::abs(instant.x - reversal_);
-    instant.course = (static_cast<double>(interval_) + begin_ + u) / static_cast<double>(count_ - 1);
-    values[i] = force(instant);
-  }
+  for (int i = 0; i < nodes; ++i) values[i] = force(instant(place(i) * length));
   const Eigen::Matrix<double, nodes, 1> coefficients = to_powers * values;
   Drive series{};
   double power = 1.0;
@@ -288,13 +316,52 @@ void SampledOscillator::expand(double begin) {
   begin_ = begin;
   series_[0] = x_;
   series_[1] = v_;
+  expand_motion(drive);
+  constexpr int rounds = 3;  // each leaves the share of a sample interval's square of the last one's error
+  for (int round = 0; round < rounds && !acting_.empty(); ++round) {
+    Drive left = drive;
+    for (const auto& [force, g] : acting_) {
+      const Drive pushed = push(*force);
+      for (std::size_t j = 0; j < nodes; ++j) left[j] -= g * pushed[j];
+    }
+    expand_motion(left);
+  }
+  if (!tangents_.empty()) linearise();
+  for (Tangent& tangent : tangents_) expand(tangent);
+}
+
+void SampledOscillator::expand_motion(const Drive& drive) {
   for (int j = 0; j + 2 < terms_; ++j) {
     const auto i = static_cast<std::size_t>(j);
     double force = j < nodes ? drive[i] : 0.0;
     if (j == 0) force -= p_.F0 * direction_;
     series_[i + 2] = (force - damping_ * (j + 1) * series_[i + 1] - p_.k * series_[i]) * integration_[i];
   }
-  for (Tangent& tangent : tangents_) expand(tangent);
+}
+
+/// Stiffness and damping of what is left of the interval, with the slopes of the acting forces at its middle.
+void SampledOscillator::linearise() {
+  local_stiffness_ = p_.k;
+  local_damping_ = damping_;
+  if (acting_.empty()) return;
+  const Instant middle = instant(0.5 * (1.0 - begin_));
+  constexpr double share = 1e-6;
+  const double dx = share * std::abs(middle.x - middle.y) + 1e-3 * share * fastest_;
+  const double dv = share * fastest_ * rate_;
+  for (const auto& [force, g] : acting_) {
+    const auto slope = [&](double in_x, double in_v, double step) {
+      const auto moved = [&](double sign) {
+        Instant at = middle;
+        at.x += sign * in_x;
+        at.v += sign * in_v;
+        at.way = std::abs(at.x - reversal_);
+        return (*force)(at);
+      };
+      return step > 0.0 ? (moved(1.0) - moved(-1.0)) / (2.0 * step) : 0.0;
+    };
+    local_stiffness_ += g * slope(dx, 0.0, dx);
+    local_damping_ += g * rate_ * slope(0.0, dv, dv);
+  }
 }
 
 void SampledOscillator::expand(Tangent& tangent) const {
@@ -323,7 +390,7 @@ void SampledOscillator::expand(Tangent& tangent) const {
   s[1] = tangent.v;
   for (int j = 0; j + 2 < terms_; ++j) {
     const auto i = static_cast<std::size_t>(j);
-    s[i + 2] = (forcing(j) - damping_ * (j + 1) * s[i + 1] - p_.k * s[i]) * integration_[i];
+    s[i + 2] = (forcing(j) - local_damping_ * (j + 1) * s[i + 1] - local_stiffness_ * s[i]) * integration_[i];
   }
 }
 

@@ -7,6 +7,8 @@
 /// Reversals, stops and releases are found as roots of that series. The exact engine (`sim/`) knows harmonic drives
 /// and ramps alone; a measured base motion is neither.
 ///
+/// Forces beside these, smooth within an interval, are polynomials along the motion, which is found in three rounds.
+///
 /// Derivatives S = dx/dp obey  m S'' + c S' + k S = dm-, dc-, dk-, dF0-terms  within an interval. At v = 0 the
 /// acceleration jumps from a- to a+, and S_x+ = S_x-, S_v+ = S_v- a+/a- (filippov1988, leine2004); at a stop S_v =
 /// 0.
@@ -32,6 +34,8 @@ class SampledOscillator {
     double F0 = 0.0;  ///< N, >= 0
     double x0 = 0.0;  ///< m
     double v0 = 0.0;  ///< m/s
+    /// Coefficients of the forces that `run` is handed; empty: all zero.
+    std::vector<double> further = {};
   };
   /// Where the mass is, for a force beside the others.
   struct Instant {
@@ -43,7 +47,7 @@ class SampledOscillator {
     double way = 0.0;        ///< since the last reversal [m]; far before the first
     double course = 0.0;     ///< share of the history that is over
   };
-  /// A force on the mass against its positive direction, at a coefficient of zero; any unit.
+  /// A force on the mass against its positive direction, smooth but for its direction; any unit.
   using Force = std::function<double(const Instant&)>;
   /// What the motion is differentiated by; `force`: a further force, numbered by its place in the list.
   enum class By { mass, damping, stiffness, friction, position, velocity, force };
@@ -83,17 +87,31 @@ class SampledOscillator {
     Series series{};
   };
 
+  /// Of a mass whose velocity is zero: what drives it, and what friction may hold.
+  struct Balance {
+    double pull = 0.0;
+    double limit = 0.0;
+  };
+  /// A further force with a coefficient that is not zero.
+  struct Acting {
+    const Force* force;
+    double coefficient;
+  };
+
   bool walk_interval(std::size_t interval);
   double slip(double begin, double end);
   double rest(double begin, double end) const;
   void expand(double begin);
+  void expand_motion(const Drive& drive);
   void expand(Tangent& tangent) const;
+  void linearise();
   void start_tangents(const std::vector<By>& by, const std::vector<Force>& forces);
   void store_step(Derivatives& derivatives);
   [[nodiscard]] Drive push(const Force& force) const;
   void move_to(double u);
   void settle(double at);
-  [[nodiscard]] double pull(double at) const;
+  [[nodiscard]] Balance balance(double at) const;
+  [[nodiscard]] Instant instant(double u) const;
   [[nodiscard]] double first_reversal(double length) const;
 
   std::size_t count_;
@@ -116,6 +134,9 @@ class SampledOscillator {
   Drive drive_here_{};
   Drive drive_{};
   Series series_{};
+  std::vector<Acting> acting_;
+  double local_stiffness_ = 0.0;  ///< with the slopes of the acting forces, by unit of time as damping_
+  double local_damping_ = 0.0;
   std::vector<Tangent> tangents_;
 };
 

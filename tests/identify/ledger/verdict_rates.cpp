@@ -74,7 +74,7 @@ bool covers(const std::array<double, 2>& interval, double value) {
 
 struct Counts {
   int records = 0, rejected = 0, friction = 0, answers = 0, zeta = 0, F0 = 0, off = 0, off_rejected = 0, misled = 0;
-  int tested = 0;
+  int tested = 0, blamed = 0, joint = 0, joint_zeta = 0, joint_F0 = 0;
   std::map<std::string, int> named, named_off, by;
   double seconds = 0.0;
 };
@@ -98,6 +98,19 @@ void count(const Row& row, std::uint64_t seed, Counts& counts) {
                              violated(Assumption::symmetry)
                          ? 1
                          : 0;
+  // Friction alone is charged where no other assumption is named beside it.
+  const auto of_friction = [](Assumption assumption) {
+    return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
+           assumption == Assumption::symmetry;
+  };
+  counts.blamed += std::ranges::any_of(found.ledger.departures, [&](const std::vector<Assumption>& departure) {
+    return std::ranges::all_of(departure, of_friction);
+  });
+  if (found.ledger.joint && found.ledger.joint->interval95) {
+    ++counts.joint;
+    counts.joint_zeta += covers(found.ledger.joint->interval95->zeta, rig.zeta) ? 1 : 0;
+    counts.joint_F0 += covers(found.ledger.joint->interval95->F0, rig.F0) ? 1 : 0;
+  }
   counts.off += is_off ? 1 : 0;
   counts.off_rejected += is_off && any ? 1 : 0;
   for (const Assumption assumption : assumptions()) {
@@ -125,10 +138,11 @@ std::string list_of(const std::map<std::string, int>& map, int total) {
 void print(const Row& row, const Counts& c) {
   const auto share = [](int part, int whole) { return 100.0 * part / std::max(1, whole); };
   std::printf(
-      "%-34s n %3d tested %3.0f rejected %5.1f friction %5.1f answer %5.1f zeta %5.1f F0 %5.1f misled %4.1f "
+      "%-34s n %3d tested %3.0f rejected %5.1f friction %5.1f alone %5.1f joint %5.1f %5.1f answer %5.1f zeta %5.1f F0 %5.1f misled %4.1f "
       "off %3.0f found %3.0f %4.2f s | named: %s | where off: %s | by: %s\n",
       row.name.c_str(), c.records, share(c.tested, c.records), share(c.rejected, c.records),
-      share(c.friction, c.records), share(c.answers, c.records), share(c.zeta, c.answers), share(c.F0, c.answers),
+      share(c.friction, c.records), share(c.blamed, c.records), share(c.joint_zeta, c.joint),
+      share(c.joint_F0, c.joint), share(c.answers, c.records), share(c.zeta, c.answers), share(c.F0, c.answers),
       share(c.misled, c.records), share(c.off, c.records), share(c.off_rejected, c.off),
       c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(), list_of(c.named_off, c.off).c_str(),
       list_of(c.by, c.answers).c_str());
