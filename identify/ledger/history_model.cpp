@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -83,7 +84,7 @@ using Numbers = std::vector<std::size_t>;
 class Histories {
  public:
   Histories(const Record& record, const KnownConstants& constants, Estimate& taken)
-      : constants_(constants), fit_(record, constants, {}, taken) {
+      : record_(record), constants_(constants), fit_(record, constants, {}, taken) {
     if (!fit_.problem().empty()) return;
     start_.p = fit_.found().parameters;
     const ForceParameters force = fit_.layout().force(start_.p);
@@ -103,6 +104,14 @@ class Histories {
     std::iota(all.begin(), all.end(), std::size_t{0});
     Place at = start_;
     std::optional<Linearised> here = linearised(at, taken, false);
+    for (const std::size_t number : taken) {
+      const std::optional<Place> other = ways_[number].kind == Way::Kind::constant ? freed(number) : std::nullopt;
+      if (!other) continue;
+      std::optional<Linearised> there = linearised(*other, taken, false);
+      if (!there || (here && there->squares > here->squares)) continue;
+      at = *other;
+      here = std::move(there);
+    }
     constexpr int most_steps = 8;
     for (int i = 0; here && i < most_steps; ++i) {
       Eigen::MatrixXd columns(here->residuals.size(), here->base.cols() + here->relaxed.cols());
@@ -151,6 +160,26 @@ class Histories {
     model.constants = {force.m, force.k, constants_.frequency};
     model.scale_freedom = static_cast<double>(model.residuals.size());
     return model;
+  }
+
+  /// The fit where a constant is not known: a motion that runs out of step with that of the constant as stated is
+  /// too far away for steps from there.
+  [[nodiscard]] std::optional<Place> freed(std::size_t number) {
+    if (const auto known = freed_.find(number); known != freed_.end()) return known->second;
+    KnownConstants constants = constants_;
+    const bool is_mass = ways_[number].by == By::mass;
+    (is_mass ? constants.mass : constants.stiffness) = unknown;
+    Estimate unused;
+    const ForwardFit fit(record_, constants, {}, unused);
+    std::optional<Place>& place = freed_[number];
+    if (!fit.problem().empty()) return place;
+    place = start_;
+    std::vector<ForwardTest> tests = fit_.tests();
+    place->p = fit.as_start(fit_.layout(), tests);
+    const ForceParameters force = fit.layout().force(fit.found().parameters);
+    place->g[static_cast<Eigen::Index>(number)] =
+        is_mass ? force.m - constants_.mass : force.k - constants_.stiffness;
+    return place;
   }
 
   [[nodiscard]] ForceParameters force_at(const Place& at) const {
@@ -406,6 +435,7 @@ class Histories {
     return whitened(channel.rows, channel.blocks, errors);
   }
 
+  const Record& record_;  // outlives the tests
   KnownConstants constants_;
   ForwardFit fit_;
   Place start_;
@@ -415,6 +445,7 @@ class Histories {
   std::vector<Relaxation> relaxations_;
   std::vector<Way> ways_;  ///< of each relaxation
   std::vector<ReadingNoise> noise_;
+  std::map<std::size_t, std::optional<Place>> freed_;
 };
 
 /// Why the motion cannot be simulated; empty when it can.

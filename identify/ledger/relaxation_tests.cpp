@@ -21,6 +21,7 @@ constexpr double found_at = 2.8;
 struct Projection {
   Eigen::VectorXd residuals;
   double freedom = 0.0;
+  double scale_freedom = 0.0;  ///< behind the deviation that a statistic is over
   std::vector<std::size_t> indices;  ///< of the relaxations that can be told apart
   Eigen::MatrixXd unit;              ///< their columns beside the base, of unit length
   Eigen::VectorXd lengths;
@@ -42,6 +43,8 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   Projection result;
   result.residuals = model.residuals - base * (scale.cwiseInverse().asDiagonal() * qr.solve(model.residuals));
   result.freedom = static_cast<double>(base.rows() - qr.rank()) - model.spent;
+  // A statistic may rest on one channel, or on all.
+  result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
   for (Eigen::Index j = 0; j < beside.cols(); ++j)
     if (beside.col(j).norm() > told_apart * model.relaxed.col(j).norm())
       result.indices.push_back(static_cast<std::size_t>(j));
@@ -70,11 +73,11 @@ double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, f
 std::vector<double> largest_statistics(const Projection& projection) {
   constexpr std::size_t draws = 2000;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projection.unit);
-  const auto rank = std::min<Eigen::Index>(qr.rank(), static_cast<Eigen::Index>(projection.freedom));
+  const auto rank = std::min<Eigen::Index>(qr.rank(), static_cast<Eigen::Index>(projection.scale_freedom));
   const Eigen::MatrixXd basis =
       Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(projection.unit.rows(), rank));
   const Eigen::MatrixXd directions = projection.unit.transpose() * basis;
-  const double beside = std::max(0.0, projection.freedom - static_cast<double>(rank));
+  const double beside = std::max(0.0, projection.scale_freedom - static_cast<double>(rank));
   constexpr core::RandomStream stream{20261122, 1};
   std::uint64_t drawn = 0;
   std::vector<double> largest;
@@ -89,7 +92,7 @@ std::vector<double> largest_statistics(const Projection& projection) {
       const double root = 1.0 - width + std::sqrt(width) * stream.normal(drawn++);
       squares += beside * std::max(0.0, root * root * root);
     }
-    largest.push_back(statistics(directions * z, squares, projection.freedom).cwiseAbs().maxCoeff());
+    largest.push_back(statistics(directions * z, squares, projection.scale_freedom).cwiseAbs().maxCoeff());
   }
   std::ranges::sort(largest);
   return largest;
@@ -115,7 +118,7 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
     RelaxationTest test;
     test.index = projection.indices[static_cast<std::size_t>(j)];
     test.t = t[j];
-    test.p_value = family_p_value(t[j], projection.freedom - 1.0, largest, projection.indices.size());
+    test.p_value = family_p_value(t[j], projection.scale_freedom - 1.0, largest, projection.indices.size());
     const double rows = projection.freedom + static_cast<double>(model.base.cols());
     test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
     const double gain = along[j] / projection.lengths[j];
@@ -131,13 +134,15 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
 }
 
 /// Relaxations that may explain the departure, best first: two of an assumption at most. Far from the fit one that
-/// explains half as much as the best may be it.
+/// explains half as much as the best may be it, and a constant that explains little: a motion out of step with the
+/// model's is far away.
 std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests) {
   std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
   std::vector<RelaxationTest> list;
   for (const RelaxationTest& test : tests) {
-    const double least = std::min(tests.front().explained - equal_likelihood, 0.5 * tests.front().explained);
-    if (test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) break;
+    const double share = model.relaxations[test.index].assumption == Assumption::constants ? 0.05 : 0.5;
+    const double least = std::min(tests.front().explained - equal_likelihood, share * tests.front().explained);
+    if (test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) continue;
     const Assumption assumption = model.relaxations[test.index].assumption;
     const auto known = std::ranges::count_if(
         list, [&](const RelaxationTest& other) { return model.relaxations[other.index].assumption == assumption; });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -99,9 +100,18 @@ bool is_free(const ForwardTest& test) { return test.history->y.empty() && test.h
 
 /// What the extremes of a free vibration say: a long decay has many local minima of the fit, and this lies in the
 /// valley of the least.
-std::optional<ForceParameters> from_extremes(const ForwardTest& test, const ForceParameters& known) {
+std::optional<ForceParameters> from_extremes(const ForwardTest& test, ForceParameters known,
+                                             const KnownConstants& constants) {
   Record record;
   record.decay = decay_of(*test.history).record;
+  if (const std::vector<double>& times = record.decay->times; times.size() > 1) {
+    const double half_period = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    const double natural = std::numbers::pi / half_period;
+    if (std::isnan(constants.stiffness))
+      known.k = known.m * natural * natural;
+    else if (std::isnan(constants.mass))
+      known.m = known.k / (natural * natural);
+  }
   const Estimate estimate = free_decay(record, {known.m, known.k, unknown}, {});
   if (!estimate.outcome.ok()) return std::nullopt;
   return ForceParameters{known.m, std::max(0.0, estimate.value.c), known.k, std::max(0.0, estimate.value.F0)};
@@ -127,7 +137,7 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
   if (!(force.m > 0.0) || !(force.k > 0.0)) return {};
   std::vector<ForceParameters> list{force};
   for (const ForwardTest& test : tests)
-    if (const auto start = is_free(test) ? from_extremes(test, force) : std::nullopt) list.push_back(*start);
+    if (const auto start = is_free(test) ? from_extremes(test, force, constants) : std::nullopt) list.push_back(*start);
   const double length = ForwardLayout::length(tests);
   const double critical = 2.0 * std::sqrt(force.m * force.k);
   for (const double zeta : {0.02, 0.1, 0.25})

@@ -138,9 +138,11 @@ class ForwardFit {
   [[nodiscard]] const ForwardResiduals& residuals() const { return *residuals_; }
   [[nodiscard]] const LeastSquaresFit& found() const { return found_; }
 
- private:
-  /// Where the fit of the same tests at full length begins; their initial states are set.
+  /// Where another fit of the same tests begins, at full length or with a constant known; their initial states are
+  /// set.
   [[nodiscard]] Eigen::VectorXd as_start(const ForwardLayout& layout, std::vector<ForwardTest>& tests) const;
+
+ private:
   void search(const Record& record, const KnownConstants& constants, const RegressionOptions& options);
 
   std::string problem_;

@@ -108,6 +108,11 @@ void count(const Row& row, std::uint64_t seed, Counts& counts) {
   });
   if (found.ledger.joint && found.ledger.joint->interval95) {
     ++counts.joint;
+    if (std::getenv("DEBUGZ")) {
+      const auto& I = *found.ledger.joint->interval95;
+      const auto& V = found.ledger.joint->value;
+      std::fprintf(stderr, "Z %d %g %g %g %g\n", static_cast<int>(found.ledger.departures.size()), 2 * (V.zeta - rig.zeta) / (I.zeta[1] - I.zeta[0]), 2 * (V.F0 - rig.F0) / (I.F0[1] - I.F0[0]), V.zeta/rig.zeta-1, V.F0/rig.F0-1);
+    }
     counts.joint_zeta += covers(found.ledger.joint->interval95->zeta, rig.zeta) ? 1 : 0;
     counts.joint_F0 += covers(found.ledger.joint->interval95->F0, rig.F0) ? 1 : 0;
   }
