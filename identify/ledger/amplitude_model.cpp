@@ -269,10 +269,11 @@ void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
         std::clamp(step[2 + static_cast<Eigen::Index>(j)], -most_relaxed, most_relaxed);
 }
 
-/// The fit where sigma_Y is `ratio` times sigma_x.
-Fit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio) {
+/// The fit where sigma_Y is `ratio` times sigma_x. `relaxed`: where the coefficients taken begin.
+Fit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio, double relaxed) {
   Fit fit;
   fit.at = {begin, states.none_relaxed()};
+  for (const std::size_t j : taken) fit.at.g[static_cast<Eigen::Index>(j)] = relaxed;
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
   constexpr int iterations = 14;
   for (int i = 0; i < iterations; ++i) {
@@ -297,10 +298,10 @@ Fit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken
 }
 
 /// The best share of the deviations. Some 25 states hardly tell it: sensors of like accuracy are the most probable,
-/// a factor of three is one standard deviation. At one frequency the gain of Y on x hardly varies and without phases
-/// the record cannot tell at all: errors in x alone then, unless inputs that repeat say otherwise.
-Fit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken) {
-  if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0);
+/// a factor of three is one standard deviation. At one frequency the gain of Y on x hardly varies and without
+/// phases the record cannot tell at all: errors in x alone then, unless inputs that repeat say otherwise.
+Fit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken, double relaxed = 0.0) {
+  if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0, relaxed);
   double Y = 0.0;
   double x = 0.0;
   for (const SteadyPoint& point : states.points()) {
@@ -311,7 +312,7 @@ Fit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken
   Fit best;
   double least = std::numeric_limits<double>::infinity();
   for (const double share : {0.03, 0.1, 0.3, 0.55, 1.0, 1.8, 3.3, 10.0}) {
-    Fit fit = fit_with(states, begin, taken, share * Y / x);
+    Fit fit = fit_with(states, begin, taken, share * Y / x, relaxed);
     const double deviance = fit.deviance + std::pow(std::log(share) / deviation, 2);
     if (deviance < least || !std::isfinite(best.deviance)) {
       best = std::move(fit);
@@ -348,8 +349,10 @@ std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownC
 }
 
 /// A force in phase with the motion hardly changes the amplitude of a drive that is in quadrature, as it is at
-/// resonance: from amplitudes alone only an absurd one would be seen, and would be taken for what is not there.
-void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction, Eigen::MatrixXd& relaxed) {
+/// resonance: from amplitudes alone only an absurd one would be seen, and would be taken for what is not there. It
+/// is no test of its own, but may explain what another one finds.
+void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction, const Taken& taken,
+                      JointModel& model) {
   if (states.with_phases()) return;
   constexpr double seen = 0.2;
   const std::vector<const AmplitudeTerm*>& terms = states.terms();
@@ -362,7 +365,9 @@ void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction,
       radial += std::pow(std::real(change * std::conj(drive)) / std::abs(drive), 2);
       whole += std::norm(change);
     }
-    if (radial < seen * seen * whole) relaxed.col(static_cast<Eigen::Index>(j)).setZero();
+    if (!(radial < seen * seen * whole) || std::ranges::find(taken, j) != taken.end()) continue;
+    model.relaxed.col(static_cast<Eigen::Index>(j)).setZero();
+    model.hidden.push_back(j);
   }
 }
 
@@ -376,7 +381,8 @@ KnownConstants constants_at(const Fit& fit, const SteadyStates& states, KnownCon
   return constants;
 }
 
-JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, const KnownConstants& stated) {
+JointModel model_of(const Fit& fit, const SteadyStates& states, const Taken& relaxed, double unit,
+                    const KnownConstants& stated) {
   const KnownConstants constants = constants_at(fit, states, stated);
   JointModel model;
   model.constants = constants;
@@ -389,11 +395,20 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, double unit, con
   model.base = fit.rows.base;
   model.relaxations = states.relaxations();
   model.relaxed = fit.rows.relaxed;
-  leave_out_unseen(states, fit.at.friction, model.relaxed);
+  leave_out_unseen(states, fit.at.friction, relaxed, model);
   model.spent = states.with_phases() ? 1.0 : 0.0;
   model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
-  model.refit = [states, begin = fit.at.friction, unit, stated](const std::vector<std::size_t>& taken) {
-    return model_of(best_fit(states, begin, taken), states, unit, stated);
+  model.refit = [states, begin = fit.at.friction, hidden = model.hidden, unit, stated](const Taken& taken) {
+    const bool second_order =
+        std::ranges::any_of(taken, [&](std::size_t j) { return std::ranges::find(hidden, j) != hidden.end(); });
+    Fit best = best_fit(states, begin, taken);
+    // What acts in the second order has no slope at zero.
+    constexpr double away = 0.02;
+    for (const double g : second_order ? std::vector<double>{away, -away} : std::vector<double>{}) {
+      Fit other = best_fit(states, begin, taken, g);
+      if (other.deviance < best.deviance) best = std::move(other);
+    }
+    return model_of(best, states, taken, unit, stated);
   };
   const double to_force = constants.stiffness * unit;
   // At a constant F0 = k x_f.
@@ -424,7 +439,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
     const Fit fit = best_fit(states, start(points), {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
     if (drop_sticking(points, fit.at.friction, said)) continue;
-    JointModel model = model_of(fit, states, unit, constants);
+    JointModel model = model_of(fit, states, {}, unit, constants);
     model.left_out = std::move(said);
     return model;
   }

@@ -25,6 +25,7 @@ struct Decay {
   double offset = 0.0;
   double start = 0.0;
   double longer = 0.0;
+  Eigen::VectorXd g = {};  ///< coefficients of the terms; empty: all zero
 };
 
 /// Share by which the period may differ from that of the constants stated and a zeta within its least change of
@@ -35,32 +36,45 @@ double period_tolerance(double zeta) {
   return std::hypot(rounded, 0.02 * zeta * zeta);
 }
 
+/// One half swing of plain friction.
+struct Swing {
+  double X = 1.0;        ///< mean amplitude
+  double side = 1.0;     ///< of its beginning
+  double dry = 0.0;      ///< what Coulomb friction takes from the amplitude
+  double viscous = 0.0;  ///< what viscous friction takes
+};
+
 /// One way in which a half swing may differ: what it takes from the amplitude, and by what share it lasts longer.
 struct DecayTerm {
   Assumption assumption;
   std::string_view test;
-  double (*loss)(double X, double side, double drop);
+  double (*loss)(const Swing& swing);
   double (*lasting)(double X);
 };
 
-double no_loss(double /*X*/, double /*side*/, double /*drop*/) { return 0.0; }
+double no_loss(const Swing& /*swing*/) { return 0.0; }
 double no_lasting(double /*X*/) { return 0.0; }
-double square(double X, double /*side*/, double /*drop*/) { return X * X; }
-double cube(double X, double /*side*/, double /*drop*/) { return X * X * X; }
+double square(const Swing& swing) { return swing.X * swing.X; }
+double cube(const Swing& swing) { return swing.X * swing.X * swing.X; }
 /// Amplitude at which a force at low speed has fallen to one half, of the first.
 constexpr double slow = 0.15;
-double at_low_speed(double X, double /*side*/, double /*drop*/) { return 1.0 / (1.0 + (X / slow) * (X / slow)); }
-double deflection(double X, double /*side*/, double /*drop*/) { return 1.0 / X; }
-double one_sided(double X, double side, double /*drop*/) { return side * X; }
+double at_low_speed(const Swing& swing) { return 1.0 / (1.0 + (swing.X / slow) * (swing.X / slow)); }
+double deflection(const Swing& swing) { return 1.0 / swing.X; }
+double one_sided(const Swing& swing) { return swing.side * swing.X; }
 double always(double /*X*/) { return 1.0; }
-// A spring k x (1 + g x^2) stores more at large amplitudes: the same work takes less from them, in a shorter time.
-double stiffer(double X, double /*side*/, double drop) { return -X * X * drop; }
+// A spring k x (1 + g x^2) stores k X^2/2 (1 + g X^2/2): the same work takes less from a large amplitude, 1/(1 + g
+// X^2). Viscous friction does 1 + 5/16 g X^2 of its work, for the motion is faster.
+double stiffer(const Swing& swing) { return -swing.X * swing.X * (swing.dry + 11.0 / 16.0 * swing.viscous); }
 double stiffening(double X) { return -0.375 * X * X; }
 double stiff_contact(double X) { return -std::pow(X, -1.5); }
 
 using enum Assumption;
-constexpr std::array<DecayTerm, 8> terms = {{
-    {constants, "period free", no_loss, always},
+/// A period other than stated: alike but for F0 = k x_f.
+constexpr std::string_view mass_free = "period free, stiffness as stated";
+constexpr std::string_view stiffness_free = "period free, mass as stated";
+constexpr std::array<DecayTerm, 9> terms = {{
+    {constants, mass_free, no_loss, always},
+    {constants, stiffness_free, no_loss, always},
     {spring, "cubic stiffness", stiffer, stiffening},
     {friction_velocity, "quadratic term over speed", square, no_lasting},
     {friction_velocity, "cubic term over speed", cube, no_lasting},
@@ -70,35 +84,51 @@ constexpr std::array<DecayTerm, 8> terms = {{
     {symmetry, "damping of its own in each direction", one_sided, no_lasting},
 }};
 
-/// Extremes and, after them, their times.
-struct Course {
-  std::vector<double> extremes;
-  std::vector<double> times;
-};
-
-/// `term` with coefficient g beside plain friction; nullptr: none.
-Course course(const Decay& decay, double side, std::size_t count, const DecayTerm* term, double g) {
-  const double R = std::exp(-std::numbers::pi * decay.zeta / std::sqrt((1.0 - decay.zeta) * (1.0 + decay.zeta)));
-  Course result;
-  double X = decay.first;
-  double t = decay.start;
-  for (std::size_t i = 0; i < count; ++i, side = -side) {
-    result.extremes.push_back(side * X + decay.offset);
-    result.times.push_back(t);
-    const double next = R * X - decay.x_f * (1.0 + R);
-    const double mean = std::max(0.5 * (X + next), 1e-3);
-    X = next - (term == nullptr ? 0.0 : g * term->loss(mean, side, X - next));
-    t += 1.0 + decay.longer + (term == nullptr ? 0.0 : g * term->lasting(mean));
-  }
-  return result;
+/// Terms that a record can tell: those of times only where there are times.
+std::vector<const DecayTerm*> terms_of(bool timed) {
+  std::vector<const DecayTerm*> list;
+  for (const DecayTerm& term : terms)
+    if (timed || term.loss != no_loss) list.push_back(&term);
+  return list;
 }
 
-/// The rows of a course: amplitudes; where there are times, these, and the tolerance of the period as one more.
-Eigen::VectorXd rows_of(const Course& course, bool timed, double longer) {
-  const auto count = static_cast<Eigen::Index>(course.extremes.size());
-  Eigen::VectorXd rows(timed ? 2 * count + 1 : count);
-  rows.head(count) = Eigen::Map<const Eigen::VectorXd>(course.extremes.data(), count);
-  if (timed) rows.tail(count + 1) << Eigen::Map<const Eigen::VectorXd>(course.times.data(), count), longer;
+/// What the extremes are modelled from, in the units of Decay.
+struct Setting {
+  double side = 1.0;  ///< sign of the first amplitude
+  Eigen::Index count = 0;
+  bool timed = false;
+  double unit = 1.0;         ///< m
+  double half_period = 1.0;  ///< s
+  double tolerance = 1.0;    ///< of the period
+  KnownConstants constants;
+  std::vector<const DecayTerm*> terms;
+};
+
+/// Extremes; where there are times, these, and by what share the period is longer.
+Eigen::VectorXd rows_of(const Setting& setting, const Decay& decay) {
+  const double R = std::exp(-std::numbers::pi * decay.zeta / std::sqrt((1.0 - decay.zeta) * (1.0 + decay.zeta)));
+  const Eigen::Index count = setting.count;
+  Eigen::VectorXd rows(setting.timed ? 2 * count + 1 : count);
+  double side = setting.side;
+  double X = decay.first;
+  double t = decay.start;
+  for (Eigen::Index i = 0; i < count; ++i, side = -side) {
+    rows[i] = side * X + decay.offset;
+    if (setting.timed) rows[count + i] = t;
+    const double plain = R * X - decay.x_f * (1.0 + R);
+    const double mean = std::max(0.5 * (X + plain), 1e-3);
+    double next = plain;
+    t += 1.0 + decay.longer;
+    for (Eigen::Index j = 0; j < decay.g.size(); ++j) {
+      const double g = decay.g[j];
+      if (g == 0.0) continue;
+      const DecayTerm& term = *setting.terms[static_cast<std::size_t>(j)];
+      next -= g * term.loss({mean, side, decay.x_f * (1.0 + R), (1.0 - R) * X});
+      t += g * term.lasting(mean);
+    }
+    X = next;
+  }
+  if (setting.timed) rows[2 * count] = decay.longer;
   return rows;
 }
 
@@ -128,34 +158,92 @@ void add_readings(JointModel& model, Channel channel, Eigen::Index count, double
   for (int i = 1; i <= count; ++i) model.readings.push_back({channel, i, per_deviation});
 }
 
-/// Derivatives by central differences.
-void add_columns(const Decay& decay, double side, std::size_t count, bool timed, JointModel& model) {
+/// The model linearised at `at`, by central differences, with rows of unit deviation.
+JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, const Decay& at) {
   constexpr double step = 1e-6;
-  const auto rows = [&](const Decay& at, const DecayTerm* term, double g) {
-    return rows_of(course(at, side, count, term, g), timed, at.longer);
-  };
-  const auto slope = [&](const Eigen::VectorXd& up, const Eigen::VectorXd& down) {
-    return Eigen::VectorXd((up - down) / (2.0 * step));
+  const auto slope = [&](auto move) {
+    Decay up = at;
+    Decay down = at;
+    move(up, step);
+    move(down, -step);
+    return Eigen::VectorXd((rows_of(setting, up) - rows_of(setting, down)) / (2.0 * step));
   };
   constexpr std::array<double Decay::*, 6> members = {&Decay::zeta,   &Decay::x_f,   &Decay::first,
                                                       &Decay::offset, &Decay::start, &Decay::longer};
-  const Eigen::Index size = model.residuals.size();
-  model.base.resize(size, timed ? 6 : 4);
-  for (Eigen::Index j = 0; j < model.base.cols(); ++j) {
-    Decay up = decay;
-    Decay down = decay;
-    up.*members[static_cast<std::size_t>(j)] += step;
-    down.*members[static_cast<std::size_t>(j)] -= step;
-    model.base.col(j) = slope(rows(up, nullptr, 0.0), rows(down, nullptr, 0.0));
-  }
-  std::vector<Eigen::VectorXd> columns;
-  for (const DecayTerm& term : terms) {
-    if (term.loss == no_loss && !timed) continue;
+  JointModel model;
+  model.residuals = measured - rows_of(setting, at);
+  model.base.resize(model.residuals.size(), setting.timed ? 6 : 4);
+  for (Eigen::Index j = 0; j < model.base.cols(); ++j)
+    model.base.col(j) = slope([&](Decay& decay, double h) { decay.*members[static_cast<std::size_t>(j)] += h; });
+  model.relaxed.resize(model.residuals.size(), at.g.size());
+  for (Eigen::Index j = 0; j < at.g.size(); ++j) {
+    const DecayTerm& term = *setting.terms[static_cast<std::size_t>(j)];
     model.relaxations.push_back({term.assumption, std::string(term.test)});
-    columns.emplace_back(slope(rows(decay, &term, step), rows(decay, &term, -step)));
+    model.relaxed.col(j) = slope([&](Decay& decay, double h) { decay.g[j] += h; });
+    // At a constant F0 = k x_f.
+    if (term.test == stiffness_free) model.relaxed.col(j) += 2.0 * at.x_f * model.base.col(1);
   }
-  model.relaxed.resize(size, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t j = 0; j < columns.size(); ++j) model.relaxed.col(static_cast<Eigen::Index>(j)) = columns[j];
+  const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
+  model.scale_freedom = amplitudes.freedom;
+  add_readings(model, Channel::extreme, setting.count, amplitudes.deviation * setting.unit);
+  if (setting.timed) {
+    const ChannelScale times = scale_channel(model, setting.count, setting.count);
+    add_readings(model, Channel::time, setting.count, times.deviation * setting.half_period);
+    model.readings.emplace_back();
+    model.residuals[2 * setting.count] /= setting.tolerance;
+    model.base.bottomRows(1) /= setting.tolerance;
+    model.relaxed.bottomRows(1) /= setting.tolerance;
+  }
+  model.spent = setting.timed ? 1.0 : 0.0;
+  return model;
+}
+
+/// Moves by a step of base parameters and of the terms taken, at a constant F0.
+void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector<std::size_t>& taken, Decay& at) {
+  const Eigen::Index base = setting.timed ? 6 : 4;
+  at.zeta = std::clamp(at.zeta + step[0], 0.1 * at.zeta, 0.9);
+  at.x_f += step[1];
+  at.first += step[2];
+  at.offset += step[3];
+  if (setting.timed) {
+    at.start += step[4];
+    at.longer += step[5];
+  }
+  for (std::size_t j = 0; j < taken.size(); ++j) {
+    const double g = step[base + static_cast<Eigen::Index>(j)];
+    at.g[static_cast<Eigen::Index>(taken[j])] += g;
+    if (setting.terms[taken[j]]->test == stiffness_free) at.x_f += 2.0 * g * at.x_f;
+  }
+}
+
+/// The model linearised where the terms taken are fitted beside plain friction.
+JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const Decay& start,
+                  const std::vector<std::size_t>& taken) {
+  Decay at = start;
+  JointModel model = linearised(setting, measured, at);
+  constexpr int steps = 6;
+  for (int i = 0; i < steps && !taken.empty(); ++i) {
+    Eigen::MatrixXd columns(model.base.rows(), model.base.cols() + static_cast<Eigen::Index>(taken.size()));
+    columns.leftCols(model.base.cols()) = model.base;
+    for (std::size_t j = 0; j < taken.size(); ++j)
+      columns.col(model.base.cols() + static_cast<Eigen::Index>(j)) =
+          model.relaxed.col(static_cast<Eigen::Index>(taken[j]));
+    const Eigen::VectorXd step = pivoted_least_squares(columns, model.residuals);
+    Decay moved = at;
+    move(setting, step, taken, moved);
+    if (!step.allFinite() || !rows_of(setting, moved).allFinite()) break;
+    at = moved;
+    model = linearised(setting, measured, at);
+  }
+  model.constants = setting.constants;
+  for (std::size_t j = 0; j < setting.terms.size(); ++j) {
+    const double longer = 1.0 + at.g[static_cast<Eigen::Index>(j)];
+    if (setting.terms[j]->test == stiffness_free) model.constants.stiffness /= longer * longer;
+    if (setting.terms[j]->test == mass_free) model.constants.mass *= longer * longer;
+  }
+  model.base.col(1) /= model.constants.stiffness * setting.unit;
+  model.value = parameters(at.zeta, at.x_f * setting.unit, model.constants);
+  return model;
 }
 
 }  // namespace
@@ -166,36 +254,32 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
   constexpr std::size_t fewest = 6;
   const std::size_t count = fit.used.size();
   if (count < fewest) return "fewer than six extremes";
-  const double unit = std::abs(fit.decay->first_amplitude);
+  const bool timed = record.decay->times.size() == record.decay->extremes.size();
+  Setting setting;
+  setting.side = fit.decay->first_amplitude < 0.0 ? -1.0 : 1.0;
+  setting.count = static_cast<Eigen::Index>(count);
+  setting.timed = timed;
+  setting.unit = std::abs(fit.decay->first_amplitude);
+  setting.tolerance = period_tolerance(fit.value.zeta);
+  setting.constants = constants;
+  setting.terms = terms_of(timed);
   const double half_period = std::numbers::pi * std::sqrt(constants.mass / constants.stiffness) /
                              std::sqrt((1.0 - fit.value.zeta) * (1.0 + fit.value.zeta));
-  const bool timed = record.decay->times.size() == record.decay->extremes.size();
-  const Decay decay{fit.value.zeta, fit.value.x_f / unit, 1.0, fit.decay->offset / unit,
-                    timed ? record.decay->times.front() / half_period : 0.0};
-  const double side = fit.decay->first_amplitude < 0.0 ? -1.0 : 1.0;
-
-  JointModel model;
-  model.data = std::to_string(count) + " extremes" + (timed ? " with times" : "");
-  Course measured;
+  setting.half_period = half_period;
+  Decay start{fit.value.zeta, fit.value.x_f / setting.unit, 1.0, fit.decay->offset / setting.unit,
+              timed ? record.decay->times.front() / half_period : 0.0};
+  start.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(setting.terms.size()));
+  Eigen::VectorXd measured = Eigen::VectorXd::Zero(timed ? 2 * setting.count + 1 : setting.count);
   for (std::size_t i = 0; i < count; ++i) {
-    measured.extremes.push_back(record.decay->extremes[i] / unit);
-    measured.times.push_back(timed ? record.decay->times[i] / half_period : 0.0);
+    const auto row = static_cast<Eigen::Index>(i);
+    measured[row] = record.decay->extremes[i] / setting.unit;
+    if (timed) measured[setting.count + row] = record.decay->times[i] / half_period;
   }
-  model.residuals = rows_of(measured, timed, 0.0) - rows_of(course(decay, side, count, nullptr, 0.0), timed, 0.0);
-  add_columns(decay, side, count, timed, model);
-  const auto rows = static_cast<Eigen::Index>(count);
-  const ChannelScale amplitudes = scale_channel(model, 0, rows);
-  model.scale_freedom = amplitudes.freedom;
-  add_readings(model, Channel::extreme, rows, amplitudes.deviation * unit);
-  if (timed) {
-    add_readings(model, Channel::time, rows, scale_channel(model, rows, rows).deviation * half_period);
-    model.base.bottomRows(1) /= period_tolerance(fit.value.zeta);
-    model.readings.emplace_back();
-  }
-  model.spent = timed ? 1.0 : 0.0;
-  model.base.col(1) /= constants.stiffness * unit;
-  model.value = fit.value;
-  model.constants = constants;
+  JointModel model = fitted(setting, measured, start, {});
+  model.refit = [setting, measured, start](const std::vector<std::size_t>& taken) {
+    return fitted(setting, measured, start, taken);
+  };
+  model.data = std::to_string(count) + " extremes" + (timed ? " with times" : "");
   for (const Exclusion& exclusion : fit.excluded)
     model.left_out.push_back("extreme " + std::to_string(exclusion.number) + ": " + exclusion.reason);
   return model;

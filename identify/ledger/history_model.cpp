@@ -250,6 +250,9 @@ class Histories {
       add_relaxation(Assumption::constants, "mass free", {.kind = constant, .by = By::mass});
     if (!std::isnan(constants_.stiffness))
       add_relaxation(Assumption::constants, "stiffness free", {.kind = constant, .by = By::stiffness});
+    // Below its resonance a further mode adds to the mass.
+    if (!std::isnan(constants_.mass))
+      add_relaxation(Assumption::one_mode, "inertia of a further mode", {.kind = constant, .by = By::mass});
     for (const HistoryTerm& term : history_terms())
       add_relaxation(term.assumption, std::string(term.test), {.kind = Way::Kind::force, .term = &term});
     const std::size_t tests = fit_.tests().size();
@@ -269,8 +272,7 @@ class Histories {
   }
 
   void add_readings(const std::string& signal, Sensor sensor) {
-    add_relaxation(Assumption::sensors, "gain of " + signal + " free",
-                   {.kind = Way::Kind::gain, .sensor = sensor});
+    add_relaxation(Assumption::sensors, "gain of " + signal + " free", {.kind = Way::Kind::gain, .sensor = sensor});
     add_relaxation(Assumption::sensors, "delay of " + signal + " free",
                    {.kind = Way::Kind::delay, .sensor = sensor});
   }
@@ -312,15 +314,14 @@ class Histories {
     const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
     Eigen::MatrixXd rows_v;
     const Eigen::VectorXd jerk = differentiated(motion.a, rate);
-    if (!history.v.empty())
-      rows_v = read(Sensor::v, history.v, motion.v, motion.a, jerk, columns_v, columns_a);
+    if (!history.v.empty()) rows_v = read(Sensor::v, history.v, motion.v, motion.a, jerk, columns_v, columns_a);
     make_innovations(motion.derivatives.steps, noise_[t], rows_x, rows_v);
     in_x.add(averaged(rows_x, width));
     if (!history.v.empty()) in_v.add(averaged(rows_v, width));
     if (history.a.empty()) return true;
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(jerk.size());
-    Eigen::MatrixXd rows_a =
-        read(Sensor::a, history.a, motion.a, jerk, none, columns_a, Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
+    Eigen::MatrixXd rows_a = read(Sensor::a, history.a, motion.a, jerk, none, columns_a,
+                                  Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
     leave_out_reversals(motion.v, rows_a);
     in_a.add(averaged(rows_a, width));
     return true;
@@ -348,8 +349,8 @@ class Histories {
             std::max(noise_of(history.v), rounding * scale_.speed)};
   }
 
-  /// Base columns, then those of the relaxations wanted but for readings, from the derivatives of one test. Those of
-  /// mass and stiffness are at a constant zeta.
+  /// Base columns, then those of the relaxations wanted but for readings, from the derivatives of one test. Those
+  /// of mass and stiffness are at a constant zeta.
   [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Numbers& wanted, const ForceParameters& force,
                                          const Eigen::MatrixXd& derivatives) {
     const ForwardLayout& layout = fit_.layout();
@@ -398,8 +399,10 @@ class Histories {
       const auto own = [&](auto act) {
         for (std::size_t j = 0; j < wanted.size(); ++j) {
           const Way& way = owner.ways_[wanted[j]];
-          const bool reads = way.kind == Way::Kind::gain || way.kind == Way::Kind::delay || way.kind == Way::Kind::zero;
-          if (reads && way.sensor == sensor) act(way, static_cast<Eigen::Index>(wanted[j]), static_cast<Eigen::Index>(j));
+          const bool reads =
+              way.kind == Way::Kind::gain || way.kind == Way::Kind::delay || way.kind == Way::Kind::zero;
+          if (reads && way.sensor == sensor)
+            act(way, static_cast<Eigen::Index>(wanted[j]), static_cast<Eigen::Index>(j));
         }
       };
       own([&](const Way& way, Eigen::Index index, Eigen::Index) {

@@ -39,6 +39,9 @@ struct JointModel {
   Eigen::MatrixXd base;
   std::vector<Relaxation> relaxations;
   Eigen::MatrixXd relaxed;  ///< a column for each relaxation
+  /// Relaxations without a column, which change the record in the second order only: not tested, and fitted where a
+  /// departure is to be explained.
+  std::vector<std::size_t> hidden = {};
   /// Degrees of freedom that went into the residuals beside the columns: deviations of channels.
   double spent = 0.0;
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction

@@ -185,7 +185,8 @@ Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::st
   const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
   const double variance = (model.residuals - columns * step).squaredNorm() / freedom;
   const KnownConstants& constants = model.constants;
-  estimate.value = parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
+  estimate.value =
+      parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
   Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
   const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
   of_friction = to_length * of_friction * to_length;
@@ -201,8 +202,8 @@ void widen(std::array<double, 2>& interval, const std::array<double, 2>& other) 
   interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
 }
 
-/// The estimate with the best explanation of each departure relaxed. Where others explain one as well, its intervals
-/// reach to theirs.
+/// The estimate with the best explanation of each departure relaxed. Where others explain one as well, its
+/// intervals reach to theirs.
 Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
   Numbers best;
   std::string relaxed;
@@ -211,9 +212,9 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
     relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
   }
   const auto with = [&](const Numbers& numbers) {
-    return joint_estimate(model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
-                          "all of " + model.data + " together" +
-                              (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
+    return joint_estimate(
+        model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
+        "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
   };
   Estimate estimate = with(best);
   for (std::size_t d = 0; d < tests.departures.size(); ++d) {
@@ -249,15 +250,12 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Writer writer(model, tests, options);
   writer.write(ledger);
   writer.add_sight(ledger);
-  // Where friction may be what departs, no relaxed model stands by its zeta and F0.
-  const bool is_friction = std::ranges::any_of(tests.departures, [&](const Departure& departure) {
-    return std::ranges::any_of(departure.explanations, [&](const RelaxationTest& test) {
-      return is_of_friction(model.relaxations[test.index].assumption);
-    });
+  // Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0.
+  const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
+    return std::ranges::any_of(named, is_of_friction);
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
-  if (!is_friction && has_spring)
-    ledger.joint = joint_estimate(model, tests);
+  if (!is_friction && has_spring) ledger.joint = joint_estimate(model, tests);
   return ledger;
 }
 

@@ -21,7 +21,7 @@ constexpr double found_at = 2.8;
 struct Projection {
   Eigen::VectorXd residuals;
   double freedom = 0.0;
-  double scale_freedom = 0.0;  ///< behind the deviation that a statistic is over
+  double scale_freedom = 0.0;        ///< behind the deviation that a statistic is over
   std::vector<std::size_t> indices;  ///< of the relaxations that can be told apart
   Eigen::MatrixXd unit;              ///< their columns beside the base, of unit length
   Eigen::VectorXd lengths;
@@ -148,6 +148,13 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
         list, [&](const RelaxationTest& other) { return model.relaxations[other.index].assumption == assumption; });
     if (known < 2) list.push_back(test);
   }
+  if (!model.refit) return list;
+  for (const std::size_t index : model.hidden) {
+    RelaxationTest test;
+    test.index = index;
+    test.p_value = list.front().p_value;
+    list.push_back(test);
+  }
   return list;
 }
 
@@ -155,12 +162,14 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
 struct Rest {
   double p_value = 1.0;
   double largest = 0.0;
+  ParameterSet value;
 };
 
 Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_t candidate) {
   taken.push_back(candidate);
   const JointModel fitted = model.refit(taken);
   Rest rest;
+  rest.value = fitted.value;
   for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken))) {
     rest.p_value = std::min(rest.p_value, test.p_value);
     rest.largest = std::max(rest.largest, test.explained);
@@ -173,10 +182,14 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
 /// they leave.
 Departure charged(const JointModel& model, const std::vector<std::size_t>& taken,
                   const std::vector<RelaxationTest>& tests) {
-  const std::vector<RelaxationTest> list = candidates(model, tests);
+  std::vector<RelaxationTest> list = candidates(model, tests);
   if (!model.refit || list.size() == 1) return {list};
   std::vector<Rest> rests;
-  for (const RelaxationTest& test : list) rests.push_back(rest_of(model, taken, test.index));
+  for (RelaxationTest& test : list) {
+    rests.push_back(rest_of(model, taken, test.index));
+    test.zeta_change = rests.back().value.zeta - model.value.zeta;
+    test.F0_change = rests.back().value.F0 - model.value.F0;
+  }
   std::size_t best = 0;
   for (std::size_t i = 1; i < list.size(); ++i)
     if (rests[i].largest < rests[best].largest - equal_likelihood) best = i;

@@ -1,18 +1,25 @@
 /// How often the ledger of assumptions and the answer are right: records of random rigs, identified as the program
 /// does it. usage: verdict_rates RECORDS FIRST_SEED [ROW]...   A ROW is a part of its name. One line a row.
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/answer.hpp"
+#include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/history_model.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
 
 namespace {
@@ -72,10 +79,47 @@ bool covers(const std::array<double, 2>& interval, double value) {
   return interval[0] <= value && value <= interval[1];
 }
 
+bool is_of_friction(Assumption assumption) {
+  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
+         assumption == Assumption::symmetry;
+}
+
+/// The joint model of a record; nothing where there is none.
+std::optional<JointModel> model_of(const Measured& measured) {
+  const Record& record = measured.record;
+  auto model = !record.histories.empty() ? history_model(record, measured.constants)
+               : record.pairs            ? amplitude_model(record, measured.constants)
+                                         : decay_model(record, measured.constants);
+  if (auto* found = std::get_if<JointModel>(&model)) return std::move(*found);
+  return std::nullopt;
+}
+
+/// Which relaxations of friction a t test of 5 % rejects that knows the departure, each by itself.
+std::vector<std::string> known_departures(const Measured& measured) {
+  std::vector<std::string> rejected;
+  const std::optional<JointModel> model = model_of(measured);
+  if (!model) return rejected;
+  const Eigen::Index base = model->base.cols();
+  for (std::size_t j = 0; j < model->relaxations.size(); ++j) {
+    if (!is_of_friction(model->relaxations[j].assumption)) continue;
+    Eigen::MatrixXd columns(model->base.rows(), base + 1);
+    columns << model->base, model->relaxed.col(static_cast<Eigen::Index>(j));
+    const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
+    columns *= scale.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd inverse = (columns.transpose() * columns).inverse();
+    const Eigen::VectorXd step = inverse * (columns.transpose() * model->residuals);
+    const double freedom = static_cast<double>(columns.rows() - base - 1) - model->spent;
+    const double variance = (model->residuals - columns * step).squaredNorm() / freedom;
+    const double t = std::abs(step[base]) / std::sqrt(variance * inverse(base, base));
+    if (t > quantile95(freedom)) rejected.push_back(model->relaxations[j].test);
+  }
+  return rejected;
+}
+
 struct Counts {
   int records = 0, rejected = 0, friction = 0, answers = 0, zeta = 0, F0 = 0, off = 0, off_rejected = 0, misled = 0;
-  int tested = 0, blamed = 0, joint = 0, joint_zeta = 0, joint_F0 = 0;
-  std::map<std::string, int> named, named_off, by;
+  int tested = 0, seen = 0, blamed = 0, joint = 0, joint_zeta = 0, joint_F0 = 0;
+  std::map<std::string, int> named, named_off, by, known;
   double seconds = 0.0;
 };
 
@@ -86,6 +130,8 @@ void count(const Row& row, std::uint64_t seed, Counts& counts) {
   counts.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Rig& rig = record.rig;
   ++counts.records;
+  if (row.name.starts_with("friction"))
+    for (const std::string& test : known_departures(record)) ++counts.known[test];
   counts.tested += found.ledger.data.empty() ? 0 : 1;
   const auto violated = [&](Assumption assumption) { return found.ledger.is_violated(assumption); };
   const bool any = std::ranges::any_of(assumptions(), violated);
@@ -94,25 +140,16 @@ void count(const Row& row, std::uint64_t seed, Counts& counts) {
   const bool is_off = found.ledger.data.empty() || error(found.ledger.plain.zeta, rig.zeta) > largest ||
                       error(found.ledger.plain.F0, rig.F0) > largest;
   counts.rejected += any ? 1 : 0;
-  counts.friction += violated(Assumption::friction_velocity) || violated(Assumption::friction_displacement) ||
-                             violated(Assumption::symmetry)
-                         ? 1
-                         : 0;
+  counts.seen += std::ranges::any_of(
+      found.ledger.entries, [](const LedgerEntry& entry) { return entry.p_value.value_or(1.0) < family_level; });
+  counts.friction +=
+      std::ranges::any_of(assumptions(), [&](Assumption a) { return is_of_friction(a) && violated(a); });
   // Friction alone is charged where no other assumption is named beside it.
-  const auto of_friction = [](Assumption assumption) {
-    return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
-           assumption == Assumption::symmetry;
-  };
   counts.blamed += std::ranges::any_of(found.ledger.departures, [&](const std::vector<Assumption>& departure) {
-    return std::ranges::all_of(departure, of_friction);
+    return std::ranges::all_of(departure, is_of_friction);
   });
   if (found.ledger.joint && found.ledger.joint->interval95) {
     ++counts.joint;
-    if (std::getenv("DEBUGZ")) {
-      const auto& I = *found.ledger.joint->interval95;
-      const auto& V = found.ledger.joint->value;
-      std::fprintf(stderr, "Z %d %g %g %g %g\n", static_cast<int>(found.ledger.departures.size()), 2 * (V.zeta - rig.zeta) / (I.zeta[1] - I.zeta[0]), 2 * (V.F0 - rig.F0) / (I.F0[1] - I.F0[0]), V.zeta/rig.zeta-1, V.F0/rig.F0-1);
-    }
     counts.joint_zeta += covers(found.ledger.joint->interval95->zeta, rig.zeta) ? 1 : 0;
     counts.joint_F0 += covers(found.ledger.joint->interval95->F0, rig.F0) ? 1 : 0;
   }
@@ -142,15 +179,19 @@ std::string list_of(const std::map<std::string, int>& map, int total) {
 
 void print(const Row& row, const Counts& c) {
   const auto share = [](int part, int whole) { return 100.0 * part / std::max(1, whole); };
+  const auto best = std::ranges::max_element(c.known, {}, [](const auto& entry) { return entry.second; });
+  if (best != c.known.end())
+    std::printf("[known %.0f by %s] ", share(best->second, c.records), best->first.c_str());
   std::printf(
-      "%-34s n %3d tested %3.0f rejected %5.1f friction %5.1f alone %5.1f joint %5.1f %5.1f answer %5.1f zeta %5.1f F0 %5.1f misled %4.1f "
+      "%-34s n %3d tested %3.0f seen %5.1f rejected %5.1f friction %5.1f alone %5.1f joint %5.1f %5.1f answer "
+      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f "
       "off %3.0f found %3.0f %4.2f s | named: %s | where off: %s | by: %s\n",
-      row.name.c_str(), c.records, share(c.tested, c.records), share(c.rejected, c.records),
-      share(c.friction, c.records), share(c.blamed, c.records), share(c.joint_zeta, c.joint),
-      share(c.joint_F0, c.joint), share(c.answers, c.records), share(c.zeta, c.answers), share(c.F0, c.answers),
-      share(c.misled, c.records), share(c.off, c.records), share(c.off_rejected, c.off),
-      c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(), list_of(c.named_off, c.off).c_str(),
-      list_of(c.by, c.answers).c_str());
+      row.name.c_str(), c.records, share(c.tested, c.records), share(c.seen, c.records),
+      share(c.rejected, c.records), share(c.friction, c.records), share(c.blamed, c.records),
+      share(c.joint_zeta, c.joint), share(c.joint_F0, c.joint), share(c.answers, c.records),
+      share(c.zeta, c.answers), share(c.F0, c.answers), share(c.misled, c.records), share(c.off, c.records),
+      share(c.off_rejected, c.off), c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(),
+      list_of(c.named_off, c.off).c_str(), list_of(c.by, c.answers).c_str());
   std::fflush(stdout);
 }
 
