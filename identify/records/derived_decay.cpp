@@ -86,6 +86,7 @@ class DecayReader {
 
   DerivedDecay run() {
     DerivedDecay result;
+    result.last = x_.size();
     constexpr std::size_t fewest = 16;
     if (x_.size() < fewest || !shape_fault(history_).empty()) return result;
     const auto [low, high] = std::minmax_element(x_.begin(), x_.end());
@@ -145,6 +146,7 @@ class DecayReader {
     const std::size_t held = held_until();
     if (static_cast<double>(held) > 2.0 * width_) {
       put_mean(result, 0, held, held - 1);
+      result.first = held;
       return;
     }
     if (static_cast<double>(first_turn) < 2.0 * width_ && first_turn > held) return;  // a turning point of its own
@@ -202,22 +204,40 @@ class DecayReader {
       if (swing(i) > swing(largest)) largest = i;
     std::size_t end = largest + 1;
     while (end < extremes.size() && swing(end) < swing(end - 1)) ++end;
+    const bool grows = end < extremes.size();
+    // What makes the swings grow may have pushed the mass before it came to the last of the others.
+    constexpr double too_long = 1.4;
+    while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
     // What is left of the swings where they grow again; more of it is another release, or a drive.
     constexpr double most_left = 0.25;
-    const bool grows = end < extremes.size();
     if (grows && swing(end) > most_left * swing(largest)) return false;
+    // A blow that makes the swings grow may last to where the largest begins, and is over where that ends.
     constexpr std::size_t longest_start = 3;
-    if (end - (largest - 1) < 3 || largest - 1 > longest_start) return false;
-    if (grows)
+    const std::size_t begin = largest > 1 ? largest : 0;
+    if (end < begin + 3 || begin > longest_start + 1) return false;
+    if (grows) {
       result.warnings.push_back(
           "the swings of the free vibration grow again at t = " + core::format_number(result.record.times[end], 4) +
           " s, where " + core::format_number(100.0 * swing(end - 1) / swing(largest), 2) +
           " % of the largest is left: the extremes before are used");
-    if (largest > 1)
-      result.warnings.push_back("the free vibration is taken from its largest swing on, t = " +
-                                core::format_number(result.record.times[largest - 1], 4) + " s");
-    cut(result, largest - 1, end);
+      result.last = sample_of(result, end - 1) + 1;
+    }
+    if (begin > 0) {
+      result.warnings.push_back("the free vibration is taken from the end of its largest swing on, t = " +
+                                core::format_number(result.record.times[begin], 4) + " s");
+      result.first = sample_of(result, begin);
+    }
+    cut(result, begin, end);
     return true;
+  }
+
+  [[nodiscard]] std::size_t sample_of(const DerivedDecay& result, std::size_t extreme) const {
+    return static_cast<std::size_t>((result.record.times[extreme] - history_.start) * history_.sample_rate);
+  }
+
+  /// Samples from the extreme before to this one.
+  [[nodiscard]] double lasting(const DerivedDecay& result, std::size_t extreme) const {
+    return (result.record.times[extreme] - result.record.times[extreme - 1]) * history_.sample_rate;
   }
 
   static void cut(DerivedDecay& result, std::size_t first, std::size_t last) {

@@ -3,7 +3,30 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/numbers.hpp"
+
 namespace dualdamp::identify {
+
+namespace {
+
+void keep(std::vector<double>& signal, std::size_t first, std::size_t last) {
+  if (signal.empty()) return;
+  signal.erase(signal.begin() + static_cast<std::ptrdiff_t>(last), signal.end());
+  signal.erase(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+/// Leaves the samples of the free motion. Returns what was left out.
+std::string keep_free_motion(const DerivedDecay& decay, History& history) {
+  if (decay.first == 0 && decay.last == history.x.size()) return {};
+  for (std::vector<double>* signal : {&history.x, &history.v, &history.a}) keep(*signal, decay.first, decay.last);
+  history.start += static_cast<double>(decay.first) / history.sample_rate;
+  constexpr int digits = 4;
+  const double end = history.start + static_cast<double>(history.x.size() - 1) / history.sample_rate;
+  return "the free motion lasts from t = " + core::format_number(history.start, digits) + " to " +
+         core::format_number(end, digits) + " s: samples outside it are left out";
+}
+
+}  // namespace
 
 std::vector<std::string> complete(Record& record, double frequency) {
   if (record.pairs || record.decay || record.histories.empty()) return {};
@@ -18,11 +41,14 @@ std::vector<std::string> complete(Record& record, double frequency) {
   if (!std::ranges::all_of(record.histories, is_free)) return {};
   std::vector<DecayRecord> decays;
   std::vector<std::string> warnings;
-  for (const History& history : record.histories) {
+  for (History& history : record.histories) {
     DerivedDecay decay = decay_of(history);
-    if (!decay.record.extremes.empty()) decays.push_back(std::move(decay.record));
     const std::string test = history.sweep.empty() ? "" : "test '" + history.sweep + "': ";
     for (const std::string& warning : decay.warnings) warnings.push_back(test + warning);
+    if (decay.record.extremes.empty()) continue;
+    decays.push_back(std::move(decay.record));
+    if (const std::string left_out = keep_free_motion(decay, history); !left_out.empty())
+      warnings.push_back(test + left_out);
   }
   if (!decays.empty()) record.decay = mean_decay(decays);
   if (decays.size() > 1) warnings.push_back(mean_decay_warning(decays.size(), record.decay->extremes.size()));

@@ -13,6 +13,7 @@
 /// Errors: none thrown; a history that gives nothing says why among the warnings. Cost: linear, about 1 us a
 /// sample.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct DerivedDecay {
   DecayRecord record;                   ///< empty where the history is no free decay
   std::vector<double> standard_errors;  ///< of the extremes [m], from the noise of x
   std::vector<std::string> warnings;    ///< what was left out before the release and in the noise at the end
+  std::size_t first = 0, last = 0;      ///< samples [first, last) of the free motion
 };
 
 /// Turning points of x, from the first after its release to where the mass comes to rest, where the swings grow
@@ -49,7 +51,8 @@ struct DerivedDecay {
 [[nodiscard]] std::string mean_decay_warning(std::size_t decays, std::size_t extremes);
 
 /// Adds to a record that holds nothing but histories what can be derived from them: pairs where they are driven, a
-/// decay where there is a single one without drive. Returns warnings.
+/// decay where there is a single one without drive. The histories of free vibrations then begin at their release,
+/// and end where something else pushes the mass. Returns warnings.
 [[nodiscard]] std::vector<std::string> complete(Record& record, double frequency = unknown);
 
 }  // namespace dualdamp::identify

@@ -42,11 +42,20 @@ double resolution_of(const std::vector<double>& signal) {
   return std::isfinite(least) ? least : 0.0;
 }
 
-double local_deviation(const std::vector<double>& differences, std::size_t i) {
+/// The surroundings of sample i.
+std::vector<double> around(const std::vector<double>& list, std::size_t i) {
   constexpr std::size_t reach = 20;
   const auto begin = static_cast<std::ptrdiff_t>(i - std::min(i, reach));
-  const auto end = static_cast<std::ptrdiff_t>(std::min(differences.size(), i + reach + 1));
-  return deviation_of({differences.begin() + begin, differences.begin() + end});
+  const auto end = static_cast<std::ptrdiff_t>(std::min(list.size(), i + reach + 1));
+  return {list.begin() + begin, list.begin() + end};
+}
+
+/// From trough to peak, without sample i.
+double range_around(const std::vector<double>& signal, std::size_t i) {
+  std::vector<double> others = around(signal, i);
+  std::erase(others, signal[i]);
+  const auto [low, high] = std::ranges::minmax(others);
+  return high - low;
 }
 
 }  // namespace
@@ -61,8 +70,11 @@ std::vector<Spike> spikes_of(const std::vector<double>& signal) {
   std::vector<Spike> spikes;
   for (std::size_t i = neighbours; i + neighbours < signal.size(); ++i) {
     if (!(off[i] > far * deviation) || !(off[i] > clearly * std::max(off[i - 1], off[i + 1]))) continue;
-    const double noise = std::max(deviation, local_deviation(off, i));
-    if (off[i] > far * noise) spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
+    const double noise = std::max(deviation, deviation_of(around(off, i)));
+    // Where friction turns, the acceleration jumps; without noise such a bend is far off, but not large.
+    constexpr double share = 0.03;
+    const bool large = off[i] > share * range_around(signal, i);
+    if (large && off[i] > far * noise) spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
   }
   return spikes;
 }

@@ -45,6 +45,28 @@ TEST_CASE("A spike of one sample is found and replaced") {
   }
 }
 
+TEST_CASE("Reversals of friction are no spikes, though nothing hides them") {
+  for (const double rate_of_samples : {20.0, 50.0, 200.0, 1000.0}) {
+    // Half swings about a middle that friction shifts to and fro, at 1 Hz.
+    std::vector<double> x;
+    std::vector<double> v;
+    const double w = 2.0 * std::acos(-1.0);
+    constexpr double x_f = 0.02;
+    double amplitude = 1.0;
+    for (int half = 0; half < 20; ++half, amplitude -= 2.0 * x_f) {
+      const double side = half % 2 == 0 ? 1.0 : -1.0;
+      for (int i = 0; i < static_cast<int>(rate_of_samples / 2.0); ++i) {
+        const double t = i / rate_of_samples;
+        x.push_back(side * (x_f + (amplitude - x_f) * std::cos(w * t)));
+        v.push_back(-side * w * (amplitude - x_f) * std::sin(w * t));
+      }
+    }
+    CAPTURE(rate_of_samples);
+    CHECK(spikes_of(x).empty());
+    CHECK(spikes_of(v).empty());
+  }
+}
+
 TEST_CASE("Noise, steps, peaks and rounding are no spikes") {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     CHECK(spikes_of(decay(0.001, seed)).empty());
