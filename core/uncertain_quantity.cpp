@@ -53,21 +53,22 @@ std::string without_parentheses(std::string_view text) {
 
 }  // namespace
 
-UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit) {
+UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit,
+                                               Coordinate coordinate) {
   const std::string plain = without_parentheses(text);
   const std::optional<Halves> both = halves(plain);
-  if (!both) return without_uncertainty(parse_quantity(text, si_unit));
+  if (!both) return without_uncertainty(parse_quantity(text, si_unit, coordinate));
   const std::string_view unit = unit_of(both->uncertainty);
   const bool is_relative = unit == "%";
 
   std::string value_text(both->value);
   if (unit_of(value_text).empty() && !is_relative && !unit.empty()) value_text += " " + std::string(unit);
-  UncertainQuantityText result = without_uncertainty(parse_quantity(value_text, si_unit));
+  UncertainQuantityText result = without_uncertainty(parse_quantity(value_text, si_unit, coordinate));
   if (!result.value) return result;
 
   std::string uncertainty_text(both->uncertainty);
   if (unit.empty() && !uncertainty_text.empty()) uncertainty_text += " " + std::string(unit_of(value_text));
-  const QuantityText uncertainty = parse_quantity(uncertainty_text, is_relative ? "1" : si_unit);
+  const QuantityText uncertainty = parse_quantity(uncertainty_text, is_relative ? "1" : si_unit, coordinate);
   if (!uncertainty.value) return refused("the uncertainty: " + uncertainty.fault);
   if (*uncertainty.value < 0.0) return refused("the uncertainty is negative");
   result.uncertainty = is_relative ? *uncertainty.value * std::abs(*result.value) : *uncertainty.value;

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/coordinate.hpp"
+
 namespace dualdamp::core {
 
 struct UncertainQuantityText {
@@ -18,7 +20,8 @@ struct UncertainQuantityText {
 };
 
 /// A quantity of the dimension of `si_unit` (core/units.hpp), with or without its uncertainty.
-[[nodiscard]] UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit);
+[[nodiscard]] UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit,
+                                                             Coordinate coordinate = Coordinate::displacement);
 
 /// A quantity of a dimension that is known elsewhere, apart from its relative uncertainty.
 struct SplitQuantityText {

@@ -45,6 +45,10 @@ const std::vector<Dimension>& dimensions() {
       {"N/s", "a force rate", "0.5 N/s", {"N/s", "mN/s", "kN/s", "N/ms"}},
       {"N/m^3", "a cubic stiffness", "2000 N/m^3", {"N/m^3", "kN/m^3", "MN/m^3", "N/m3", "N/mm^3", "N/mm3"}},
       {"1/s", "a rate", "1 kHz", {"1/s", "Hz", "mHz", "kHz", "MHz", "1/ms", "1/min", "1/h"}},
+      {"N.m",
+       "a torque",
+       "2 N.m",
+       {"N.m", "N m", "N*m", "mN.m", "uN.m", "kN.m", "N.cm", "N.mm", "lbf.in", "lbf.ft"}},
       {"J", "an energy", "1 J", {"J", "mJ", "kJ", "N.m"}},
       {"W", "a power", "2 W", {"W", "mW", "kW"}},
       {"m^2.s", "a spectral density", "2 mm^2/Hz", {"m^2.s", "mm^2.s", "m^2/Hz", "mm^2/Hz", "um^2/Hz"}},
@@ -55,9 +59,45 @@ const std::vector<Dimension>& dimensions() {
   return table;
 }
 
-const Dimension* find_dimension(std::string_view si_unit) {
-  const auto found = std::ranges::find(dimensions(), si_unit, &Dimension::si_unit);
-  return found == dimensions().end() ? nullptr : &*found;
+/// What dimensions become where the coordinate is an angle. An angular velocity is not a frequency: it may be
+/// negative, and without unit it is in rad/s.
+const std::vector<Dimension>& dimensions_of_rotation() {
+  static const std::vector<Dimension> table = {
+      {"kg.m^2",
+       "a moment of inertia",
+       "0.3 kg.m^2",
+       {"kg.m^2", "kg m^2", "kg*m^2", "kg.m2", "g.m^2", "kg.cm^2", "g.cm^2", "kg.mm^2", "g.mm^2", "lb.in^2"}},
+      {"N.m/rad",
+       "a torsional stiffness",
+       "12 N.m/rad",
+       {"N.m/rad", "N m/rad", "N*m/rad", "mN.m/rad", "kN.m/rad", "N.mm/rad", "N.m/deg", "mN.m/deg", "lbf.in/rad"}},
+      {"N.m.s/rad",
+       "a torsional damping coefficient",
+       "0.04 N.m.s/rad",
+       {"N.m.s/rad", "N m s/rad", "N*m*s/rad", "mN.m.s/rad", "kN.m.s/rad", "N.mm.s/rad", "N.m.s/deg",
+        "lbf.in.s/rad"}},
+      {"rad/s", "an angular velocity", "0.5 rad/s", {"rad/s", "mrad/s", "deg/s", "rpm"}},
+      {"rad/s^2", "an angular acceleration", "3 rad/s^2", {"rad/s^2", "mrad/s^2", "deg/s^2", "rad/s2", "deg/s2"}},
+      {"N.m/s", "a torque rate", "0.5 N.m/s", {"N.m/s", "mN.m/s", "kN.m/s"}},
+      {"N.m/rad^3",
+       "a cubic torsional stiffness",
+       "20 N.m/rad^3",
+       {"N.m/rad^3", "mN.m/rad^3", "kN.m/rad^3", "N.m/rad3", "N.m/deg^3"}},
+      {"rad^2.s", "a spectral density", "2 rad^2/Hz", {"rad^2.s", "rad^2/Hz", "mrad^2/Hz", "deg^2/Hz"}},
+      {"N^2.m^2.s", "a spectral density", "2 N^2.m^2/Hz", {"N^2.m^2.s", "N^2.m^2/Hz", "mN^2.m^2/Hz"}},
+  };
+  return table;
+}
+
+const Dimension* find_in(const std::vector<Dimension>& table, std::string_view si_unit) {
+  const auto found = std::ranges::find(table, si_unit, &Dimension::si_unit);
+  return found == table.end() ? nullptr : &*found;
+}
+
+const Dimension* find_dimension(std::string_view si_unit, Coordinate coordinate) {
+  const std::string unit = unit_for(coordinate, si_unit);
+  const Dimension* changed = unit == si_unit ? nullptr : find_in(dimensions_of_rotation(), unit);
+  return changed != nullptr ? changed : find_in(dimensions(), unit);
 }
 
 /// value * multiply / divide: kept apart so that 90 deg and 3 um round once where one rounding is enough.
@@ -200,7 +240,7 @@ class UnitSystem {
   bool is_coherent(const std::string& text) {
     const std::lock_guard lock(mutex_);
     const Unit unit = parse(text);
-    if (!unit || contains_angle(unit)) return false;
+    if (!unit || angle_power(unit) != 0) return false;
     const std::optional<std::string> base = definition(unit);
     // A factor comes first and an offset last, each beside a space.
     return base && !base->empty() && *base != "1" && base->find(' ') == std::string::npos;
@@ -227,17 +267,25 @@ class UnitSystem {
     return std::string(buffer.data(), static_cast<std::size_t>(length));
   }
 
-  /// udunits2 counts an angle as the number 1; here an angle is an angle.
-  static bool contains_angle(const Unit& unit) {
+  /// Exponent of the radian: udunits2 counts an angle as the number 1; here an angle is an angle.
+  static std::optional<int> angle_power(const Unit& unit) {
     const std::optional<std::string> text = definition(unit);
-    return !text || text->find("rad") != std::string::npos;
+    if (!text) return std::nullopt;
+    const std::size_t at = text->find("rad");
+    if (at == std::string::npos) return 0;
+    const std::string_view rest = std::string_view(*text).substr(at + 3);
+    if (rest.empty() || rest.front() == '.') return 1;
+    const std::optional<double> power = read_number(rest).value;
+    return power ? std::optional(static_cast<int>(*power)) : std::nullopt;
   }
 
   [[nodiscard]] Answer convert(const std::string& unit_text, const std::string& si_text) const {
     const Unit unit = parse(unit_text);
     const Unit si = parse(si_text);
     if (!unit || !si) return {};
-    if (contains_angle(unit) || ut_are_convertible(unit.get(), si.get()) == 0) return {true, std::nullopt};
+    const std::optional<int> power = angle_power(unit);
+    if (!power || power != angle_power(si) || ut_are_convertible(unit.get(), si.get()) == 0)
+      return {true, std::nullopt};
     const Converter converter(ut_get_converter(unit.get(), si.get()), &cv_free);
     if (!converter) return {true, std::nullopt};
     const double factor = cv_convert_double(converter.get(), 1.0);
@@ -279,16 +327,16 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 
 QuantityText refused(std::string fault) { return {std::nullopt, std::move(fault), {}}; }
 
-/// A usual unit that differs in case only, or in nothing but the prefix's spelling.
-std::string similar_unit(std::string_view unit, std::string_view si_unit) {
+/// A usual unit that differs in case only, or in nothing but the prefix's spelling, or that has a radian more.
+std::string similar_unit(std::string_view unit, std::string_view si_unit, Coordinate coordinate) {
   const auto lower = [](std::string_view text) {
     std::string result(text);
     std::ranges::transform(result, result.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return result;
   };
-  for (const std::string_view candidate : usual_units(si_unit))
-    if (lower(candidate) == lower(unit)) return std::string(candidate);
+  for (const std::string_view candidate : usual_units(si_unit, coordinate))
+    if (lower(candidate) == lower(unit) || candidate == std::string(unit) + "/rad") return std::string(candidate);
   return {};
 }
 
@@ -304,6 +352,21 @@ std::string with_gravity(std::string_view unit) {
   return std::string(found == names.end() ? unit : (*found)[1]);
 }
 
+/// udunits2 does not know `deg`.
+std::string with_degrees(std::string_view unit) {
+  const auto is_letter = [&](std::size_t at) {
+    return at < unit.size() && std::isalpha(static_cast<unsigned char>(unit[at])) != 0;
+  };
+  std::string result;
+  for (std::size_t at = 0; at < unit.size();) {
+    const bool stands_alone =
+        unit.substr(at).starts_with("deg") && !is_letter(at + 3) && (at == 0 || !is_letter(at - 1));
+    result += stands_alone ? "arc_degree" : std::string(1, unit[at]);
+    at += stands_alone ? 3 : 1;
+  }
+  return result;
+}
+
 struct UnitAnswer {
   std::optional<Factor> factor;
   std::string fault;
@@ -316,9 +379,10 @@ UnitAnswer special_dimension(std::string_view unit, std::string_view si_unit) {
   return {std::nullopt, quoted(unit) + " is not a unit of " + (si_unit == "rad" ? "an angle" : "a frequency")};
 }
 
-UnitAnswer factor_of(std::string_view text, std::string_view si_unit) {
+UnitAnswer factor_of(std::string_view text, std::string_view dimension_name, Coordinate coordinate) {
   const std::string unit = to_ascii(trimmed(text));
-  if (si_unit == "rad" || si_unit == "rad/s") return special_dimension(unit, si_unit);
+  const std::string si_unit = unit_for(coordinate, dimension_name);
+  if (si_unit == "rad" || dimension_name == "rad/s") return special_dimension(unit, si_unit);
   if (unit.empty() || unit == si_unit) return {Factor{}, {}};
   constexpr std::size_t max_length = 64;
   if (unit.size() > max_length || !UnitGrammar(unit).accepts())
@@ -326,17 +390,17 @@ UnitAnswer factor_of(std::string_view text, std::string_view si_unit) {
             quoted(trimmed(text)) +
                 " is not a unit: a product of unit names with integer powers is needed, such as 'N.s/m'"};
   const UnitSystem::Answer answer =
-      UnitSystem::instance().factor(si_unit == "m/s^2" ? with_gravity(unit) : unit, std::string(si_unit));
+      UnitSystem::instance().factor(si_unit == "m/s^2" ? with_gravity(unit) : with_degrees(unit), si_unit);
   if (answer.factor) return {answer.factor, {}};
   if (!answer.known) return {std::nullopt, "the unit " + quoted(trimmed(text)) + " is not known"};
-  const Dimension* dimension = find_dimension(si_unit);
+  const Dimension* dimension = find_dimension(dimension_name, coordinate);
   return {std::nullopt, quoted(trimmed(text)) + " is not a unit of " +
                             (dimension != nullptr ? std::string(dimension->noun) : quoted(si_unit))};
 }
 
 }  // namespace
 
-QuantityText parse_quantity(std::string_view text, std::string_view si_unit) {
+QuantityText parse_quantity(std::string_view text, std::string_view si_unit, Coordinate coordinate) {
   const std::string body = trimmed(text);
   const NumberText number = read_number(body);
   if (!number.value) {
@@ -344,10 +408,10 @@ QuantityText parse_quantity(std::string_view text, std::string_view si_unit) {
     return refused("the number " + quoted(body.substr(0, number.length)) + " " + number.fault);
   }
   const std::string unit = trimmed(std::string_view(body).substr(number.length));
-  const UnitAnswer answer = factor_of(unit, si_unit);
+  const UnitAnswer answer = factor_of(unit, si_unit, coordinate);
   if (!answer.factor) {
     QuantityText result = refused(answer.fault);
-    const std::string similar = similar_unit(unit, si_unit);
+    const std::string similar = similar_unit(unit, si_unit, coordinate);
     if (!similar.empty()) result.suggestion = body.substr(0, number.length) + " " + similar;
     return result;
   }
@@ -358,26 +422,26 @@ QuantityText parse_quantity(std::string_view text, std::string_view si_unit) {
 }
 
 bool is_si(std::string_view unit) {
-  if (find_dimension(unit) != nullptr) return true;
+  if (find_in(dimensions(), unit) != nullptr) return true;
   return UnitGrammar(unit).accepts() && UnitSystem::instance().is_coherent(std::string(unit));
 }
 
-QuantityText unit_factor(std::string_view unit, std::string_view si_unit) {
+QuantityText unit_factor(std::string_view unit, std::string_view si_unit, Coordinate coordinate) {
   // A column of frequencies without unit is as ambiguous as a bare frequency.
-  const UnitAnswer answer = factor_of(unit, si_unit);
-  if (!answer.factor) return {std::nullopt, answer.fault, similar_unit(trimmed(unit), si_unit)};
+  const UnitAnswer answer = factor_of(unit, si_unit, coordinate);
+  if (!answer.factor) return {std::nullopt, answer.fault, similar_unit(trimmed(unit), si_unit, coordinate)};
   return {answer.factor->apply(1.0), {}, {}};
 }
 
-std::string describe_dimension(std::string_view si_unit) {
-  const Dimension* dimension = find_dimension(si_unit);
-  if (dimension == nullptr) return "a quantity in " + std::string(si_unit);
+std::string describe_dimension(std::string_view si_unit, Coordinate coordinate) {
+  const Dimension* dimension = find_dimension(si_unit, coordinate);
+  if (dimension == nullptr) return "a quantity in " + unit_for(coordinate, si_unit);
   return std::string(dimension->noun) + " such as " + quoted(dimension->example);
 }
 
-const std::vector<std::string_view>& usual_units(std::string_view si_unit) {
+const std::vector<std::string_view>& usual_units(std::string_view si_unit, Coordinate coordinate) {
   static const std::vector<std::string_view> none;
-  const Dimension* dimension = find_dimension(si_unit);
+  const Dimension* dimension = find_dimension(si_unit, coordinate);
   return dimension == nullptr ? none : dimension->units;
 }
 

@@ -9,6 +9,9 @@
 /// * a frequency is written in Hz, mHz, kHz, rpm or rad/s, and Hz means 2 pi rad/s; a bare number and 1/s are
 /// refused;
 /// * an angle unit is refused wherever no angle is asked for, and asked for wherever there is one.
+/// Where the coordinate is an angle (core/coordinate.hpp), `dimension` still names the one for a displacement: "kg"
+/// reads a moment of inertia, "m" an angle, "m/s" an angular velocity, for which a bare number is rad/s.
+///
 /// Units are products of powers with integer exponents; `m^0.5`, `m^1/2`, offsets (`degC`) and logarithms are
 /// refused. The greek letter mu, the degree sign, raised 2 and 3 and the middle dot may be typed.
 ///
@@ -20,6 +23,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/coordinate.hpp"
+
 namespace dualdamp::core {
 
 struct QuantityText {
@@ -29,19 +34,23 @@ struct QuantityText {
 };
 
 /// A quantity of the dimension of `si_unit`.
-[[nodiscard]] QuantityText parse_quantity(std::string_view text, std::string_view si_unit);
+[[nodiscard]] QuantityText parse_quantity(std::string_view text, std::string_view si_unit,
+                                          Coordinate coordinate = Coordinate::displacement);
 
 /// The factor that converts a number in `unit` to `si_unit`: for the head of a data column. An empty unit is SI.
-[[nodiscard]] QuantityText unit_factor(std::string_view unit, std::string_view si_unit);
+[[nodiscard]] QuantityText unit_factor(std::string_view unit, std::string_view si_unit,
+                                       Coordinate coordinate = Coordinate::displacement);
 
 /// Whether the unit can name a dimension: one of SI, or a product of such, with factor 1, and read by its name.
 [[nodiscard]] bool is_si(std::string_view unit);
 
 /// "a mass such as '5 kg'": what is accepted, for messages and documentation.
-[[nodiscard]] std::string describe_dimension(std::string_view si_unit);
+[[nodiscard]] std::string describe_dimension(std::string_view si_unit,
+                                             Coordinate coordinate = Coordinate::displacement);
 
 /// Usual spellings of units of this dimension, the SI unit first: for messages and for the pattern of an editor's
 /// schema. udunits2 knows many more.
-[[nodiscard]] const std::vector<std::string_view>& usual_units(std::string_view si_unit);
+[[nodiscard]] const std::vector<std::string_view>& usual_units(std::string_view si_unit,
+                                                               Coordinate coordinate = Coordinate::displacement);
 
 }  // namespace dualdamp::core

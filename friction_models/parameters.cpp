@@ -95,7 +95,7 @@ class Completion {
   void refuse_beside_other_form(const Parameter& parameter) {
     if (const Value* value = values_.find(parameter.name))
       complain(parameter, "stands beside '" + std::string(parameter.instead_of) + "', which it replaces",
-               "one of the two", shown(*value, parameter.unit));
+               "one of the two", shown(*value, values_.unit(parameter.unit)));
   }
 
   /// No part of the form that does without `name` is given.
@@ -114,8 +114,8 @@ class Completion {
 
   void complain_about_missing(const Parameter& parameter) {
     const std::string others = joined(names_instead_of(table_, parameter.name));
-    complain(parameter, "is missing", parameter.describe() + (others.empty() ? "" : "; or " + others + " instead"),
-             {});
+    complain(parameter, "is missing",
+             parameter.describe(values_.coordinate()) + (others.empty() ? "" : "; or " + others + " instead"), {});
     faults_.back().is_missing = true;
   }
 
@@ -132,13 +132,14 @@ class Completion {
 
   void check(const Parameter& parameter, Value& value) {
     if (!is_of_kind(value, parameter.kind))
-      return complain(parameter, "is of the wrong kind", parameter.describe(), shown(value, parameter.unit));
+      return complain(parameter, "is of the wrong kind", parameter.describe(values_.coordinate()),
+                      shown(value, values_.unit(parameter.unit)));
     if (is_numeric(parameter.kind)) {
       check_number(parameter, std::get<double>(value));
     } else if (parameter.kind == ParameterKind::choice) {
       const auto& word = std::get<std::string>(value);
       if (std::ranges::find(parameter.words, word) == parameter.words.end())
-        complain(parameter, "cannot be '" + word + "'", parameter.describe(), word);
+        complain(parameter, "cannot be '" + word + "'", parameter.describe(values_.coordinate()), word);
     } else if (parameter.kind != ParameterKind::flag) {
       check_records(parameter, std::get<List>(value));
     }
@@ -150,28 +151,28 @@ class Completion {
     const auto* number = other == nullptr ? nullptr : std::get_if<double>(other);
     if (number != nullptr && *number != 0.0)
       complain(parameter, "is not possible beside '" + std::string(parameter.not_beside) + "'", "one of the two",
-               shown(value, parameter.unit));
+               shown(value, values_.unit(parameter.unit)));
   }
 
   void check_number(const Parameter& parameter, double value) {
-    const std::string found = with_unit(value, parameter.unit);
+    const std::string found = with_unit(value, values_.unit(parameter.unit));
     if (!std::isfinite(value)) return complain(parameter, "is not finite", "a finite number", found);
     if (parameter.kind != ParameterKind::number && value != std::floor(value))
-      return complain(parameter, "is not a whole number", parameter.describe(), found);
+      return complain(parameter, "is not a whole number", parameter.describe(values_.coordinate()), found);
     const Range range = parameter.allowed_range();
     if (!range.contains(value))
-      return complain(parameter, "is out of range", range.describe(parameter.unit), found);
+      return complain(parameter, "is out of range", range.describe(values_.unit(parameter.unit)), found);
     const Value* floor = values_.find(parameter.at_least);
     const auto* least = floor == nullptr ? nullptr : std::get_if<double>(floor);
     if (least != nullptr && value < *least)
       complain(parameter, "is below '" + std::string(parameter.at_least) + "'",
-               ">= " + with_unit(*least, parameter.unit), found);
+               ">= " + with_unit(*least, values_.unit(parameter.unit)), found);
   }
 
   void check_records(const Parameter& parameter, List& records) {
     const bool is_list = parameter.kind == ParameterKind::list;
     if (is_list && (records.empty() || records.size() > parameter.max_items))
-      return complain(parameter, "has the wrong number of items", parameter.describe(),
+      return complain(parameter, "has the wrong number of items", parameter.describe(values_.coordinate()),
                       std::to_string(records.size()));
     const std::string name = prefix_ + std::string(parameter.name);
     for (std::size_t i = 0; i < records.size(); ++i) {
@@ -243,10 +244,10 @@ std::string Range::describe(std::string_view unit) const {
   return text.empty() ? "any finite value" : text;
 }
 
-std::string Parameter::describe() const {
+std::string Parameter::describe(core::Coordinate coordinate) const {
   switch (kind) {
     case ParameterKind::number:
-      return range.describe(unit);
+      return range.describe(core::unit_for(coordinate, unit));
     case ParameterKind::count:
     case ParameterKind::seed:
       return "a whole number, " + allowed_range().describe(unit);

@@ -17,6 +17,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/coordinate.hpp"
+
 namespace dualdamp::friction {
 
 /// Values by name, SI. Access to a value that is not there, or is of another kind, is a bug and throws a
@@ -47,10 +49,17 @@ class ParameterValues {
   void set(std::string_view name, Value value);
   void erase(std::string_view name);
 
+  /// What the law's x is: for the units in messages, nothing else.
+  void measure(core::Coordinate coordinate) { coordinate_ = coordinate; }
+  [[nodiscard]] core::Coordinate coordinate() const { return coordinate_; }
+  /// "N.m" for "N" where x is an angle.
+  [[nodiscard]] std::string unit(std::string_view unit) const { return core::unit_for(coordinate_, unit); }
+
  private:
   [[nodiscard]] const Value& at(std::string_view name) const;
 
   Map values_;
+  core::Coordinate coordinate_ = core::Coordinate::displacement;
 };
 
 /// The range of values that a parameter may have; ends are included unless marked open.
@@ -102,7 +111,7 @@ struct Parameter {
   /// That of its kind: whole numbers of a seed lie in `seed_range`.
   [[nodiscard]] Range allowed_range() const { return kind == ParameterKind::seed ? seed_range : range; }
   /// For messages: ">= 0 N", "gaussian, lorentz", "a list of 1 to 10000 records of stiffness, limit".
-  [[nodiscard]] std::string describe() const;
+  [[nodiscard]] std::string describe(core::Coordinate coordinate = core::Coordinate::displacement) const;
 };
 
 /// What a parameter without a given value has, in words: "2", "that of 'kinetic'", "required"; empty: nothing.

@@ -26,10 +26,11 @@ std::vector<ParameterFault> ElastoPlastic::check(const ParameterValues& values) 
   const double limit = values.number("elastic_limit");
   const double beyond = values.number("kinetic") / values.number("sigma0");
   if (limit < beyond) return {};
+  const std::string unit = values.unit("m");
   return {{.name = "elastic_limit",
            .message = "'elastic_limit' is not below kinetic/sigma0",
-           .allowed = "> 0 m and < " + core::format_number(beyond) + " m",
-           .found = core::format_number(limit) + " m"}};
+           .allowed = "> 0 " + unit + " and < " + core::format_number(beyond) + " " + unit,
+           .found = core::format_number(limit) + " " + unit}};
 }
 
 ElastoPlastic::ElastoPlastic(const ParameterValues& values)

@@ -28,7 +28,7 @@ std::vector<std::string> Lugre::warnings(const ParameterValues& values) {
   const double least = values.number("sigma1") * (values.number("static") - kinetic) / kinetic;
   if (values.number("sigma2") >= least) return {};
   return {"it may give out more work than it took in: sigma2 is below sigma1 (static - kinetic)/kinetic = " +
-          core::format_number(least, 4) + " N.s/m"};
+          core::format_number(least, 4) + " " + values.unit("N.s/m")};
 }
 
 Lugre::Bristles Lugre::bristles(const ParameterValues& values) {

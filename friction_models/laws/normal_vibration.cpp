@@ -43,8 +43,10 @@ std::vector<std::string> NormalVibration::warnings(const ParameterValues& values
   const double largest = values.number("lift") * values.number("lift_velocity");
   const double weight = values.number("weight");
   if (largest <= weight) return {};
+  const std::string unit = values.unit("N");
   return {"fast slip carries the whole weight and opens the contact for good: the lift comes to " +
-          core::format_number(largest, 4) + " N, the weight is " + core::format_number(weight, 4) + " N"};
+          core::format_number(largest, 4) + " " + unit + ", the weight is " + core::format_number(weight, 4) + " " +
+          unit};
 }
 
 NormalVibration::NormalVibration(const Rider& rider)

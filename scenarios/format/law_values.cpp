@@ -11,17 +11,17 @@ using friction::Parameter;
 using friction::ParameterKind;
 using friction::ParameterValues;
 
-ParameterValues::Value value_of(const Parameter& parameter, const Json& json) {
+ParameterValues::Value value_of(const Parameter& parameter, const Json& json, core::Coordinate coordinate) {
   switch (parameter.kind) {
     case ParameterKind::choice:
       return json.get<std::string>();
     case ParameterKind::flag:
       return json.get<bool>();
     case ParameterKind::record:
-      return std::vector<ParameterValues>{law_values(parameter.fields, json)};
+      return std::vector<ParameterValues>{law_values(parameter.fields, json, coordinate)};
     case ParameterKind::list: {
       std::vector<ParameterValues> records;
-      for (const Json& item : json) records.push_back(law_values(parameter.fields, item));
+      for (const Json& item : json) records.push_back(law_values(parameter.fields, item, coordinate));
       return records;
     }
     default:
@@ -56,12 +56,13 @@ Json json_of(const Parameter& parameter, const ParameterValues& values) {
 
 }  // namespace
 
-ParameterValues law_values(const std::vector<Parameter>& table, const Json& section) {
+ParameterValues law_values(const std::vector<Parameter>& table, const Json& section, core::Coordinate coordinate) {
   ParameterValues values;
+  values.measure(coordinate);
   if (!section.is_object()) return values;  // a faulty item of a list
   for (const Parameter& parameter : table)
     if (const auto found = section.find(std::string(parameter.name)); found != section.end())
-      values.set(parameter.name, value_of(parameter, *found));
+      values.set(parameter.name, value_of(parameter, *found, coordinate));
   return values;
 }
 
