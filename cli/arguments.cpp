@@ -125,6 +125,16 @@ class Parser {
                     "Stiffness, such as '1568 N/m'; '0 N/m' for a mass on a rail without spring")
         ->type_name("QUANTITY");
     command
+        .add_option(
+            "--gravity-stiffness", identify_.gravity_stiffness,
+            "m g l of a pendulum, such as '2.9 N.m': the part of the stiffness, or the whole of it, whose torque "
+            "is m g l sin(x)")
+        ->type_name("QUANTITY");
+    command
+        .add_option("--coordinate", identify_.coordinate,
+                    "What x is, displacement or angle (default: what the units say)")
+        ->type_name("KIND");
+    command
         .add_option("--frequency", identify_.frequency,
                     "Forcing frequency, such as '6.17 Hz'; a free decay has none")
         ->type_name("QUANTITY");

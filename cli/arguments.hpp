@@ -45,7 +45,7 @@ struct SchemaCommand {
 
 struct IdentifyCommand {
   std::string data;
-  std::string mass, stiffness, frequency;
+  std::string mass, stiffness, gravity_stiffness, coordinate, frequency;
   std::vector<std::string> methods;
   std::vector<std::string> units;               ///< x=mm
   std::vector<std::string> columns;             ///< x=LVDT 2

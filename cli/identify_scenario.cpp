@@ -36,11 +36,14 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
   options.data_anywhere = true;
   options.set = {{"analysis.data=" + quoted(command.data), "DATA"}};
   if (!command.frequency.empty()) options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
-  for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},
-                                            {"system.stiffness", &command.stiffness, "--stiffness"},
-                                            {"excitation.frequency", &command.frequency, "--frequency"},
-                                            {"analysis.sigma_x", &command.sigma_x, "--sigma-x"},
-                                            {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
+  for (const auto& [path, value, option] :
+       {std::tuple{"system.mass", &command.mass, "--mass"},
+        {"system.stiffness", &command.stiffness, "--stiffness"},
+        {"system.gravity_stiffness", &command.gravity_stiffness, "--gravity-stiffness"},
+        {"system.coordinate", &command.coordinate, "--coordinate"},
+        {"excitation.frequency", &command.frequency, "--frequency"},
+        {"analysis.sigma_x", &command.sigma_x, "--sigma-x"},
+        {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
     if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
   if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
   if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});

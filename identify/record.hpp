@@ -8,7 +8,10 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/coordinate.hpp"
 
 namespace dualdamp::identify {
 
@@ -21,6 +24,11 @@ struct KnownConstants {
   double mass = unknown;       ///< m [kg], > 0
   double stiffness = unknown;  ///< k [N/m], > 0; 0 for a mass on a rail without spring
   double frequency = unknown;  ///< forcing frequency w [rad/s], > 0, of all data that state none of their own
+  /// For the units in messages, nothing else: those given here are of a displacement (core/coordinate.hpp).
+  core::Coordinate coordinate = core::Coordinate::displacement;
+
+  /// "N.m" for "N" where x is an angle.
+  [[nodiscard]] std::string unit(std::string_view unit) const { return core::unit_for(coordinate, unit); }
 };
 
 /// One measured steady state: input and output amplitude, and what else was read.

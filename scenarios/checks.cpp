@@ -32,17 +32,47 @@ void check_sections(CheckedFile& file) {
   }
 }
 
+/// Without a spring beside it gravity is the whole of the stiffness.
+void resolve_gravity(CheckedFile& file) {
+  const auto gravity = file.number_at("system", "gravity_stiffness");
+  if (!gravity) return;
+  const std::string path = "system.gravity_stiffness";
+  if (file.coordinate() != core::Coordinate::angle)
+    file.complain(path, "'" + path + "' is of a pendulum, and the coordinate is no angle",
+                  "with coordinate: angle, or with the units of rotation");
+  if (file.text_at("excitation", "type").starts_with("base"))
+    file.complain(path, "'" + path + "' does not work with a base in motion: gravity has a direction of its own",
+                  "excitation type none, or one of force");
+  const auto stiffness = file.number_at("system", "stiffness");
+  if (stiffness && *stiffness < *gravity)
+    file.complain("system.stiffness", "'system.stiffness' is below its own part, 'system.gravity_stiffness'",
+                  ">= " + core::format_number(*gravity) + " N.m/rad", core::format_number(*stiffness) + " N.m/rad");
+  if (stiffness || file.stands_in_file("system", "stiffness")) return;
+  Json& system = file.values()["system"];
+  system["stiffness"] = *gravity;
+  put_in_order(system, file.keys_of("system"));
+}
+
 /// Only measured data do without them.
 void check_constants(CheckedFile& file) {
   if (file.node("system") == nullptr) return;
   const Section& section = file.keys_of("system");
+  const std::string unit = core::unit_for(file.coordinate(), "N/m");
   for (const char* key : {"mass", "stiffness"})
-    if (!file.stands_in_file("system", key))
+    if (!file.stands_in_file("system", key) && !file.has("system", key))
       file.complain(file.node("system")->head(), "'system." + std::string(key) + "' is missing",
-                    describe_values(*section.find(key)));
+                    describe_values(*section.find(key), file.coordinate()));
   if (file.number_at("system", "stiffness") == 0.0)
-    file.complain("system.stiffness", "'system.stiffness' is out of range: a motion needs a spring", "> 0 N/m",
-                  "0 N/m");
+    file.complain("system.stiffness", "'system.stiffness' is out of range: a motion needs a spring", "> 0 " + unit,
+                  "0 " + unit);
+}
+
+/// A resolved scenario has bare numbers, which do not tell that the coordinate is an angle.
+void resolve_coordinate(CheckedFile& file) {
+  if (file.coordinate() != core::Coordinate::angle || !file.values().contains("system")) return;
+  Json& system = file.values()["system"];
+  system["coordinate"] = core::name_of(core::Coordinate::angle);
+  put_in_order(system, file.keys_of("system"));
 }
 
 void check_excitation(CheckedFile& file) {
@@ -67,7 +97,7 @@ void check_excitation(CheckedFile& file) {
         wanted && field != nullptr && !file.stands_in_file("excitation", key))
       file.complain(given->head(),
                     std::string("'excitation.") + key + "' is missing: " + file.subject() + " needs it",
-                    describe_values(*field));
+                    describe_values(*field, file.coordinate()));
   }
 }
 
@@ -153,6 +183,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
       section.contains("type") ? find_analysis(analyses, section.at("type").get<std::string>()) : nullptr;
   static const std::vector<Needs> unknown;
   CheckedFile file(document, reading, format, analysis == nullptr ? unknown : analysis->needs, data_place);
+  resolve_gravity(file);
   if (!file.stands_in_file("analysis", "data")) check_constants(file);
   if (analysis == nullptr) return {};
   if (file.needs() != nullptr) {
@@ -165,6 +196,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   resolve_frequency(file);
   if (analysis->check != nullptr) analysis->check(file);
   check_expectations(file, *analysis);
+  resolve_coordinate(file);
   return {analysis, std::move(file.data)};
 }
 

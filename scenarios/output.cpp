@@ -79,6 +79,15 @@ Json verification_json(const Verification& verification) {
   return json;
 }
 
+/// Units of the numbers in the result, by path: where the coordinate is an angle they are not those of the
+/// reference page.
+Json units_json(const std::vector<ResultField>& fields) {
+  Json json = Json::object();
+  for (const ResultField& field : fields)
+    if (!field.unit.empty() && field.unit != "1") json[field.path] = field.unit;
+  return json;
+}
+
 /// The keys every document has, in order.
 Json frame(core::ExitStatus status) {
   Json json;
@@ -187,6 +196,8 @@ Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<c
     json["provenance"] = provenance_json(result->provenance);
     json["scenario"] = Json::parse(scenario->resolved);
     json["analysis"] = scenario->analysis_name;
+    if (scenario->model.oscillator.coordinate == core::Coordinate::angle)
+      json["units"] = units_json(scenario->result_fields);
     json["warnings"] = result->warnings;
     json["checks"] = checks_json(result->checks);
     if (result->verification) json["verification"] = verification_json(*result->verification);

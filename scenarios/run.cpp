@@ -61,6 +61,9 @@ RunResult result_of(const Scenario& scenario, Answer answer) {
     if (answer.result.contains("verdict")) result.verdict = answer.result.at("verdict").get<std::string>();
     summarise(scenario, answer.result, result.summary);
     result.tables = std::move(answer.tables);
+    for (Table& table : result.tables)
+      for (Column& column : table.columns)
+        column.unit = core::unit_for(scenario.model.oscillator.coordinate, column.unit);
     result.checks = compare(scenario.expect, answer.result, result.tables);
     if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
   }

@@ -33,11 +33,19 @@ void refuse_other_schema(const Document& document) {
                        {}});
 }
 
+core::Coordinate coordinate_of(const Json& system) {
+  return system.value("coordinate", "") == core::name_of(core::Coordinate::angle) ? core::Coordinate::angle
+                                                                                  : core::Coordinate::displacement;
+}
+
 sim::Oscillator oscillator(const Json& system) {
-  return {number_or(system, "mass", identify::unknown), number_or(system, "stiffness", identify::unknown),
+  return {number_or(system, "mass", identify::unknown),
+          number_or(system, "stiffness", identify::unknown),
           number_or(system, "damping", 0.0),
           system.at("damper_to") == "base" ? sim::DamperTo::base : sim::DamperTo::ground,
-          number_or(system, "cubic_stiffness", 0.0)};
+          number_or(system, "cubic_stiffness", 0.0),
+          number_or(system, "gravity_stiffness", 0.0),
+          coordinate_of(system)};
 }
 
 sim::Excitation excitation(const Json& section) {
@@ -81,12 +89,12 @@ std::vector<friction::Law> friction_of(const Json& section) {
 }
 
 /// What the laws warn of.
-std::vector<std::string> law_warnings(const Json& section) {
+std::vector<std::string> law_warnings(const Json& section, core::Coordinate coordinate) {
   std::vector<std::string> result;
   for (const Json& item : section.is_array() ? section : Json::array({section})) {
     const friction::LawEntry* entry = friction::find_law(item.at("law").get<std::string>());
     if (entry->warnings == nullptr) continue;
-    for (const std::string& warning : entry->warnings(law_values(entry->parameters, item)))
+    for (const std::string& warning : entry->warnings(law_values(entry->parameters, item, coordinate)))
       result.push_back(std::string(entry->name) + ": " + warning);
   }
   return result;
@@ -173,12 +181,14 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
   if (values.contains("system")) scenario.model = model(values);
   if (values.contains("system") && values.at("system").contains("friction"))
-    scenario.warnings = law_warnings(values.at("system").at("friction"));
+    scenario.warnings = law_warnings(values.at("system").at("friction"), scenario.model.oscillator.coordinate);
   scenario.tolerance = tolerance_of(values, scenario.model);
   scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
   const Json& section = values.at("analysis");
   scenario.analysis_name = std::string(checked.analysis->name);
   scenario.result_fields = result_fields(*checked.analysis, section);
+  for (ResultField& field : scenario.result_fields)
+    field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
   scenario.question =
       checked.analysis->ask({section, values.value("system", Json()), values.value("excitation", Json()),
                              scenario.model, std::move(checked.data)});

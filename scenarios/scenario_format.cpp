@@ -11,19 +11,27 @@ Section system_section() {
       choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
   friction.listed = true;
   friction.max_items = 16;
-  return {{quantity("mass", {"kg"}, "sliding mass m; optional with measured data").above(0).with_uncertainty(),
-           uncertainty_of("mass", {"kg"}),
-           quantity("stiffness", {"N/m"},
-                    "spring k between mass and base; with measured data it is optional, or 0 for a mass on a rail")
-               .at_least(0)
-               .with_uncertainty(),
-           uncertainty_of("stiffness", {"N/m"}), quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
-           quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
-           quantity("cubic_stiffness", {"N/m^3"}, "coefficient of the cube of the spring's elongation; any sign")
-               .with_fallback(0.0),
-           words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
-           std::move(friction)},
-          {{{"damping", "damping_ratio"}, false}}};
+  return {
+      {words("coordinate", {"displacement", "angle"},
+             "what x is; of an angle, mass is a moment of inertia [kg.m^2], a force is a torque [N.m], a "
+             "displacement is an angle [rad]; default: what the units say"),
+       quantity("mass", {"kg"}, "sliding mass m; optional with measured data").above(0).with_uncertainty(),
+       uncertainty_of("mass", {"kg"}),
+       quantity("stiffness", {"N/m"},
+                "spring k between mass and base; with measured data it is optional, or 0 for a mass on a rail")
+           .at_least(0)
+           .with_uncertainty(),
+       uncertainty_of("stiffness", {"N/m"}), quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
+       quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
+       quantity("cubic_stiffness", {"N/m^3"}, "coefficient of the cube of the spring's elongation; any sign")
+           .with_fallback(0.0),
+       quantity("gravity_stiffness", {"N.m"},
+                "m g l of a pendulum: the part of the stiffness whose torque is m g l sin(x); without 'stiffness' "
+                "it is the whole of it. For an angle x, and no excitation or a torque")
+           .above(0),
+       words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
+       std::move(friction)},
+      {{{"damping", "damping_ratio"}, false}}};
 }
 
 Section expect_section() {

@@ -34,8 +34,12 @@ std::string number_pattern(const friction::Range& range) {
 
 std::string quantity_pattern(const friction::Range& range, const std::string& unit) {
   std::string units;
-  for (const std::string_view name : core::usual_units(unit))
-    if (name != "1") units += (units.empty() ? "" : "|") + literal(name);
+  const auto add = [&](core::Coordinate coordinate) {
+    for (const std::string_view name : core::usual_units(unit, coordinate))
+      if (name != "1") units += (units.empty() ? "" : "|") + literal(name);
+  };
+  add(core::Coordinate::displacement);
+  if (core::unit_for(core::Coordinate::angle, unit) != unit) add(core::Coordinate::angle);
   if (units.empty()) units = "[^0-9 ].*";
   return "^" + number_pattern(range) + " *(" + units + ")$";
 }
@@ -213,9 +217,12 @@ Json demands_of(const Needs& row) {
   const bool may_be_free = std::ranges::find(row.excitations, "none") != row.excitations.end();
   if (!may_be_free) demands["required"].push_back("excitation");
   if (row.whole_system)
-    demands["properties"]["system"] = {{"required", {"mass", "stiffness"}},
-                                       {"properties", {{"stiffness", {{"not", {{"const", 0}}}}}}},
-                                       {"anyOf", {{{"required", {"damping"}}}, {{"required", {"damping_ratio"}}}}}};
+    demands["properties"]["system"] = {
+        {"required", {"mass"}},
+        {"properties", {{"stiffness", {{"not", {{"const", 0}}}}}}},
+        {"allOf",
+         {{{"anyOf", {{{"required", {"stiffness"}}}, {{"required", {"gravity_stiffness"}}}}}},
+          {{"anyOf", {{{"required", {"damping"}}}, {{"required", {"damping_ratio"}}}}}}}}};
   Json drive = Json::array();
   for (const std::string& type : row.excitations)
     if (excitations().find(type)->section.find("frequency") != nullptr && !row.drive.empty())

@@ -1,8 +1,14 @@
 #pragma once
 /// The oscillator:  m x'' + c x' + k x + F = k y(t) + f(t)          (damper to ground, Liang and Feeny)
 ///                  m x'' + c (x' - y') + k x + F = k y(t) + f(t)   (damper to base, Hundal)
-/// with k3 (y - x)^3 beside k (y - x) for a cubic spring; base motion y(t) [m], external force f(t) [N] and
-/// friction force F [N], F > 0 opposing x' > 0.
+/// with k3 (y - x)^3 beside k (y - x) for a cubic spring, and G sin(y - x) in place of the part G (y - x) of k (y -
+/// x) for a pendulum, whose G = m g l; base motion y(t) [m], external force f(t) [N] and friction force F [N], F >
+/// 0 opposing x' > 0. The equations of an angle x are the same: the units given here and everywhere in the engines
+/// are those of a displacement (core/coordinate.hpp).
+
+#include <cmath>
+
+#include "core/coordinate.hpp"
 
 namespace dualdamp::sim {
 
@@ -13,8 +19,36 @@ struct Oscillator {
   double stiffness = 1.0;  ///< k [N/m], > 0
   double damping = 0.0;    ///< c [N.s/m], any sign
   DamperTo damper_to = DamperTo::ground;
-  double cubic_stiffness = 0.0;  ///< k3 [N/m^3] on the elongation y - x, any sign
+  double cubic_stiffness = 0.0;    ///< k3 [N/m^3] on the elongation y - x, any sign
+  double gravity_stiffness = 0.0;  ///< G [N.m], the part of k that gravity makes, of an angle
+  core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in messages, nothing else
 };
+
+/// The spring follows Hooke's law.
+[[nodiscard]] inline bool is_linear(const Oscillator& o) {
+  return o.cubic_stiffness == 0.0 && o.gravity_stiffness == 0.0;
+}
+
+/// Force of the spring [N] over its elongation, y - x [m].
+[[nodiscard]] inline double spring_force(const Oscillator& o, double stretch) {
+  const double force = (o.stiffness + o.cubic_stiffness * stretch * stretch) * stretch;
+  return o.gravity_stiffness == 0.0 ? force : force + o.gravity_stiffness * (std::sin(stretch) - stretch);
+}
+
+/// Its derivative by the elongation [N/m].
+[[nodiscard]] inline double spring_slope(const Oscillator& o, double stretch) {
+  const double slope = o.stiffness + 3.0 * o.cubic_stiffness * stretch * stretch;
+  return o.gravity_stiffness == 0.0 ? slope : slope + o.gravity_stiffness * (std::cos(stretch) - 1.0);
+}
+
+/// What it stores [J].
+[[nodiscard]] inline double spring_energy(const Oscillator& o, double stretch) {
+  const double square = stretch * stretch;
+  const double energy = 0.5 * (o.stiffness + 0.5 * o.cubic_stiffness * square) * square;
+  if (o.gravity_stiffness == 0.0) return energy;
+  const double half = std::sin(0.5 * stretch);
+  return energy + o.gravity_stiffness * (2.0 * half * half - 0.5 * square);
+}
 
 /// wn = sqrt(k/m) [rad/s]
 [[nodiscard]] double natural_frequency(const Oscillator& oscillator);

@@ -53,6 +53,7 @@ class Check {
     in(positive, "system.stiffness", o.stiffness, "N/m", ": a motion needs a spring");
     in(any, "system.damping", o.damping, "N.s/m");
     in(any, "system.cubic_stiffness", o.cubic_stiffness, "N/m^3");
+    in(not_negative, "system.gravity_stiffness", o.gravity_stiffness, "N.m");
   }
 
   void excitation(const Excitation& e) {

@@ -45,6 +45,9 @@ function table({ csv, rows, step }) {
 }
 
 const run = parse("document");
+
+/** SI unit of a number of the result; `otherwise` where x is no angle. */
+const unitAt = (path, otherwise) => run.units?.[path] ?? otherwise;
 const tables = Object.fromEntries(Object.entries(parse("tables")).map(([name, text]) => [name, table(text)]));
 
 /** A number as people read it; the exact one stands in the attribute beside it. */
@@ -60,7 +63,7 @@ const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
 /** Unit and factor that make numbers up to `largest` pleasant to read: 0.004 m is 4 mm. */
 function readable(unit, largest) {
-  if (!["m", "m/s", "s", "N", "J"].includes(unit) || !(largest > 0)) return { unit, factor: 1 };
+  if (!["m", "m/s", "s", "N", "N.m", "J"].includes(unit) || !(largest > 0)) return { unit, factor: 1 };
   const [size, prefix] = prefixes.find(([scale]) => largest >= scale) ?? prefixes[prefixes.length - 1];
   return { unit: prefix + unit, factor: 1 / size };
 }

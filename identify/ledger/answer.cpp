@@ -186,12 +186,14 @@ std::string with_interval(double value, const std::optional<ParameterIntervals>&
 }
 
 /// "c = 203.5 N.s/m" where there is no spring to make it a damping ratio.
-std::string numbers_of(const Estimate& estimate) {
+std::string numbers_of(const Estimate& estimate, core::Coordinate coordinate) {
+  const auto unit = [&](const char* name) { return " " + core::unit_for(coordinate, name); };
   const bool spring = std::isfinite(estimate.value.zeta);
   const std::string damping =
       spring ? "zeta = " + with_interval(estimate.value.zeta, estimate.interval95, &ParameterIntervals::zeta, "")
-             : "c = " + with_interval(estimate.value.c, estimate.interval95, &ParameterIntervals::c, " N.s/m");
-  return damping + ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, " N");
+             : "c = " + with_interval(estimate.value.c, estimate.interval95, &ParameterIntervals::c, unit("N.s/m"));
+  return damping +
+         ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, unit("N"));
 }
 
 /// "It does not hold that ... (p = 0.002)", for each departure.
@@ -205,7 +207,7 @@ std::string departures_text(const Ledger& ledger) {
   return text;
 }
 
-std::string trend_text(const std::vector<Estimate>& estimates) {
+std::string trend_text(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
   const auto trend = std::ranges::find_if(estimates, [](const Estimate& e) { return e.subsets.size() > 1; });
   if (trend == estimates.end()) return {};
   const auto range = [&](double ParameterSet::* member) {
@@ -213,7 +215,7 @@ std::string trend_text(const std::vector<Estimate>& estimates) {
   };
   return " From " + trend->subsets.front().label + " to " + trend->subsets.back().label +
          " of the data zeta goes from " + range(&ParameterSet::zeta) + " and F0 from " + range(&ParameterSet::F0) +
-         " N.";
+         " " + core::unit_for(coordinate, "N") + ".";
 }
 
 bool overlap(const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -230,16 +232,19 @@ std::string verdict_of(const Identification& all) {
   const bool of_friction = all.ledger.is_violated(Assumption::friction_velocity) ||
                            all.ledger.is_violated(Assumption::friction_displacement);
   if (!all.answer)
-    return (text.empty() ? "" : text.substr(1) + (of_friction ? trend_text(all.estimates) : "") + " ") +
+    return (text.empty()
+                ? ""
+                : text.substr(1) + (of_friction ? trend_text(all.estimates, all.ledger.coordinate) : "") + " ") +
            "No estimate is to be used: " + all.reason + ".";
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
-  text = numbers_of(best) + ", by " + best.method + ". " +
+  text = numbers_of(best, all.ledger.coordinate) + ", by " + best.method + ". " +
          (!text.empty() ? text.substr(1)
           : untested    ? "These data cannot tell whether friction is Coulomb + viscous."
                         : "These data do not contradict any assumption that they can test.");
   for (const Estimate& other : all.estimates)
-    if (disagree(best, other)) text += " " + other.method + " disagrees: " + numbers_of(other) + ".";
+    if (disagree(best, other))
+      text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
   return text;
 }
 

@@ -236,6 +236,7 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
 
 Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
   Ledger ledger;
+  ledger.coordinate = constants.coordinate;
   for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
   const MaybeModel found = model_of(record, constants);
   if (const auto* reason = std::get_if<std::string>(&found)) {

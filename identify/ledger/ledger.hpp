@@ -44,7 +44,8 @@ struct Ledger {
   std::vector<LedgerEntry> entries;  ///< one for each assumption
   /// Violated assumptions of each departure, best explanation first.
   std::vector<std::vector<Assumption>> departures;
-  ParameterSet plain;                 ///< of the joint model with nothing relaxed
+  ParameterSet plain;                                            ///< of the joint model with nothing relaxed
+  core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in sentences
   std::vector<std::string> left_out;  ///< parts of the record outside the tests' conditions, each a sentence
   /// What the joint model itself estimates, with departures that are not friction's relaxed; nothing where there is
   /// no model.

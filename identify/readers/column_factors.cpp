@@ -27,19 +27,25 @@ struct ScaleUnit {
 };
 
 /// The column's unit is on one side of one of the strokes, the signal's on the other.
-std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownColumn& known) {
+std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownColumn& known,
+                                         core::Coordinate coordinate) {
   for (std::size_t at = unit.rfind('/'); at != std::string::npos && at > 0; at = unit.rfind('/', at - 1)) {
     const std::string above = without_brackets(std::string_view(unit).substr(0, at));
     const std::string below = without_brackets(std::string_view(unit).substr(at + 1));
     if (above.empty() || below.empty()) continue;
-    if (const auto factor = core::unit_factor(above, known.unit).value) return ScaleUnit{*factor, below, false};
-    if (const auto factor = core::unit_factor(below, known.unit).value) return ScaleUnit{*factor, above, true};
+    if (const auto factor = core::unit_factor(above, known.unit, coordinate).value)
+      return ScaleUnit{*factor, below, false};
+    if (const auto factor = core::unit_factor(below, known.unit, coordinate).value)
+      return ScaleUnit{*factor, above, true};
   }
-  if (const auto whole = core::unit_factor(unit, known.unit).value) return ScaleUnit{*whole, {}, false};
+  if (const auto whole = core::unit_factor(unit, known.unit, coordinate).value) return ScaleUnit{*whole, {}, false};
   return std::nullopt;
 }
 
-bool is_angular(const KnownColumn& known) { return known.unit == "rad" || known.unit == "rad/s"; }
+/// Angles and their rates, frequencies: the numbers do not tell degrees from radians.
+bool is_angular(const KnownColumn& known, core::Coordinate coordinate) {
+  return core::unit_for(coordinate, known.unit).starts_with("rad");
+}
 
 }  // namespace
 
@@ -85,30 +91,31 @@ double ColumnFactors::factor_of(const KnownColumn& known, const std::string& sta
   if (given != nullptr && !stated.empty() && stated != *given)
     warnings_.push_back("column " + name + " is read in " + *given + ", not in " + stated + " as the file states");
   if (const std::string* scale = find_for(options_.scales, known)) return scaled(known, *scale, unit, where);
-  if (unit.empty() && known.unit == "rad")
+  const std::string si_unit = core::unit_for(options_.coordinate, known.unit);
+  if (unit.empty() && is_angular(known, options_.coordinate) && known.unit != "rad/s") {
+    const std::string degrees = "deg" + si_unit.substr(std::string_view("rad").size());
     return refuse(where, "column " + name + ": an angle needs its unit, because degrees and radians differ",
-                  "'" + name + " [deg]' or '" + name + " [rad]' in the file, or --unit " + name + "=deg");
-  if (unit.empty() && !is_angular(known)) {
-    assumed_.push_back({name, std::string(known.unit)});
+                  "'" + name + " [" + degrees + "]' or '" + name + " [" + si_unit + "]' in the file, or --unit " +
+                      name + "=" + degrees);
+  }
+  if (unit.empty() && !is_angular(known, options_.coordinate)) {
+    assumed_.push_back({name, si_unit});
     return 1.0;
   }
-  const core::QuantityText factor = core::unit_factor(unit, known.unit);
+  const core::QuantityText factor = core::unit_factor(unit, known.unit, options_.coordinate);
   if (factor.value) return *factor.value;
   core::Diagnostic fault = where;
   if (given != nullptr) fault.found = *given;
   return refuse(fault, "the unit of column " + name + ": " + factor.fault,
-                core::describe_dimension(known.unit) + "; in the file as '" + name + " [unit]', or as --unit " +
-                    name + "=UNIT",
+                core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
+                    " [unit]', or as --unit " + name + "=UNIT",
                 factor.suggestion);
 }
 
 double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,
                              const core::Diagnostic& where) {
   const std::string name(known.name);
-  const std::string allowed =
-      "such as '2.5 " +
-      std::string(core::usual_units(known.unit).empty() ? known.unit : core::usual_units(known.unit).front()) +
-      "/V'";
+  const std::string allowed = "such as '2.5 " + core::unit_for(options_.coordinate, known.unit) + "/V'";
   core::Diagnostic fault = where;
   fault.found = scale;
   const std::string text(trimmed(scale));
@@ -117,19 +124,20 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
     return refuse(fault, "the scale of column " + name + " does not begin with a number other than zero", allowed);
   const std::string scale_unit(trimmed(std::string_view(text).substr(number.length)));
   if (scale_unit.empty()) {  // in the column's own unit
-    if (unit.empty() && is_angular(known))
+    if (unit.empty() && is_angular(known, options_.coordinate))
       return refuse(fault, "the scale of column " + name + " needs its unit", allowed);
-    const core::QuantityText factor = core::unit_factor(unit, known.unit);
+    const core::QuantityText factor = core::unit_factor(unit, known.unit, options_.coordinate);
     if (factor.value) return *number.value * *factor.value;
     return refuse(fault,
                   "the scale of column " + name + " does not lead from " + unit + " to " +
-                      core::describe_dimension(known.unit),
+                      core::describe_dimension(known.unit, options_.coordinate),
                   allowed);
   }
-  const auto read = read_scale_unit(scale_unit, known);
+  const auto read = read_scale_unit(scale_unit, known, options_.coordinate);
   if (!read)
     return refuse(fault,
-                  "the scale of column " + name + " does not lead to " + core::describe_dimension(known.unit),
+                  "the scale of column " + name + " does not lead to " +
+                      core::describe_dimension(known.unit, options_.coordinate),
                   allowed);
   double per_signal = 1.0;
   if (unit.empty()) {

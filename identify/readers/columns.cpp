@@ -31,7 +31,8 @@ const KnownColumn* column_in_any_case(std::string_view text) {
 }
 
 bool is_unit_of(const std::string& unit, const KnownColumn& known) {
-  return !unit.empty() && !known.unit.empty() && core::unit_factor(unit, known.unit).value.has_value();
+  return !unit.empty() && !known.unit.empty() &&
+         (core::unit_factor(unit, known.unit).value || core::coordinate_told_by(unit, known.unit));
 }
 
 /// The part of a text behind a name and marks that is a unit; empty when there is none.

@@ -12,7 +12,7 @@ namespace dualdamp::identify {
 struct KnownColumn {
   std::string_view name;
   std::string_view alias;
-  std::string_view unit;  ///< SI; empty for a label
+  std::string_view unit;  ///< SI, of a displacement (core/coordinate.hpp); empty for a label
   bool is_signal = false;
 };
 

@@ -164,7 +164,7 @@ class Search {
       const KnownColumn* known = named_column(heading);
       const std::string unit = unit_in(fields[k]);
       if (known != nullptr && !known->unit.empty() && !unit.empty() &&
-          core::unit_factor(unit, known->unit).value.has_value())
+          (core::unit_factor(unit, known->unit).value || core::coordinate_told_by(unit, known->unit)))
         return true;
     }
     return false;

@@ -34,7 +34,8 @@ struct ReadOptions {
   std::map<std::string, std::string> columns = {};
   /// Column -> what its numbers are multiplied by, such as x -> "2.5 mm/V", a -> "100 mV/g", force -> "35.15".
   std::map<std::string, std::string> scales = {};
-  char decimal = '.';      ///< decimal mark of a CSV file: a point or a comma
+  char decimal = '.';                                            ///< decimal mark of a CSV file: a point or a comma
+  core::Coordinate coordinate = core::Coordinate::displacement;  ///< what x is
   bool no_header = false;  ///< the first row of a CSV file holds numbers; `columns` says which is which
   /// Stands for the file in messages; empty: its path.
   std::string name = {};

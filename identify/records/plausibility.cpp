@@ -153,13 +153,15 @@ class Check {
     check_force(amplitude(history.force, history, omega), x, omega);
   }
 
+  [[nodiscard]] std::string unit(const char* name) const { return " " + constants_.unit(name); }
+
   /// |k - m w^2| x <= F: friction and damping act across it. Near resonance it says nothing.
   void check_force(double force, double x, double omega) {
     const double needed = std::abs(constants_.stiffness - constants_.mass * omega * omega) * x;
     constexpr double unit_error = 100.0;
     if (needed > unit_error * force && force > 0.0)
-      refuse("column force, " + shown(force) + " N, is " + times_off(force / needed) +
-                 " for the motion x, which takes " + shown(needed) + " N",
+      refuse("column force, " + shown(force) + unit("N") + ", is " + times_off(force / needed) +
+                 " for the motion x, which takes " + shown(needed) + unit("N"),
              "both in their units, and the mass and the stiffness stated: --unit force=kN, --unit x=mm");
   }
 

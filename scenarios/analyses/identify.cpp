@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "identify/ledger/outliers.hpp"
+#include "identify/records/pendulum.hpp"
 #include "scenarios/analyses/identify_options.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
@@ -123,7 +124,8 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
       {model.oscillator.mass, model.oscillator.stiffness,
        // A measurement at several frequencies needs none of the excitation's own, which is then zero.
        model.excitation.is_harmonic() && model.excitation.frequency > 0.0 ? model.excitation.frequency
-                                                                          : identify::unknown},
+                                                                          : identify::unknown,
+       model.oscillator.coordinate},
       uncertainties_of(values),
       method_options(section),
       {section.at("least_change").get<double>()},
@@ -150,14 +152,19 @@ const identify::Record* IdentifyQuestion::measured() const {
 }
 
 identify::Record IdentifyQuestion::record(const RunContext& context, std::vector<std::string>& warnings) const {
+  const sim::Oscillator& oscillator = context.model.oscillator;
   if (const auto* data = std::get_if<identify::MeasuredRecord>(&source_)) {
     warnings = data->warnings;
-    return data->record;
+    identify::Record record = data->record;
+    identify::linearise_pendulum(record, oscillator.stiffness, oscillator.gravity_stiffness, warnings);
+    return record;
   }
   const auto& [measurement, sensors, seed] = std::get<Synthetic>(source_);
   MotionRecord motion = motion_of(context.model, measurement, sensors, context.steady_states());
   warnings = std::move(motion.warnings);
-  return reading(motion, sensors, seed, warnings);
+  identify::Record record = reading(motion, sensors, seed, warnings);
+  identify::linearise_pendulum(record, oscillator.stiffness, oscillator.gravity_stiffness, warnings);
+  return record;
 }
 
 identify::Identification IdentifyQuestion::conclude(const identify::Record& record, double within) const {
@@ -191,7 +198,7 @@ Answer IdentifyQuestion::run(const RunContext& context) const {
   const identify::BoundedInfluence bounded = identify::bounded_influence(data, methods_.constants);
   const identify::Record& read = methods_.robust ? bounded.record : data;
   const identify::Identification found = conclude(read, methods_.robust ? bounded.within : 1.0);
-  Answer answer = answer_of(found, data);
+  Answer answer = answer_of(found, data, methods_.constants);
   if (!answer.result.is_null()) {
     add_outliers(bounded.outliers, methods_.robust, answer);
     add_sensitivities(sensitivities(found, read), answer);

@@ -27,7 +27,7 @@ function answerBox({answer, answer_reason: reason}) {
         'section', {class: 'answer'}, make('h2', {}, 'No answer'),
         make('p', {'data-path': 'answer_reason'}, reason));
   const shown =
-      [['ζ', 'zeta', ''], ['F0', 'F0', ' N'], ['c', 'c', ' N.s/m']].filter(([, key]) => answer[key] !== null);
+      [['ζ', 'zeta', ''], ['F0', 'F0', ` ${unitAt('estimates[].F0', 'N')}`], ['c', 'c', ` ${unitAt('estimates[].c', 'N.s/m')}`]].filter(([, key]) => answer[key] !== null);
   return make(
       'section', {class: 'answer'}, make('h2', {}, 'Answer'),
       make(
@@ -103,7 +103,7 @@ function estimateTable(estimates) {
     value
   });
   return grid(
-      ['method', '', 'ζ (95 %)', 'c [N.s/m] (95 %)', 'x_f [m]', 'F0 [N] (95 %)', 'because'],
+      ['method', '', 'ζ (95 %)', `c [${unitAt('estimates[].c', 'N.s/m')}] (95 %)`, `x_f [${unitAt('estimates[].x_f', 'm')}]`, `F0 [${unitAt('estimates[].F0', 'N')}] (95 %)`, 'because'],
       estimates.map(
           (e, i) =>
               [{text: e.method, class: 'text'},
@@ -150,7 +150,7 @@ function fitCharts({fit, estimates}) {
   const used = points.filter((p) => !excluded.has(p.number));
   const left = points.filter((p) => excluded.has(p.number));
   const label =
-      isPairs ? {label: 'input amplitude Y', unit: 'm'} : {label: 'number of the extreme', unit: '', whole: true};
+      isPairs ? {label: 'input amplitude Y', unit: unitAt('fit.points[].x', 'm')} : {label: 'number of the extreme', unit: '', whole: true};
   const pick = (list, get) => ({x: list.map(x), y: list.map(get)});
   return [
     chart({
@@ -158,7 +158,7 @@ function fitCharts({fit, estimates}) {
       note: fit.method,
       wide: true,
       x: label,
-      y: {label: isPairs ? 'output amplitude x' : 'extreme x', unit: 'm'},
+      y: {label: isPairs ? 'output amplitude x' : 'extreme x', unit: unitAt('fit.points[].x', 'm')},
       series: [
         {label: 'fit', ...pick(sorted, (p) => p.fitted), colour: 0},
         {label: 'used', kind: 'points', ...pick(used, (p) => p.x), colour: 1},
@@ -169,7 +169,7 @@ function fitCharts({fit, estimates}) {
       title: 'Residuals',
       note: fit.method,
       x: label,
-      y: {label: 'data − fit', unit: 'm'},
+      y: {label: 'data − fit', unit: unitAt('fit.points[].x', 'm')},
       series: [{
         label: 'used',
         kind: 'points',
@@ -185,8 +185,8 @@ function subsetCharts(estimates) {
       .map((e) => {
         const {subsets} = e.diagnostics;
         const at = subsets.map((_, i) => i + 1);
-        const damping = subsets.some((s) => s.zeta !== null) ? ['zeta', 'ζ', ''] : ['c', 'c', 'N.s/m'];
-        return [damping, ['F0', 'F0', 'N']].map(
+        const damping = subsets.some((s) => s.zeta !== null) ? ['zeta', 'ζ', ''] : ['c', 'c', unitAt('estimates[].c', 'N.s/m')];
+        return [damping, ['F0', 'F0', unitAt('estimates[].F0', 'N')]].map(
             ([key, label, unit], colour) => chart({
               title: `${label} from parts of the data`,
               note: `${e.method}; ${subsets.map((s, i) => `${i + 1}: ${s.label}`).join(', ')}`,
@@ -215,7 +215,7 @@ function identifyView(result) {
       title: 'Damping ratio and friction force',
       note: 'the 95 % ellipse: the two are correlated; open where the method does not stand by its number',
       x: {label: 'ζ', unit: ''},
-      y: {label: 'F0', unit: 'N'},
+      y: {label: 'F0', unit: unitAt('estimates[].F0', 'N')},
       series
     }) :
                    null,
@@ -240,7 +240,7 @@ function furtherTables({estimates}) {
       out.push(
           heading(`Laws compared, ${e.method}`),
           grid(
-              ['law', 'weight', 'AICc', 'BIC', 'residual deviation [m]', 'parameters'],
+              ['law', 'weight', 'AICc', 'BIC', `residual deviation [${unitAt('estimates[].x_f', 'm')}]`, 'parameters'],
               candidates.map(
                   (c) =>
                       [c.law, c.weight, c.AICc, c.BIC, c.residual_deviation,

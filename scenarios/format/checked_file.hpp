@@ -34,6 +34,14 @@ class CheckedFile {
   [[nodiscard]] Json& values() { return reading_.values; }
   [[nodiscard]] const Json& values() const { return reading_.values; }
 
+  /// What the coordinate is, as far as the file says; a displacement if it does not.
+  [[nodiscard]] core::Coordinate coordinate() const {
+    return reading_.coordinate ? reading_.coordinate->coordinate : core::Coordinate::displacement;
+  }
+  /// What says so; nothing where nobody does.
+  [[nodiscard]] const std::optional<CoordinateSource>& coordinate_source() const { return reading_.coordinate; }
+  void tell_coordinate(CoordinateSource source) { reading_.coordinate = std::move(source); }
+
   /// Type of the analysis; empty when the file is too faulty to know.
   [[nodiscard]] const std::string& analysis() const { return analysis_; }
 

@@ -234,7 +234,7 @@ Section grid_section(const Field& grid) {
            words("spacing", {"linear", "log"}, "equal steps, or equal ratios").with_fallback("linear")}};
 }
 
-std::string describe_values(const Field& field) {
+std::string describe_values(const Field& field, core::Coordinate coordinate) {
   const auto list = [&](const std::string& what) {
     const std::string range = field.min_items == field.max_items
                                   ? std::to_string(field.min_items)
@@ -243,9 +243,9 @@ std::string describe_values(const Field& field) {
   };
   std::string numbers;
   for (const std::string& unit : field.units)
-    numbers += (numbers.empty() ? "" : ", or ") + core::describe_dimension(unit);
-  const std::string_view unit =
-      field.units.size() == 1 ? std::string_view(field.units.front()) : std::string_view();
+    numbers += (numbers.empty() ? "" : ", or ") + core::describe_dimension(unit, coordinate);
+  const std::string unit =
+      field.units.size() == 1 ? core::unit_for(coordinate, field.units.front()) : std::string();
   const bool bounded = std::isfinite(field.range.low) || std::isfinite(field.range.high);
   const std::string bounds = bounded ? field.range.describe(unit) : "";
   const auto with_bounds = [&](const std::string& what) { return bounded ? what + ", " + bounds : what; };

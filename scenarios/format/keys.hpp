@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/coordinate.hpp"
 #include "friction_models/parameters.hpp"
 #include "scenarios/format/json.hpp"
 #include "scenarios/format/result_field.hpp"
@@ -40,7 +41,8 @@ struct Field {
   std::string name;
   Kind kind = Kind::text;
   std::string meaning;
-  /// Units of the numbers. More than one: which one holds follows from the excitation (an amplitude is m or N).
+  /// Units of the numbers, for a displacement (core/coordinate.hpp). More than one: which one holds follows from
+  /// the excitation (an amplitude is m or N).
   std::vector<std::string> units;
   friction::Range range;
   std::vector<std::string> words;
@@ -129,7 +131,8 @@ struct Choice {
 [[nodiscard]] Section grid_section(const Field& grid);
 
 /// "> 0 kg", "ground, base": the values a field takes, for messages and the reference page.
-[[nodiscard]] std::string describe_values(const Field& field);
+[[nodiscard]] std::string describe_values(const Field& field,
+                                          core::Coordinate coordinate = core::Coordinate::displacement);
 
 /// The name among `names` that `word` was perhaps meant to be; empty when none is near.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& names);

@@ -37,7 +37,11 @@ bool is_number_like(std::string_view text) {
 
 class Reader {
  public:
-  explicit Reader(const Document& document) : document_(document) {}
+  /// `source`: what the coordinate is; nothing: not known, a displacement if need be.
+  Reader(const Document& document, const std::optional<CoordinateSource>& source) : document_(document) {
+    reading_.coordinate = source;
+    if (source) coordinate_ = source->coordinate;
+  }
 
   Json section(const Node& node, const Section& section, const std::string& path, const Choice* choice) {
     Json values = Json::object();
@@ -60,6 +64,8 @@ class Reader {
   }
 
   Reading take() { return std::move(reading_); }
+
+  [[nodiscard]] const ToldCoordinate& told() const { return told_; }
 
  private:
   void complain(Place place, std::string message, std::string allowed = {}, std::string found = {},
@@ -111,7 +117,7 @@ class Reader {
     const auto any_given = [&](const std::vector<std::string>& names) {
       return std::ranges::any_of(names, [&](const std::string& name) { return node.find(name) != nullptr; });
     };
-    std::string allowed = describe_values(field);
+    std::string allowed = describe_values(field, coordinate_);
     if (!field.instead_of.empty()) {
       // With nothing of either form there the first one is missing, and that is said once.
       if (node.find(field.instead_of) != nullptr || !any_given(section.instead_of(field.instead_of))) return;
@@ -158,7 +164,7 @@ class Reader {
   }
 
   Json wrong_kind(const Node& node, const Field& field, const std::string& path) {
-    complain(node.place, "'" + path + "' is of the wrong kind", describe_values(field), shown(node));
+    complain(node.place, "'" + path + "' is of the wrong kind", describe_values(field, coordinate_), shown(node));
     return nullptr;
   }
 
@@ -176,7 +182,7 @@ class Reader {
   }
 
   Json whole_number(const Node& node, const Field& field, const std::string& path) {
-    const Json number = plain_number(node, path, describe_values(field));
+    const Json number = plain_number(node, path, describe_values(field, coordinate_));
     if (number.is_null()) return nullptr;
     const double value = number.get<double>();
     const double largest = std::max(2e9, std::isfinite(field.range.high) ? field.range.high : 0.0);
@@ -216,13 +222,15 @@ class Reader {
     const std::string unit = unit_of(field);
     Field chosen = field;
     chosen.units = {unit};
-    const std::string allowed = describe_values(chosen);
+    std::string allowed = describe_values(chosen, coordinate_);
     if (node.quoted && core::parse_number(node.text).value) {
       complain(node.place, "'" + path + "' is a quoted number", "the number without quotes, or with its unit",
                shown(node));
       return nullptr;
     }
-    const core::UncertainQuantityText text = core::parse_uncertain_quantity(node.text, unit);
+    const core::UncertainQuantityText text = core::parse_uncertain_quantity(node.text, unit, coordinate_);
+    if (told_.fits_other_only(document_, node, path, unit, coordinate_) && reading_.coordinate)
+      allowed += "; " + reading_.coordinate->reason();
     if (text.uncertainty && !field.takes_uncertainty) {
       complain(node.place, "'" + path + "' takes no uncertainty", allowed, shown(node));
       return nullptr;
@@ -233,7 +241,7 @@ class Reader {
                is_word ? nearest(node.text, field.words) : text.suggestion);
       return nullptr;
     }
-    if (!in_range(node, field, path, *text.value, unit)) return nullptr;
+    if (!in_range(node, field, path, *text.value, core::unit_for(coordinate_, unit))) return nullptr;
     return in_json(*text.value, unit);
   }
 
@@ -242,7 +250,7 @@ class Reader {
                    Json& values) {
     if (entry.value.kind != Node::Kind::scalar) return;
     const std::string unit = unit_of(field);
-    const core::UncertainQuantityText text = core::parse_uncertain_quantity(entry.value.text, unit);
+    const core::UncertainQuantityText text = core::parse_uncertain_quantity(entry.value.text, unit, coordinate_);
     if (!text.uncertainty) return;
     const std::string key = uncertainty_key(field.name);
     if (const Entry* other = section.find(key))
@@ -279,7 +287,7 @@ class Reader {
 
   Json list_item(const Node& item, const Field& field, const std::string& path) {
     if (item.kind != Node::Kind::scalar) {
-      complain(item.place, "'" + path + "' is of the wrong kind", describe_values(field), shown(item));
+      complain(item.place, "'" + path + "' is of the wrong kind", describe_values(field, coordinate_), shown(item));
       return nullptr;
     }
     if (field.kind == Kind::word_list) return word(item, field, path);
@@ -368,7 +376,7 @@ class Reader {
   /// What the registry alone knows: defaults that follow another parameter, bounds between parameters.
   void check_law(const Node& node, const std::string& name, const std::string& path, Json& section) {
     const friction::LawEntry& law = *friction::find_law(name);
-    friction::ParameterValues values = law_values(law.parameters, section);
+    friction::ParameterValues values = law_values(law.parameters, section, coordinate_);
     for (friction::ParameterFault& fault : friction::complete(law, values)) {
       if (fault.is_missing) continue;  // noted already
       const auto place = reading_.places.find(path + "." + fault.name);
@@ -381,6 +389,8 @@ class Reader {
 
   const Document& document_;
   std::string amplitude_unit_ = "m";
+  core::Coordinate coordinate_ = core::Coordinate::displacement;
+  ToldCoordinate told_;
   Reading reading_;
 };
 
@@ -394,11 +404,24 @@ void Reading::complain(const Document& document, Place place, std::string messag
 }
 
 Reading read(const Document& document, const Section& format) {
-  Reader reader(document);
-  Json values = reader.section(document.root(), format, "", nullptr);
-  Reading reading = reader.take();
-  reading.values = std::move(values);
-  return reading;
+  const auto reading_of = [](Reader& reader, Json values) {
+    Reading reading = reader.take();
+    reading.values = std::move(values);
+    return reading;
+  };
+  const std::optional<CoordinateSource> stated = stated_coordinate(document);
+  Reader first(document, stated);
+  Json values = first.section(document.root(), format, "", nullptr);
+  const std::optional<CoordinateSource> told = first.told().first();
+  if (stated || !told || (told->coordinate == core::Coordinate::displacement && !first.told().is_mixed())) {
+    Reading reading = reading_of(first, std::move(values));
+    if (!stated) reading.coordinate = told;
+    return reading;
+  }
+  // Now that the units have told, all quantities are read in it.
+  Reader second(document, told);
+  values = second.section(document.root(), format, "", nullptr);
+  return reading_of(second, std::move(values));
 }
 
 }  // namespace dualdamp::scenarios

@@ -4,12 +4,17 @@
 ///
 /// What comes out is the resolved scenario: SI numbers, defaults filled in, keys in the order of the tables. It is
 /// itself a valid scenario; frequencies keep their unit (`"10 rad/s"`) because the format refuses them without.
+///
+/// `system.coordinate` tells the dimensions of all quantities. Without that key the first quantity does whose unit
+/// fits one kind of coordinate alone; a quantity of the other kind is then refused.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/diagnostics.hpp"
+#include "scenarios/format/coordinate_source.hpp"
 #include "scenarios/format/keys.hpp"
 #include "scenarios/format/tree.hpp"
 
@@ -22,6 +27,8 @@ struct Reading {
   Json values;                          ///< what could be read; faulty values are left out
   std::map<std::string, Place> places;  ///< of each value by path: "system.friction[0].static"
   std::vector<core::Diagnostic> problems;
+  /// By the key `coordinate`, or by the units; nothing where all numbers are bare.
+  std::optional<CoordinateSource> coordinate;
 
   /// Notes a problem, up to `max_reported` of them.
   void complain(const Document& document, Place place, std::string message, std::string allowed = {},

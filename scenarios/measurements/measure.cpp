@@ -267,7 +267,7 @@ void add_sampled_pair(const Pair& exact, const History& history, identify::Recor
 
 sim::Model with_friction_times(double factor, sim::Model model) {
   for (double* part : {&model.oscillator.mass, &model.oscillator.stiffness, &model.oscillator.damping,
-                       &model.oscillator.cubic_stiffness})
+                       &model.oscillator.cubic_stiffness, &model.oscillator.gravity_stiffness})
     *part /= factor;
   sim::Excitation& excitation = model.excitation;
   if (excitation.moves_base()) return model;

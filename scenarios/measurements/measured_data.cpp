@@ -49,6 +49,7 @@ std::optional<fs::path> safe_path(CheckedFile& file, const std::string& name) {
 identify::ReadOptions read_options(const CheckedFile& file, const std::string& name) {
   identify::ReadOptions options;
   options.name = name;
+  options.coordinate = file.coordinate();
   for (const auto& [key, map] :
        {std::pair{"units", &options.units}, {"columns", &options.columns}, {"scale", &options.scales}})
     if (file.has("analysis", key))
@@ -57,6 +58,32 @@ identify::ReadOptions read_options(const CheckedFile& file, const std::string& n
   if (file.has("analysis", "decimal")) options.decimal = file.text_at("analysis", "decimal").front();
   options.no_header = file.has("analysis", "no_header") && file.values().at("analysis").at("no_header").get<bool>();
   return options;
+}
+
+/// What the scenario says of the coordinate, beside the units that are allowed for a column.
+core::InputError with_reason(const core::InputError& fault, const CoordinateSource& source) {
+  std::vector<core::Diagnostic> problems = fault.diagnostics();
+  for (core::Diagnostic& problem : problems)
+    if (problem.message.starts_with("the unit of column")) problem.allowed += "; " + source.reason();
+  return core::InputError(std::move(problems));
+}
+
+/// Where nothing in the scenario tells what the coordinate is, the units of the columns do.
+identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name) {
+  identify::ReadOptions options = read_options(file, name);
+  try {
+    return identify::read_record(path, options);
+  } catch (const core::InputError& fault) {
+    if (file.coordinate_source()) throw with_reason(fault, *file.coordinate_source());
+    options.coordinate = core::Coordinate::angle;
+    try {
+      identify::MeasuredRecord data = identify::read_record(path, options);
+      file.tell_coordinate({options.coordinate, "the units of " + name});
+      return data;
+    } catch (const core::InputError&) {
+      throw fault;
+    }
+  }
 }
 
 /// A text for each column that a data file may hold.
@@ -73,7 +100,7 @@ void refuse_gross_faults(CheckedFile& file, const identify::MeasuredRecord& data
   if (file.has("system", "damper_to") && file.text_at("system", "damper_to") == "base") return;
   const identify::KnownConstants constants{file.number_at("system", "mass").value_or(identify::unknown),
                                            file.number_at("system", "stiffness").value_or(identify::unknown),
-                                           frequency};
+                                           frequency, file.coordinate()};
   file.take_over(identify::gross_faults(data.record, constants, data.assumed, name));
 }
 
@@ -128,7 +155,7 @@ void read_data(CheckedFile& file) {
   if (!path) return;
   take_gain_uncertainties(file);
   try {
-    identify::MeasuredRecord data = identify::read_record(path->string(), read_options(file, name));
+    identify::MeasuredRecord data = read_by_units(file, path->string(), name);
     const Json& analysis = file.values().at("analysis");
     for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
       data.warnings.push_back(std::move(sentence));

@@ -61,10 +61,13 @@ Json decay_json(const identify::DecayFit& decay) {
           {"residuals", finite_or_null(decay.residuals)}};
 }
 
-Json others_json(const std::vector<identify::FurtherParameter>& parameters) {
+Json others_json(const std::vector<identify::FurtherParameter>& parameters,
+                 const identify::KnownConstants& constants) {
   Json list = Json::array();
   for (const identify::FurtherParameter& parameter : parameters) {
-    Json item = {{"name", parameter.name}, {"unit", parameter.unit}, {"value", finite_or_null(parameter.value)}};
+    Json item = {{"name", parameter.name},
+                 {"unit", constants.unit(parameter.unit)},
+                 {"value", finite_or_null(parameter.value)}};
     item["std"] = parameter.std ? finite_or_null(*parameter.std) : Json(nullptr);
     item["interval95"] =
         parameter.interval95
@@ -75,11 +78,12 @@ Json others_json(const std::vector<identify::FurtherParameter>& parameters) {
   return list;
 }
 
-Json candidates_json(const std::vector<identify::LawCandidate>& candidates) {
+Json candidates_json(const std::vector<identify::LawCandidate>& candidates,
+                     const identify::KnownConstants& constants) {
   Json list = Json::array();
   for (const identify::LawCandidate& candidate : candidates)
     list.push_back({{"law", candidate.law},
-                    {"parameters", others_json(candidate.parameters)},
+                    {"parameters", others_json(candidate.parameters, constants)},
                     {"residual_deviation", finite_or_null(candidate.residual_deviation)},
                     {"AICc", finite_or_null(candidate.AICc)},
                     {"BIC", finite_or_null(candidate.BIC)},
@@ -99,7 +103,7 @@ void add_curves(const std::vector<identify::Estimate>& estimates, Answer& answer
   }
 }
 
-Json diagnostics_json(const identify::Estimate& estimate) {
+Json diagnostics_json(const identify::Estimate& estimate, const identify::KnownConstants& constants) {
   Json json;
   json["reason"] = estimate.outcome.ok() ? estimate.reason : estimate.outcome.reason;
   json["used"] = estimate.used;
@@ -118,26 +122,26 @@ Json diagnostics_json(const identify::Estimate& estimate) {
     for (const identify::SubsetFit& subset : estimate.subsets) {
       Json item = {{"label", subset.label}, {"used", subset.used}};
       item.update(parameters_json(subset.value));
-      if (!subset.others.empty()) item["others"] = others_json(subset.others);
+      if (!subset.others.empty()) item["others"] = others_json(subset.others, constants);
       json["subsets"].push_back(std::move(item));
     }
   }
   if (estimate.line) json["line"] = line_json(*estimate.line);
   if (estimate.decay) json["decay"] = decay_json(*estimate.decay);
-  if (!estimate.others.empty()) json["others"] = others_json(estimate.others);
-  if (!estimate.candidates.empty()) json["candidates"] = candidates_json(estimate.candidates);
+  if (!estimate.others.empty()) json["others"] = others_json(estimate.others, constants);
+  if (!estimate.candidates.empty()) json["candidates"] = candidates_json(estimate.candidates, constants);
   json["warnings"] = estimate.warnings;
   return json;
 }
 
-Json estimate_json(const identify::Estimate& estimate) {
+Json estimate_json(const identify::Estimate& estimate, const identify::KnownConstants& constants) {
   const bool exists = estimate.outcome.ok();
   const identify::ParameterSet nothing{none, none, none, none};
   Json json = {{"method", estimate.method}};
   json.update(parameters_json(exists ? estimate.value : nothing));
   json["std"] = exists && estimate.std ? parameters_json(*estimate.std) : Json(nullptr);
   json["interval95"] = exists && estimate.interval95 ? interval_json(*estimate.interval95) : Json(nullptr);
-  json["diagnostics"] = diagnostics_json(estimate);
+  json["diagnostics"] = diagnostics_json(estimate, constants);
   json["usable"] = estimate.usable;
   return json;
 }
@@ -173,7 +177,8 @@ Table estimate_table(const std::vector<identify::Estimate>& estimates) {
 }
 
 /// The same for a terminal: a number with its interval is one text.
-Table readable_estimates(const std::vector<identify::Estimate>& estimates) {
+Table readable_estimates(const std::vector<identify::Estimate>& estimates,
+                         const identify::KnownConstants& constants) {
   using identify::Estimate;
   const auto digits = [](double value, int count) {
     return std::isfinite(value) ? core::format_number(value, count) : std::string("-");
@@ -196,14 +201,14 @@ Table readable_estimates(const std::vector<identify::Estimate>& estimates) {
               {text_column("method", estimates, &Estimate::method),
                text_column("usable", estimates, [](const Estimate& e) { return e.usable ? "yes" : "no"; }),
                text_column("zeta (95 %)", estimates, text(&Set::zeta, &Intervals::zeta)),
-               text_column("c (95 %) [N.s/m]", estimates, text(&Set::c, &Intervals::c)),
-               text_column("F0 (95 %) [N]", estimates, text(&Set::F0, &Intervals::F0))}};
+               text_column("c (95 %) [" + constants.unit("N.s/m") + "]", estimates, text(&Set::c, &Intervals::c)),
+               text_column("F0 (95 %) [" + constants.unit("N") + "]", estimates, text(&Set::F0, &Intervals::F0))}};
   table.is_file = false;
   return table;
 }
 
 /// Further parameters of all estimates for a terminal.
-Table readable_others(const std::vector<identify::Estimate>& estimates) {
+Table readable_others(const std::vector<identify::Estimate>& estimates, const identify::KnownConstants& constants) {
   constexpr int few = 5;
   Table table{"parameters",
               {{.name = "method", .kind = CellKind::text},
@@ -217,7 +222,8 @@ Table readable_others(const std::vector<identify::Estimate>& estimates) {
       if (parameter.interval95)
         value += " (" + core::format_number((*parameter.interval95)[0], few) + " to " +
                  core::format_number((*parameter.interval95)[1], few) + ")";
-      const std::array<std::string, 4> row = {estimate.method, parameter.name, value, parameter.unit};
+      const std::array<std::string, 4> row = {estimate.method, parameter.name, value,
+                                              constants.unit(parameter.unit)};
       for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].texts.push_back(row[i]);
     }
   }
@@ -331,14 +337,15 @@ ResultFields estimate_fields() {
                          {"fit.points[].fitted", "m", "x by the fit"}});
 }
 
-Answer answer_of(const identify::Identification& found, const identify::Record& record) {
+Answer answer_of(const identify::Identification& found, const identify::Record& record,
+                 const identify::KnownConstants& constants) {
   const std::vector<identify::Estimate>& estimates = found.estimates;
   Answer answer;
   Json list = Json::array();
   std::string reasons;
   bool any = false;
   for (const identify::Estimate& estimate : estimates) {
-    list.push_back(estimate_json(estimate));
+    list.push_back(estimate_json(estimate, constants));
     any = any || estimate.outcome.ok();
     if (!estimate.outcome.ok())
       reasons += (reasons.empty() ? "" : "; ") + estimate.method + ": " + estimate.outcome.reason;
@@ -355,8 +362,8 @@ Answer answer_of(const identify::Identification& found, const identify::Record& 
   answer.result["estimates"] = std::move(list);
   answer.result["fit"] = fit_json(found, record);
   add_ledger(found, answer);
-  answer.tables.push_back(readable_estimates(estimates));
-  answer.tables.push_back(readable_others(estimates));
+  answer.tables.push_back(readable_estimates(estimates, constants));
+  answer.tables.push_back(readable_others(estimates, constants));
   answer.tables.push_back(estimate_table(estimates));
   add_curves(estimates, answer);
   return answer;

@@ -11,7 +11,8 @@
 
 namespace dualdamp::scenarios {
 
-[[nodiscard]] Answer answer_of(const identify::Identification& found, const identify::Record& record);
+[[nodiscard]] Answer answer_of(const identify::Identification& found, const identify::Record& record,
+                               const identify::KnownConstants& constants);
 
 /// {zeta, c, x_f, F0}; null where there is none.
 [[nodiscard]] Json parameters_json(const identify::ParameterSet& set);

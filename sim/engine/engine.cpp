@@ -24,8 +24,8 @@ constexpr double margin = 10.0;
 
 /// A position that is far larger than what matters of it to its law is not known well enough: a stiff spring is
 /// then stretched by the rounding of x. That ends the motion.
-core::Outcome check_digits(const friction::Law& law, const friction::Memory& memory, std::size_t index,
-                           double time) {
+core::Outcome check_digits(const friction::Law& law, const friction::Memory& memory, std::size_t index, double time,
+                           core::Coordinate coordinate) {
   if (memory.state.empty() || !law.has_rates()) return {};
   thread_local std::vector<double> sizes;
   sizes.assign(memory.state.size(), 0.0);
@@ -33,12 +33,13 @@ core::Outcome check_digits(const friction::Law& law, const friction::Memory& mem
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     const double excess = std::abs(memory.state[k]) / (most_digits * sizes[k]);
     if (!(excess > 1.0) || !std::isfinite(excess)) continue;
+    const std::string unit = " " + core::unit_for(coordinate, "m");
     const auto number = [](double value) { return core::format_number(value, 3); };
     return {core::OutcomeKind::not_finite,
             "friction law " + std::to_string(index + 1) +
                 " is too stiff for double precision at t = " + number(time) + " s: it yields within " +
-                number(sizes[k]) + " m, at a position of " + number(std::abs(memory.state[k])) +
-                " m; a stiffness " + number(margin * excess) + " times smaller would do"};
+                number(sizes[k]) + unit + ", at a position of " + number(std::abs(memory.state[k])) + unit +
+                "; a stiffness " + number(margin * excess) + " times smaller would do"};
   }
   return {};
 }
@@ -137,7 +138,8 @@ void Engine::jump(std::size_t law, friction::Trigger trigger) {
     model_.friction[law].jump(memories_[law], trigger, now(), direction_);
     jumped(law, before, trigger);
   }
-  const core::Outcome digits = check_digits(model_.friction[law], memories_[law], law, time());
+  const core::Outcome digits =
+      check_digits(model_.friction[law], memories_[law], law, time(), model_.oscillator.coordinate);
   if (!digits.ok()) outcome_ = digits;
 }
 
@@ -186,7 +188,7 @@ bool Engine::comes_to_an_end(bool takes_no_time) {
 }
 
 bool is_exact(const Model& model) {
-  return model.oscillator.cubic_stiffness == 0.0 && model.solver.kind == SolverKind::automatic &&
+  return is_linear(model.oscillator) && model.solver.kind == SolverKind::automatic &&
          std::ranges::all_of(model.friction, [](const friction::Law& law) { return law.is_affine(); });
 }
 

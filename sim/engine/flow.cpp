@@ -106,8 +106,7 @@ double Flow::driving(double x, double v, const Drive::Value& drive) const {
   const Oscillator& o = model_.oscillator;
   const double stretch = drive.y - x;
   const double damper_speed = o.damper_to == DamperTo::base ? drive.y_rate - v : -v;
-  return (o.stiffness + o.cubic_stiffness * stretch * stretch) * stretch + o.damping * damper_speed +
-         drive.external;
+  return spring_force(o, stretch) + o.damping * damper_speed + drive.external;
 }
 
 void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates) const {
@@ -159,7 +158,7 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
   std::ranges::fill(columns, 0.0);
   if (direction_ != Direction::none) {
     const double stretch = drive(t).y - X[0];
-    columns[1] = -(o.stiffness + 3.0 * o.cubic_stiffness * stretch * stretch) / o.mass;
+    columns[1] = -spring_slope(o, stretch) / o.mass;
     columns[size_] = 1.0;
     columns[size_ + 1] = -o.damping / o.mass;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The smooth engine: walks from event to event for laws that are not affine, and with a cubic spring.
+/// The smooth engine: walks from event to event for laws that are not affine, and with a spring that is not linear.
 ///
 /// Between events the motion is integrated with the branch frozen (`flow.hpp`), so that the field is analytic on
 /// every step and a step may overrun the event that ends it. Steps are those of Boost.Odeint's dopri5; once these

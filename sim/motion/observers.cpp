@@ -189,8 +189,7 @@ void Extremes::observe(const Interval& interval) {
 
 double EnergyAudit::stored(const Sample& sample) const {
   const double stretch = sample.y - sample.x;
-  const double hardening = 0.5 * oscillator_.cubic_stiffness * stretch * stretch;
-  return 0.5 * (oscillator_.mass * sample.v * sample.v + (oscillator_.stiffness + hardening) * stretch * stretch);
+  return 0.5 * oscillator_.mass * sample.v * sample.v + spring_energy(oscillator_, stretch);
 }
 
 void EnergyAudit::observe(const Interval& interval) {
@@ -210,8 +209,8 @@ void EnergyAudit::add_by_quadrature(const Interval& interval) {
   quadrature(interval, [&](const Sample& s, double weight) {
     const double damper_speed = damper_moves ? s.v - s.y_rate : s.v;
     const double stretch = s.y - s.x;
-    const double base_force = (oscillator_.stiffness + oscillator_.cubic_stiffness * stretch * stretch) * stretch -
-                              (damper_moves ? oscillator_.damping * damper_speed : 0.0);
+    const double base_force =
+        spring_force(oscillator_, stretch) - (damper_moves ? oscillator_.damping * damper_speed : 0.0);
     input_.add(weight * (base_force * s.y_rate + s.external * s.v));
     friction_.add(weight * s.force * s.v);
     viscous_.add(weight * oscillator_.damping * damper_speed * damper_speed);

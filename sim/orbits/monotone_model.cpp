@@ -51,8 +51,8 @@ bool is_monotone(const Law& law) {
 
 Motions motions_of(const Model& model) {
   const Oscillator& o = model.oscillator;
-  const bool monotone = o.cubic_stiffness == 0.0 && o.stiffness > 0.0 && o.damping >= 0.0 &&
-                        std::ranges::all_of(model.friction, is_monotone);
+  const bool monotone =
+      is_linear(o) && o.stiffness > 0.0 && o.damping >= 0.0 && std::ranges::all_of(model.friction, is_monotone);
   if (!monotone) return Motions::may_part;
   return o.damping > 0.0 ? Motions::meet_sliding : Motions::never_part;
 }

@@ -179,7 +179,8 @@ std::optional<Eigen::Vector3d> refine(const AmplitudeLaw& law, Eigen::Vector3d p
 }
 
 /// Fits, leaves out the pairs that stick at the estimate, and fits again until none does.
-std::optional<Fit> fit_sliding(AmplitudeLaw& law, double unit, Estimate& estimate) {
+std::optional<Fit> fit_sliding(AmplitudeLaw& law, double unit, const KnownConstants& constants,
+                               Estimate& estimate) {
   while (law.rows() >= law.size()) {
     std::optional<Fit> fit = fit_model(law);
     if (!fit) return std::nullopt;
@@ -200,7 +201,7 @@ std::optional<Fit> fit_sliding(AmplitudeLaw& law, double unit, Estimate& estimat
           {datum.number, "the mass sticks: x/x_f = " + core::format_number(datum.x / x_f, 4) + " is not above " +
                              core::format_number(least_ratio, 4) +
                              " (at zeta = " + core::format_number(fit->p[0], 4) +
-                             ", x_f = " + core::format_number(x_f * unit, 4) + " m)"});
+                             ", x_f = " + core::format_number(x_f * unit, 4) + " " + constants.unit("m") + ")"});
     }
     std::ranges::sort(estimate.excluded, {}, &Exclusion::number);
     if (left.size() == law.pairs().size()) return fit;
@@ -343,7 +344,7 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
     refuse(estimate, std::move(fault));
     return estimate;
   }
-  const std::optional<Fit> fit = fit_sliding(law, data->unit, estimate);
+  const std::optional<Fit> fit = fit_sliding(law, data->unit, constants, estimate);
   if (!fit) {
     std::string fault = fault_of(law, estimate.excluded);
     refuse(estimate, fault.empty() ? "no zeta below 0.95 fits the pairs" : std::move(fault));

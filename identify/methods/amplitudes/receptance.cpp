@@ -177,12 +177,13 @@ void list_limacon(const std::vector<Pair>& states, const KnownConstants& constan
   const std::optional<Limacon> own = exact.size() == states.size() ? limacon_of(exact, constants) : std::nullopt;
   constexpr double deviations = 4.0;
   constexpr double fraction = 0.1;
-  if (own &&
-      std::abs(limacon->value.c - own->value.c) > std::max(fraction * own->value.c, deviations * limacon->c_std))
-    estimate.warnings.push_back("the limacon gives c = " + core::format_number(limacon->value.c, 4) +
-                                " N.s/m where the estimate's own would give " +
-                                core::format_number(own->value.c, 4) +
-                                " N.s/m: damping, sticking or the phases are not what the method assumes");
+  if (!own) return;
+  const double expected = own->value.c;
+  if (std::abs(limacon->value.c - expected) <= std::max(fraction * expected, deviations * limacon->c_std)) return;
+  const std::string unit = " " + constants.unit("N.s/m");
+  estimate.warnings.push_back("the limacon gives c = " + core::format_number(limacon->value.c, 4) + unit +
+                              " where the estimate's own would give " + core::format_number(expected, 4) + unit +
+                              ": damping, sticking or the phases are not what the method assumes");
 }
 
 /// A friction that grows with the amplitude adds w^2 X to the imaginary part.

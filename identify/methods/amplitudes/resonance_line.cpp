@@ -132,8 +132,8 @@ std::size_t first_sliding_pair(const ResonanceData& data, const LineFrom& line_f
           {data.pairs[first].number,
            "the mass sticks: x/x_f = " + core::format_number(data.pairs[first].x / friction->x_f, 4) +
                " is not above " + core::format_number(limit, 4) +
-               " (at zeta = " + core::format_number(friction->zeta, 4) +
-               ", x_f = " + core::format_number(friction->x_f * data.unit, 4) + " m)"});
+               " (at zeta = " + core::format_number(friction->zeta, 4) + ", x_f = " +
+               core::format_number(friction->x_f * data.unit, 4) + " " + data.constants.unit("m") + ")"});
     }
     if (first == before) break;
   }

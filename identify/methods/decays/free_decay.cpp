@@ -188,7 +188,8 @@ std::optional<Eigen::Matrix2d> unit_covariance(const DecayModel& model, const So
 }
 
 /// Fits, leaves out extremes that come after the mass has stopped at the estimate, and fits again until none does.
-std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, Estimate& estimate) {
+std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, const KnownConstants& constants,
+                                     Estimate& estimate) {
   while (enough(extremes, zero_offset ? 3 : 4, estimate)) {
     std::optional<Solution> solution = solve(extremes.values, zero_offset);
     if (!solution) {
@@ -205,8 +206,8 @@ std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, Estim
     }
     if (moving == e.size()) return solution;
     cut(extremes, moving,
-        "the mass had stopped: extreme " + std::to_string(moving) +
-            " is within x_f = " + core::format_number(solution->x_f * extremes.unit, 4) + " m of the middle",
+        "the mass had stopped: extreme " + std::to_string(moving) + " is within x_f = " +
+            core::format_number(solution->x_f * extremes.unit, 4) + " " + constants.unit("m") + " of the middle",
         estimate);
   }
   return std::nullopt;
@@ -284,7 +285,7 @@ Estimate free_decay(const Record& record, const KnownConstants& constants, const
   estimate.method = "free_decay";
   std::optional<Extremes> extremes = take_extremes(record, constants, estimate);
   if (!extremes) return estimate;
-  const std::optional<Solution> solution = solve_moving(*extremes, options.zero_offset, estimate);
+  const std::optional<Solution> solution = solve_moving(*extremes, options.zero_offset, constants, estimate);
   if (!solution) return estimate;
   const DecayModel model(extremes->values, options.zero_offset);
   estimate.value = parameters(solution->zeta, solution->x_f * extremes->unit, constants);

@@ -77,7 +77,8 @@ Rows rows_of(const std::vector<NumberedHistory>& histories, const std::vector<Mo
     if (left_out > 0)
       rows.slow.push_back({histories[h].number, std::to_string(left_out) + " of " +
                                                     std::to_string(motion.v.size()) + " samples are slower than " +
-                                                    core::format_number(least_speed, 3) + " m/s"});
+                                                    core::format_number(least_speed, 3) + " " +
+                                                    constants.unit("m/s")});
   }
   rows.columns.conservativeResize(row, Eigen::NoChange);
   rows.target.conservativeResize(row);

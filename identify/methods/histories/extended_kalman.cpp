@@ -245,7 +245,7 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
   if (!fault_of_run(*wider, scales).empty()) wider.reset();
   if (wider)
     estimate.subsets.push_back(
-        {"sign width " + core::format_number(2.0 * width, 3) + " m/s",
+        {"sign width " + core::format_number(2.0 * width, 3) + " " + constants.unit("m/s"),
          static_cast<int>(history->x.size()),
          parameters(ForceParameters{constants.mass, wider->end.state[3], constants.stiffness, wider->end.state[2]}),
          {}});
@@ -254,7 +254,8 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
   judge(run, wider, estimate, faults);
   conclude(estimate, faults,
            "the state after " + std::to_string(history->x.size()) +
-               " samples, sign of the velocity smoothed over " + core::format_number(width, 3) + " m/s");
+               " samples, sign of the velocity smoothed over " + core::format_number(width, 3) + " " +
+               constants.unit("m/s"));
   return estimate;
 }
 

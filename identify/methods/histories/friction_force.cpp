@@ -236,7 +236,8 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
   const SlidingLine line = sliding_line(histories, options);
   if (!line.fit) {
     refuse(estimate, "viscous and Coulomb friction cannot be told apart: the motion has too few samples beyond " +
-                         core::format_number(line.least_speed, 3) + " m/s, or one speed only");
+                         core::format_number(line.least_speed, 3) + " " + constants.unit("m/s") +
+                         ", or one speed only");
     return estimate;
   }
   const Reading own = reading_of(*line.fit, constants);
@@ -264,7 +265,7 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
   judge_loop(estimate);
   conclude(estimate, faults,
            "rests on " + std::to_string(line.rows.target.size()) + " samples faster than " +
-               core::format_number(line.least_speed, 3) + " m/s");
+               core::format_number(line.least_speed, 3) + " " + constants.unit("m/s"));
   return estimate;
 }
 

@@ -43,7 +43,8 @@ Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const 
     std::string place = "points[" + std::to_string(remark.first) + "]";
     for (const Axis& axis : axes) {
       const double value = curve.points[remark.first].*axis.value;
-      place += ", " + axis.name + " = " + core::format_number(value, 6) + " " + axis.unit;
+      place += ", " + axis.name + " = " + core::format_number(value, 6) + " " +
+               core::unit_for(model.oscillator.coordinate, axis.unit);
     }
     answer.warnings.push_back(remark.text + " (" + count + place + ")");
   }
