@@ -132,6 +132,21 @@ class Page(unittest.TestCase):
         self.assertEqual(shown, ["1e+5", "1.2345e+5", "12350", "120", "0", "−0.5", "2.5e-7", "1.2e+6"])
         self.assertEqual(self.ask("formula", "[short(100000), short(320160)]"), ["100000", "320160"])
 
+    def test_an_angle_is_shown_in_radians_and_a_torque_in_newton_metres(self):
+        dom, _ = self.check("torsional_pendulum", 1)
+        self.assertIn("output amplitude x [rad]", dom)
+        self.assertIn("input amplitude Y [rad]", dom)
+        data = self.folder / "decay.csv"
+        data.write_text("x [deg]\n20\n-17.1\n14.4\n-11.9\n9.6\n-7.5\n5.6\n")
+        out = self.folder / "decay"
+        self.run_program("identify", data, "--mass", "0.3 kg.m^2", "--stiffness", "12 N.m/rad", "--out", out, "--quiet")
+        dom, console = self.load(out / "report.html")
+        self.assertEqual(console, [])
+        for text in ("c [N.m.s/rad] (95 %)", "x_f [rad]", "F0 [N.m] (95 %)", "extreme x [rad]"):
+            self.assertIn(text, dom)
+        self.assertIn("x_f [rad],", (out / "estimates.csv").read_text())
+        self.assertIn("F0 [N.m],", (out / "estimates.csv").read_text())
+
     def test_the_labels_of_an_axis_differ(self):
         labels = self.ask("formula", "tickTexts([13.999990, 13.999992, 13.999994, 13.999996])")
         self.assertEqual(labels, ["13.99999", "13.999992", "13.999994", "13.999996"])
