@@ -134,7 +134,7 @@ Eigen::VectorXd rows_of(const Setting& setting, const Decay& decay) {
 
 struct ChannelScale {
   double deviation = 0.0;
-  double freedom = 0.0;
+  double freedom = 0.0;  ///< 0: the channel is exact to rounding and tells of no noise
 };
 
 /// Brings the rows of one channel to unit deviation, which is taken from what its own columns leave.
@@ -147,11 +147,12 @@ ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index c
   const Eigen::VectorXd target = model.residuals.segment(first, count);
   const Eigen::VectorXd left = target - used * pivoted_least_squares(used, target);
   const double freedom = std::max(1.0, static_cast<double>(count - own(used)));
-  const double scale = std::sqrt(std::max(left.squaredNorm() / freedom, 1e-18));
+  constexpr double rounding = 1e-9;
+  const double scale = std::max(std::sqrt(left.squaredNorm() / freedom), rounding);
   model.residuals.segment(first, count) /= scale;
   model.base.middleRows(first, count) /= scale;
   model.relaxed.middleRows(first, count) /= scale;
-  return {scale, freedom};
+  return {scale, scale > rounding ? freedom : 0.0};
 }
 
 void add_readings(JointModel& model, Channel channel, Eigen::Index count, double per_deviation) {
@@ -186,15 +187,17 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
   const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
   model.scale_freedom = amplitudes.freedom;
   add_readings(model, Channel::extreme, setting.count, amplitudes.deviation * setting.unit);
+  model.spent = setting.timed ? 1.0 : 0.0;
   if (setting.timed) {
     const ChannelScale times = scale_channel(model, setting.count, setting.count);
     add_readings(model, Channel::time, setting.count, times.deviation * setting.half_period);
     model.readings.emplace_back();
+    // Two of the columns are of the times alone.
+    if (times.freedom == 0.0) model.spent += static_cast<double>(setting.count - 2);
     model.residuals[2 * setting.count] /= setting.tolerance;
     model.base.bottomRows(1) /= setting.tolerance;
     model.relaxed.bottomRows(1) /= setting.tolerance;
   }
-  model.spent = setting.timed ? 1.0 : 0.0;
   return model;
 }
 
@@ -222,7 +225,7 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
   Decay at = start;
   JointModel model = linearised(setting, measured, at);
   constexpr int steps = 6;
-  for (int i = 0; i < steps && !taken.empty(); ++i) {
+  for (int i = 0; i < steps; ++i) {
     Eigen::MatrixXd columns(model.base.rows(), model.base.cols() + static_cast<Eigen::Index>(taken.size()));
     columns.leftCols(model.base.cols()) = model.base;
     for (std::size_t j = 0; j < taken.size(); ++j)

@@ -15,6 +15,7 @@
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -53,7 +54,8 @@ class Scale {
       : zeta_(std::abs(model.value.zeta)), F0_(std::abs(model.value.F0)) {
     const std::optional<Eigen::MatrixXd> covariance = unit_covariance(model.base);
     if (!covariance || !(freedom > 0.0)) return;
-    const double deviation = std::sqrt(model.residuals.squaredNorm() / std::max(1.0, freedom));
+    const Eigen::VectorXd left = model.residuals - model.base * pivoted_least_squares(model.base, model.residuals);
+    const double deviation = std::sqrt(left.squaredNorm() / std::max(1.0, freedom));
     zeta_ = std::max(zeta_, deviation * std::sqrt((*covariance)(0, 0)));
     F0_ = std::max(F0_, deviation * std::sqrt((*covariance)(1, 1)));
   }

@@ -69,10 +69,16 @@ std::vector<Row> rows() {
 Identification identified(Measured& measured) {
   Record& record = measured.record;
   static_cast<void>(complete(record, measured.constants.frequency));
+  Ledger ledger = ledger_of(record, measured.constants);
   std::vector<Estimate> estimates;
+  // Where it can be used the joint model's own estimate answers: the other methods need not run.
+  if (ledger.joint && ledger.joint->usable && ledger.joint->interval95) {
+    estimates.push_back(*ledger.joint);
+    return concluded(std::move(estimates), std::move(ledger));
+  }
   for (const MethodEntry& method : methods())
     if (method.lacks(record).empty()) estimates.push_back(method.run(record, measured.constants));
-  return concluded(std::move(estimates), ledger_of(record, measured.constants));
+  return concluded(std::move(estimates), std::move(ledger));
 }
 
 bool covers(const std::array<double, 2>& interval, double value) {

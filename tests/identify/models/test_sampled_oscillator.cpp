@@ -1,0 +1,90 @@
+#include "identify/models/sampled_oscillator.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tests/identify/ledger/rig.hpp"
+
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr double rate = 400.0;
+
+Rig rig() {
+  Rig rig;
+  rig.m = 1.3;
+  rig.k = 1600.0;
+  rig.zeta = 0.05;
+  rig.F0 = 2.0;
+  return rig;
+}
+
+double drive(double t) { return 9.0 * std::sin(33.0 * t); }
+
+History history_of(const Motion& motion) {
+  History history;
+  history.sample_rate = rate;
+  history.x = motion.x;
+  history.force = motion.drive;
+  return history;
+}
+
+SampledOscillator::Parameters parameters_of(const Rig& rig) {
+  return {rig.m, 2.0 * rig.zeta * std::sqrt(rig.m * rig.k), rig.k, rig.F0, 0.0, 0.0};
+}
+
+double cubic(const SampledOscillator::Instant& at) { return at.x * at.x * at.x; }
+double drag(const SampledOscillator::Instant& at) { return at.direction * at.v * at.v; }
+double one_sided(const SampledOscillator::Instant& at) { return at.direction > 0.0 ? 1.0 : 0.0; }
+
+}  // namespace
+
+TEST_CASE("A motion under a cubic spring and drag is that of another integrator") {
+  Rig altered = rig();
+  altered.cubic = 0.05;
+  altered.drag = 0.4;
+  altered.V = 0.4;
+  const Motion motion = motion_of(altered, drive, 3.0, rate);
+  const History history = history_of(motion);
+  SampledOscillator::Parameters at = parameters_of(altered);
+  at.further = {altered.k * altered.cubic / (altered.L * altered.L), at.c * altered.drag / altered.V};
+  Eigen::VectorXd x;
+  REQUIRE(SampledOscillator(history).run(at, {}, x, nullptr, nullptr, {cubic, drag}));
+  double largest = 0.0;
+  double off = 0.0;
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    largest = std::max(largest, std::abs(motion.x[i]));
+    off = std::max(off, std::abs(x[static_cast<Eigen::Index>(i)] - motion.x[i]));
+  }
+  CHECK(off < 1e-5 * largest);
+}
+
+TEST_CASE("Derivatives beside forces that act are those of differences") {
+  const Motion motion = motion_of(rig(), drive, 1.5, rate);
+  const History history = history_of(motion);
+  SampledOscillator oscillator(history);
+  const std::vector<SampledOscillator::Force> forces{cubic, drag, one_sided};
+  SampledOscillator::Parameters at = parameters_of(rig());
+  at.further = {2e5, 3.0, 0.3};
+  Eigen::VectorXd x;
+  SampledOscillator::Derivatives derivatives;
+  REQUIRE(oscillator.run(at, {SampledOscillator::By::damping}, x, &derivatives, nullptr, forces));
+  for (std::size_t j = 0; j <= forces.size(); ++j) {
+    CAPTURE(j);
+    const auto moved = [&](double share) {
+      SampledOscillator::Parameters there = at;
+      (j == 0 ? there.c : there.further[j - 1]) *= 1.0 + share;
+      Eigen::VectorXd result;
+      REQUIRE(oscillator.run(there, {}, result, nullptr, nullptr, forces));
+      return result;
+    };
+    const double value = j == 0 ? at.c : at.further[j - 1];
+    const Eigen::VectorXd slope = (moved(1e-4) - moved(-1e-4)) / (2e-4 * value);
+    const auto column = derivatives.x.col(static_cast<Eigen::Index>(j));
+    // The slopes of the forces are taken in the middle of each interval.
+    CHECK((column - slope).norm() < 0.01 * slope.norm());
+  }
+}
