@@ -10,13 +10,12 @@
 #include <span>
 #include <vector>
 
+#include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/history_terms.hpp"
 #include "identify/ledger/innovations.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
 #include "identify/records/derived_records.hpp"
-#include "identify/statistics/autoregression.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
-#include "identify/statistics/noise_level.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -24,42 +23,6 @@ namespace dualdamp::identify {
 namespace {
 
 using By = SampledOscillator::By;
-
-/// Rows of one sensor over all tests: the residual first, then the base columns, then the relaxations.
-struct Channel {
-  Eigen::MatrixXd rows;
-  std::vector<Eigen::Index> blocks;
-  int most_lags = 0;  ///< over which its errors may still be alike
-
-  void add(const Eigen::MatrixXd& more) {
-    blocks.push_back(rows.rows());
-    Eigen::MatrixXd all(rows.rows() + more.rows(), more.cols());
-    if (rows.rows() > 0) all.topRows(rows.rows()) = rows;
-    all.bottomRows(more.rows()) = more;
-    rows = std::move(all);
-  }
-};
-
-double noise_of(const std::vector<double>& signal) {
-  RobustNoiseLevel level;
-  level.add(signal);
-  return level.deviation();
-}
-
-/// Means of `width` rows each; what is left over at the end is dropped.
-Eigen::MatrixXd averaged(const Eigen::MatrixXd& rows, Eigen::Index width) {
-  Eigen::MatrixXd means(rows.rows() / width, rows.cols());
-  for (Eigen::Index i = 0; i < means.rows(); ++i) means.row(i) = rows.middleRows(i * width, width).colwise().mean();
-  return means;
-}
-
-/// d/dt of every column by central differences.
-Eigen::MatrixXd differentiated(const Eigen::MatrixXd& columns, double rate) {
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
-  const Eigen::Index inner = columns.rows() - 2;
-  slopes.middleRows(1, inner) = 0.5 * rate * (columns.bottomRows(inner) - columns.topRows(inner));
-  return slopes;
-}
 
 enum class Sensor { x, v, a };
 
@@ -316,14 +279,17 @@ class Histories {
     const Eigen::VectorXd jerk = differentiated(motion.a, rate);
     if (!history.v.empty()) rows_v = read(Sensor::v, history.v, motion.v, motion.a, jerk, columns_v, columns_a);
     make_innovations(motion.derivatives.steps, noise_[t], rows_x, rows_v);
-    in_x.add(averaged(rows_x, width));
-    if (!history.v.empty()) in_v.add(averaged(rows_v, width));
+    // The same rows in every step of a fit.
+    if (moving_.size() == t) moving_.push_back(moving_rows(history, motion.x, parameters.F0 / parameters.k));
+    const Eigen::Index moving = moving_[t];
+    in_x.add(averaged(rows_x.topRows(moving), width));
+    if (!history.v.empty()) in_v.add(averaged(rows_v.topRows(moving), width));
     if (history.a.empty()) return true;
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(jerk.size());
     Eigen::MatrixXd rows_a = read(Sensor::a, history.a, motion.a, jerk, none, columns_a,
                                   Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
     leave_out_reversals(motion.v, rows_a);
-    in_a.add(averaged(rows_a, width));
+    in_a.add(averaged(rows_a.topRows(moving), width));
     return true;
   }
 
@@ -331,15 +297,6 @@ class Histories {
     Eigen::VectorXd x, v, a;
     SampledOscillator::Derivatives derivatives;
   };
-
-  static void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows) {
-    for (Eigen::Index i = 0; i < v.size(); ++i) {
-      const Eigen::Index first = std::max<Eigen::Index>(0, i - 2);
-      const Eigen::Index last = std::min<Eigen::Index>(v.size() - 1, i + 2);
-      const auto near = v.segment(first, last - first + 1);
-      if (!(near.minCoeff() > 0.0) && !(near.maxCoeff() < 0.0)) rows.row(i).setZero();
-    }
-  }
 
   [[nodiscard]] ReadingNoise noise_levels(const History& history, double k) const {
     // Readings without any noise still round.
@@ -425,19 +382,6 @@ class Histories {
     }
   };
 
-  /// A channel with independent errors of unit variance, by what is left of it beside all columns.
-  [[nodiscard]] static Eigen::MatrixXd made_white(const Channel& channel) {
-    const Eigen::MatrixXd columns = channel.rows.rightCols(channel.rows.cols() - 1);
-    const Eigen::VectorXd target = channel.rows.col(0);
-    const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
-    const auto count = static_cast<double>(left.size());
-    const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
-    const double freedom = std::max(1.0, count - static_cast<double>(columns.cols()));
-    Autoregression errors = autoregression_of(covariances_of(left, channel.blocks, most, freedom), count);
-    errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
-    return whitened(channel.rows, channel.blocks, errors);
-  }
-
   const Record& record_;  // outlives the tests
   KnownConstants constants_;
   ForwardFit fit_;
@@ -448,6 +392,7 @@ class Histories {
   std::vector<Relaxation> relaxations_;
   std::vector<Way> ways_;  ///< of each relaxation
   std::vector<ReadingNoise> noise_;
+  std::vector<Eigen::Index> moving_;
   std::map<std::size_t, std::optional<Place>> freed_;
 };
 

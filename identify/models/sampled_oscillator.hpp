@@ -7,7 +7,8 @@
 /// Reversals, stops and releases are found as roots of that series. The exact engine (`sim/`) knows harmonic drives
 /// and ramps alone; a measured base motion is neither.
 ///
-/// Forces beside these, smooth within an interval, are polynomials along the motion, which is found in three rounds.
+/// Forces beside these, smooth within an interval, are polynomials along the motion, which is found in three
+/// rounds.
 ///
 /// Derivatives S = dx/dp obey  m S'' + c S' + k S = dm-, dc-, dk-, dF0-terms  within an interval. At v = 0 the
 /// acceleration jumps from a- to a+, and S_x+ = S_x-, S_v+ = S_v- a+/a- (filippov1988, leine2004); at a stop S_v =

@@ -1,0 +1,92 @@
+#include "identify/ledger/history_rows.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identify/statistics/autoregression.hpp"
+#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/noise_level.hpp"
+
+namespace dualdamp::identify {
+
+void Channel::add(const Eigen::MatrixXd& more) {
+  blocks.push_back(rows.rows());
+  Eigen::MatrixXd all(rows.rows() + more.rows(), more.cols());
+  if (rows.rows() > 0) all.topRows(rows.rows()) = rows;
+  all.bottomRows(more.rows()) = more;
+  rows = std::move(all);
+}
+
+namespace {
+
+/// Covariances of the errors at lags 0 ... most. What the columns leave of white errors is not white: most columns
+/// swing with the oscillator, and would leave a hole in the spectrum there, that a regression takes for quiet. The
+/// projection H onto the columns is known, and so is what it takes: s^2 sum H_(i,i+lag).
+Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left,
+                                  const std::vector<Eigen::Index>& blocks, int most) {
+  const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns * scale.cwiseInverse().asDiagonal());
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), std::min(qr.rank(), columns.rows()));
+  const auto count = static_cast<double>(left.size());
+  const double freedom = std::max(1.0, count - static_cast<double>(basis.cols()));
+  const double variance = left.squaredNorm() / freedom;
+  Eigen::VectorXd sums = covariances_of(left, blocks, most, 1.0);
+  for (Eigen::Index j = 0; j < basis.cols(); ++j)
+    sums += variance * covariances_of(basis.col(j), blocks, most, 1.0);
+  return sums / (freedom + static_cast<double>(basis.cols()));
+}
+
+}  // namespace
+
+Eigen::MatrixXd made_white(const Channel& channel) {
+  const Eigen::MatrixXd columns = channel.rows.rightCols(channel.rows.cols() - 1);
+  const Eigen::VectorXd target = channel.rows.col(0);
+  const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
+  const auto count = static_cast<double>(left.size());
+  const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
+  Autoregression errors = autoregression_of(error_covariances(columns, left, channel.blocks, most), count);
+  errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
+  return whitened(channel.rows, channel.blocks, errors);
+}
+
+Eigen::MatrixXd averaged(const Eigen::MatrixXd& rows, Eigen::Index width) {
+  Eigen::MatrixXd means(rows.rows() / width, rows.cols());
+  for (Eigen::Index i = 0; i < means.rows(); ++i) means.row(i) = rows.middleRows(i * width, width).colwise().mean();
+  return means;
+}
+
+Eigen::MatrixXd differentiated(const Eigen::MatrixXd& columns, double rate) {
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
+  const Eigen::Index inner = columns.rows() - 2;
+  slopes.middleRows(1, inner) = 0.5 * rate * (columns.bottomRows(inner) - columns.topRows(inner));
+  return slopes;
+}
+
+void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows) {
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    const Eigen::Index first = std::max<Eigen::Index>(0, i - 2);
+    const Eigen::Index last = std::min<Eigen::Index>(v.size() - 1, i + 2);
+    const auto near = v.segment(first, last - first + 1);
+    if (!(near.minCoeff() > 0.0) && !(near.maxCoeff() < 0.0)) rows.row(i).setZero();
+  }
+}
+
+Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, double x_f) {
+  if (!history.y.empty() || !history.force.empty()) return x.size();
+  constexpr double least = 3.0;
+  Eigen::Index last = x.size();
+  while (last > 0 && !(std::abs(x[last - 1]) > least * x_f)) --last;
+  // A vibration that is small from the start is all there is.
+  return last < x.size() / 8 ? x.size() : last;
+}
+
+double noise_of(const std::vector<double>& signal) {
+  RobustNoiseLevel level;
+  level.add(signal);
+  return level.deviation();
+}
+
+}  // namespace dualdamp::identify
