@@ -166,8 +166,26 @@ Direction ExactEngine::leaves_limit(double tolerance) {
     limit_guard(pull, friction::sign(candidate), guard);
     if (core::germ(mode_->basis(), guard, tolerance).sign < 0) direction = candidate;
   }
+  if (direction == Direction::none && !can_stick_) direction = moved_later(pull, tolerance);
   mode_ = present;
   return direction;
+}
+
+/// Without a law that holds it a mass rests only where nothing ever moves it. Beside a fast decay the Taylor
+/// coefficients of a slow drive are within rounding; what the pull does after longer and longer times is not.
+Direction ExactEngine::moved_later(const ModeFunction& pull, double tolerance) const {
+  constexpr int doublings = 60;
+  const core::ExponentialBasis& basis = mode_->basis();
+  double s = basis.fastest() > 0.0 ? 1.0 / basis.fastest() : 1.0;
+  for (int i = 0; i < doublings; ++i, s *= 2.0) {
+    core::ExponentialBasis::Values values;
+    basis.evaluate(s, values);
+    const double later = core::evaluate(basis, pull, values);
+    if (!std::isfinite(later)) break;
+    const double known = rounding * core::bound(basis, pull, values, s, 0.0) + tolerance;
+    if (std::abs(later) > known) return later > 0.0 ? Direction::forward : Direction::backward;
+  }
+  return Direction::none;
 }
 
 void ExactEngine::jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) {

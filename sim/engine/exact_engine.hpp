@@ -99,6 +99,7 @@ class ExactEngine final : public Engine {
   void leave_range();
   void settle() override;
   friction::Direction leaves_limit(double tolerance);
+  [[nodiscard]] friction::Direction moved_later(const core::ModeFunction& pull, double tolerance) const;
   [[nodiscard]] double pull_now() const;
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
   void track_begin(const friction::Instant& begin, bool at_once);

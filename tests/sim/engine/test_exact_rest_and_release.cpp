@@ -223,3 +223,23 @@ TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and st
     }
   }
 }
+
+TEST_CASE("A mass that no law holds moves on where a slow drive turns beside a fast decay", "[exact]") {
+  // On a contact far stiffer than the spring and under a heavy damper the mass follows the drive and turns where
+  // the drive does. There the Taylor coefficients of the pull, in units of the fastest decay, are within rounding
+  // of kt x; the mass was taken to rest for ever.
+  for (const double damping : {24.0, 240.0, 2400.0}) {
+    Model model = base_driven(0.18, 0.009, damping, 2.8e-3, 1.2);
+    model.friction.push_back(friction::Law(friction::ContactCompliance(1e-3, 1e-3, 5.5e5, 0.0)));
+    model.initial.position = -0.013;
+    CAPTURE(damping);
+    ExactEngine engine(model);
+    const auto events = events_of(engine, 60.0);
+    // Twice in a period of 5.24 s.
+    const auto late = std::count_if(events.begin(), events.end(), [](const Event& event) {
+      return event.t > 8.0 && event.kind == EventKind::reversal;
+    });
+    CHECK(late >= 18);
+    CHECK(late <= 22);
+  }
+}
