@@ -55,6 +55,9 @@ class Engine {
   [[nodiscard]] friction::Direction direction() const { return direction_; }
   [[nodiscard]] virtual State state() const;
   [[nodiscard]] const core::SearchCount& count() const { return count_; }
+  /// What all motions have cost so far, in units of 0.3 to 2 us: the same on every machine. Searches for events,
+  /// their panels and splits; of the smooth engine also what its steps take, accepted or not.
+  [[nodiscard]] virtual long work() const { return count_.searches + count_.panels + count_.splits; }
   /// Tangencies within the last interval.
   [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
   /// Forcing period [s], or the cell of a noise; else infinite.

@@ -88,6 +88,7 @@ Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const 
 }
 
 double Flow::respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const {
+  ++responses_;
   return model_.friction[i].respond(memory(i, X), instant(i, X, t), direction_, rates);
 }
 

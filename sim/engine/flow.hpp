@@ -41,6 +41,9 @@ class Flow final : public VectorField {
   void evaluate(std::span<const double> X, double t, std::span<double> rates) const override;
   void jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
 
+  /// How often a law has been asked so far.
+  [[nodiscard]] long responses() const { return responses_; }
+
   /// Size of every component: those set, and what the laws say of their states.
   [[nodiscard]] std::span<const double> scales() const { return scales_; }
 
@@ -83,6 +86,7 @@ class Flow final : public VectorField {
   std::vector<char> silent_;        ///< laws that hold the mass
   std::vector<double> own_scales_;  ///< 0 for positions
   std::vector<double> scales_;
+  mutable long responses_ = 0;
   // Scratch: laws take their memories as they are kept, with the states of X put in.
   mutable std::vector<friction::Memory> memories_;
   mutable std::vector<double> displaced_;

@@ -89,6 +89,11 @@ State SmoothEngine::state() const {
   return state;
 }
 
+long SmoothEngine::work() const {
+  constexpr long responses_in_unit = 8;
+  return Engine::work() + (flow_.responses() + judge_.responses()) / responses_in_unit + variation_work_;
+}
+
 void SmoothEngine::begin_motion() {
   drive_.reset(0.0);
   past_.clear(v_, reach_);
@@ -220,7 +225,7 @@ void SmoothEngine::notice_stiffness() {
   stiff_steps_ = stepper_->stiffness() > stiff ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
 }
 
-/// False, with an outcome, when the motion takes more steps than anybody waits for.
+/// False, with an outcome, when the motion takes more steps than anybody waits for; rejected ones count.
 bool SmoothEngine::makes_headway() {
   if (time() >= counted_to_) {
     counted_to_ = time() + shortest_period();
@@ -235,7 +240,6 @@ bool SmoothEngine::makes_headway() {
 
 /// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
 bool SmoothEngine::advance(double left) {
-  if (!makes_headway()) return false;
   const bool hold_off = h_ == 0.0 && !is_implicit_ && begins_stiff();
   if ((hold_off || stiff_steps_ > stiff_enough) && use_implicit_steps()) h_ = 0.0;
   if (h_ == 0.0) h_ = first_step();
@@ -243,6 +247,7 @@ bool SmoothEngine::advance(double left) {
   const double longest = longest_step();
   bool rejected = false;
   for (int i = 0; i < max_rejections; ++i) {
+    if (!makes_headway()) return false;
     double h = std::min(h_, longest);
     // No tiny step is left over at the end.
     if (1.01 * h >= left) {

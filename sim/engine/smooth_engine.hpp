@@ -38,6 +38,7 @@ class SmoothEngine final : public Engine {
   ~SmoothEngine() override;
 
   [[nodiscard]] double accuracy() const override { return 10.0 * model_.solver.tolerance; }
+  [[nodiscard]] long work() const override;
   [[nodiscard]] bool has_past() const override { return reach_ > 0.0; }
   [[nodiscard]] State state() const override;
 
@@ -145,6 +146,7 @@ class SmoothEngine final : public Engine {
   bool follows_event_ = false;
   std::unique_ptr<Variation> variation_;
   std::size_t variation_size_ = 0;
+  long variation_work_ = 0;
   std::unique_ptr<StepInterval> interval_;
 };
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/engine/radau_collocation.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/engine/variation.hpp"
 
@@ -31,6 +32,9 @@ constexpr double near_stop = 1e-3;
 
 /// Part of the shortest period over which the field's change with time is a difference.
 constexpr double part_for_rate = 1e-6;
+
+/// Operations of LU factors in a unit of work.
+constexpr long operations_in_unit = 4000;
 
 Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
@@ -73,6 +77,8 @@ void SmoothEngine::track_step() {
   const auto size = static_cast<std::size_t>(columns_.rows());
   if (variation_size_ != size) variation_ = make_variation(size);
   variation_size_ = size;
+  const long rows = RadauCollocation::stages * columns_.rows();
+  variation_work_ += rows * rows * rows / operations_in_unit;
   Eigen::VectorXd late(columns_.rows());
   const TakenStep step{*stepper_, local_time_, taken_, part_for_rate * shortest_period()};
   if (!variation_->pass(flow_, step, {columns_.data(), static_cast<std::size_t>(columns_.size())},

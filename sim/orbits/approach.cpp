@@ -48,8 +48,11 @@ Approach::Approach(const Model& model, const SteadyStateOptions& options, Period
       recurrence_(omega_),
       growth_(options.max_periods),
       patience_(patience_with(map.engine().accuracy())),
+      begun_at_(map.engine().work()),
       next_trial_(first_trial) {
   solver_.limit(patience_.work);
+  // A single period may take half as much again.
+  map_.limit(begun_at_ + patience_.work + patience_.work / 2);
   level_.fill(near_longer_orbit);
   level_[1] = near_orbit;
 }
@@ -65,7 +68,7 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
     recurrence_.add(period.end, period.size);
     orbit = look(period, result);
     if (orbit || growth_.is_endless() || passed_ >= options_.max_periods || divergence_ > diverging) break;
-    if (work_done() >= patience_.work) break;
+    if (is_followed_enough()) break;
     period = map_.next(Monodromy::without);
   }
   if (!orbit && map_.outcome().ok()) orbit = nearly_there(result);
@@ -93,12 +96,12 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
   return std::nullopt;
 }
 
-/// By the motion, and by all attempts to find an orbit beside it.
-long Approach::work_done() const { return work(map_.engine().count()) + work(solver_.count()); }
+/// The motion has had its share; attempts to find an orbit beside it have their own.
+bool Approach::is_followed_enough() const { return map_.engine().work() - begun_at_ >= patience_.work; }
 
 bool Approach::is_time_to_tell() const {
   if (is_told_ || has_past_) return false;
-  return passed_ >= patience_.periods || work_done() >= patience_.work / 2;
+  return passed_ >= patience_.periods || is_followed_enough();
 }
 
 /// The motion has come back to rounding; after one forcing period whether the orbit attracts is not asked.
@@ -177,14 +180,14 @@ std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
 
 /// Mean logarithmic growth of a perturbation in one forcing period: the largest Lyapunov exponent, nearly.
 double Approach::divergence(const State& state) {
-  PeriodMap& map = solver_.map_over(1);
+  PeriodMap& map = solver_.patient_map_over(1);
+  map.limit(map.engine().work() + patience_.work / 4);
   ForcingPeriod period = map.from(state, Monodromy::with);
   Eigen::VectorXd perturbation = Eigen::VectorXd::Ones(period.monodromy.cols());
   perturbation[1] = omega_;
   double sum = 0.0;
   int count = 0;
-  const long limit = work_done() + patience_.work / 8;  // with derivatives a step takes several times as long
-  while (count < periods_of_divergence && map.outcome().ok() && work_done() < limit) {
+  while (count < periods_of_divergence && map.outcome().ok()) {
     if (period.monodromy.cols() != perturbation.size() || !period.monodromy.allFinite()) return 0.0;
     const auto size = [&](const Eigen::VectorXd& d) { return std::hypot(d[0], d[1] / omega_); };
     const Eigen::VectorXd grown = period.monodromy * perturbation;
@@ -214,7 +217,7 @@ core::Outcome Approach::failure() const {
         "no steady state found: there is one, but the motion creeps towards it too slowly, or it moves the mass by "
         "hardly more than rounding"};
   }
-  if (work_done() >= patience_.work) {
+  if (is_followed_enough()) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state found: the motion from the initial state has not become periodic within " +
                 std::to_string(passed_) +

@@ -46,7 +46,7 @@ class Approach {
   [[nodiscard]] Orbit at_start(const Candidate& candidate);
   [[nodiscard]] std::optional<Orbit> nearly_there(SteadyState& result);
   [[nodiscard]] double divergence(const State& state);
-  [[nodiscard]] long work_done() const;
+  [[nodiscard]] bool is_followed_enough() const;
   [[nodiscard]] bool is_time_to_tell() const;
   [[nodiscard]] core::Outcome failure() const;
 
@@ -65,6 +65,7 @@ class Approach {
   std::vector<Orbit> others_;
   long passed_ = 0;  ///< forcing periods since the start
   Patience patience_;
+  long begun_at_;        ///< work of the engine before
   long next_trial_ = 0;  ///< when Newton's method is tried whatever the closure
   double divergence_ = 0.0;
   bool is_told_ = false;  ///< divergence_ was asked for

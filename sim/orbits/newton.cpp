@@ -3,8 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "sim/orbits/patience.hpp"
-
 namespace dualdamp::sim {
 
 double correction_left(const ForcingPeriod& period, double omega) {
@@ -16,7 +14,7 @@ double correction_left(const ForcingPeriod& period, double omega) {
 NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPeriod& period) {
   NewtonResult result;
   while (map.outcome().ok() && result.steps < options.most_steps &&
-         result.transient_periods <= options.most_transients && work(map.engine().count()) < options.most_work) {
+         result.transient_periods <= options.most_transients) {
     const double closure = period.closure(options.omega);
     if (closure <= options.tolerance) {
       result.found = true;

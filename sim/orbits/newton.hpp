@@ -1,8 +1,6 @@
 #pragma once
 /// Newton's method on the period map: end = begin.
 
-#include <limits>
-
 #include "sim/orbits/period_map.hpp"
 
 namespace dualdamp::sim {
@@ -13,8 +11,6 @@ struct NewtonOptions {
   double rounding = 0.0;   ///< closure that counts when corrections have sunk into rounding
   int most_steps = 60;
   int most_transients = 60;  ///< periods of transient in place of steps that do not help
-  /// Work (`patience.hpp`) that the map may have done at most before another period.
-  long most_work = std::numeric_limits<long>::max();
 };
 
 struct NewtonResult {

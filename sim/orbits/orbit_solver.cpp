@@ -1,6 +1,5 @@
 #include "sim/orbits/orbit_solver.hpp"
 
-#include "sim/orbits/patience.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {
@@ -15,10 +14,13 @@ OrbitSolver::OrbitSolver(const Model& model, double tolerance, double rounding)
 
 PeriodMap& OrbitSolver::map_over(int periods) {
   if (!map_ || map_->periods() != periods) {
-    if (map_) searched_ += map_->engine().count();
+    if (map_) {
+      searched_ += map_->engine().count();
+      work_ += map_->engine().work();
+    }
     map_ = std::make_unique<PeriodMap>(model_, periods);
   }
-  map_->limit(most_work_ - work(searched_));
+  map_->limit(most_work_ - work_);
   return *map_;
 }
 
@@ -36,8 +38,7 @@ core::SearchCount OrbitSolver::count() const {
 
 std::optional<Orbit> OrbitSolver::attracting(const State& state, int periods) {
   PeriodMap& map = map_over(periods);
-  if (work(count()) >= most_work_) return std::nullopt;
-  options_.most_work = most_work_ - work(searched_);
+  if (work_ + map.engine().work() >= most_work_) return std::nullopt;
   Orbit orbit{map.from(state, Monodromy::with), periods};
   const NewtonResult newton = close_orbit(map, options_, orbit.period);
   newton_steps_ += newton.steps;

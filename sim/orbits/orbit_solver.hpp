@@ -40,7 +40,7 @@ class OrbitSolver {
 
   [[nodiscard]] int newton_steps() const { return newton_steps_; }
   [[nodiscard]] core::SearchCount count() const;
-  /// How much work (`patience.hpp`) there may be all in all; beyond it no orbit is found.
+  /// How much work (`Engine::work`) there may be all in all; beyond it no orbit is found.
   void limit(long work) { most_work_ = work; }
 
  private:
@@ -50,6 +50,7 @@ class OrbitSolver {
   NewtonOptions options_;
   std::unique_ptr<PeriodMap> map_;
   core::SearchCount searched_;  ///< by maps that are gone
+  long work_ = 0;               ///< of maps that are gone
   int newton_steps_ = 0;
   long most_work_ = std::numeric_limits<long>::max();
 };

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/orbits/patience.hpp"
-
 namespace dualdamp::sim {
 
 using friction::Direction;
@@ -78,7 +76,7 @@ ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
   const long last = engine_->periods_passed() + periods_;
   exhausted_ = {};
   while (engine_->periods_passed() < last) {
-    if (work(engine_->count()) > most_work_) {
+    if (engine_->work() > most_work_) {
       exhausted_ = {
           core::OutcomeKind::event_limit,
           "no steady state found: a forcing period has so many events or steps that it is followed no longer"};

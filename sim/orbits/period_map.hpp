@@ -72,7 +72,7 @@ class PeriodMap {
 
   /// Of the engine, or that the map has done more work than it may.
   [[nodiscard]] const core::Outcome& outcome() const { return exhausted_.ok() ? engine_->outcome() : exhausted_; }
-  /// How much work (`patience.hpp`) the engine may have done in all; a period during which it does more is not
+  /// How much work (`Engine::work`) the engine may have done in all; a period during which it does more is not
   /// followed to its end.
   void limit(long work) { most_work_ = work; }
   [[nodiscard]] Engine& engine() { return *engine_; }

@@ -107,10 +107,8 @@ State OrbitFinder::after_transient(double x, double v, SteadyState& result) {
 }
 
 std::optional<Orbit> OrbitFinder::only_orbit_from(const State& start, SteadyState& result) {
-  const NewtonOptions newton{.omega = model_.excitation.frequency,
-                             .tolerance = options_.tolerance,
-                             .rounding = rounding_closure_,
-                             .most_work = patience_with(map_.engine().accuracy()).work};
+  const NewtonOptions newton{
+      .omega = model_.excitation.frequency, .tolerance = options_.tolerance, .rounding = rounding_closure_};
   ForcingPeriod period = map_.from(start, Monodromy::with, account_ ? &*account_ : nullptr);
   const NewtonResult closed = close_orbit(map_, newton, period);
   result.newton_steps += closed.steps;

@@ -21,7 +21,7 @@ struct TransientOptions {
   int max_periods = 2000;  ///< forcing periods
   int period_ratio = 1;    ///< forcing periods after which the motion is expected to repeat itself
   double settled = 1e-9;   ///< relative to the size of the motion
-  long most_work = std::numeric_limits<long>::max();  ///< `patience.hpp`
+  long most_work = std::numeric_limits<long>::max();  ///< `Engine::work`
   std::function<bool()> give_up{};                    ///< asked after every period; may be absent
 };
 

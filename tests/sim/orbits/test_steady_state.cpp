@@ -311,3 +311,17 @@ TEST_CASE(
              Catch::Contains("within " + std::to_string(state.transient_periods) + " forcing periods"));
   CHECK(state.certificate.panels < 6'000'000);
 }
+
+TEST_CASE("a search whose panels are split thousands of times each ends too") {
+  // 150 searches took 0.6 s: a mass that rings on a stiff contact for a hundred thousand cycles in a period.
+  sim::Model model;
+  model.oscillator = {.mass = 0.0034313611325045286, .stiffness = 0.05705331160642706, .damping = 0.00028};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.55, .frequency = 0.00874825766303915};
+  model.friction = {friction::Law(
+      friction::ContactCompliance(0.0676619972434493, 0.0676619972434493, 261671.28568546916, 4.7e-8))};
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE_FALSE(state.outcome.ok());
+  CHECK_THAT(state.outcome.reason, Catch::Contains("followed no longer"));
+  CHECK(state.certificate.splits < 10'000'000);
+}
