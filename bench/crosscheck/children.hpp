@@ -11,7 +11,7 @@ namespace dualdamp::crosscheck {
 struct Limits {
   int jobs = 1;                                ///< processes at a time
   int processor_seconds = 10;                  ///< of one case
-  int wall_seconds = 120;                      ///< of one case: it may wait for locks or for a busy machine
+  int wall_seconds = 600;                      ///< of one case: it may wait for locks or for a busy machine
   std::size_t memory = std::size_t{4} << 30U;  ///< bytes
 };
 

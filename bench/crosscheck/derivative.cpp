@@ -57,7 +57,10 @@ class Quotients {
     const ForcingPeriod below = map_.from(sim::displaced(state_, -change), sim::Monodromy::without, &below_events);
     if (!above_ok || !map_.outcome().ok()) return {};
     if (!sim::same_mode(above.end, below.end) || !sim::same_mode(above.end, period_.end)) return {};
-    return {(sim::coordinates(above.end) - sim::coordinates(below.end)) / (2.0 * step),
+    // A slider far from zero is moved by what rounding leaves of the step.
+    const double taken = sim::coordinates(above.begin)[coordinate] - sim::coordinates(below.begin)[coordinate];
+    if (taken == 0.0) return {};
+    return {(sim::coordinates(above.end) - sim::coordinates(below.end)) / taken,
             above_events.sequence() == events_.sequence() && below_events.sequence() == events_.sequence()};
   }
 

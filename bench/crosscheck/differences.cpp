@@ -46,7 +46,7 @@ Sizes sizes(const Walk& walk) {
         v = std::max(v, walk.pieces[piece].speed);
     }
     result.x[i] = x;
-    result.v[i] = v;
+    result.v[i] = std::max(v, walk.slowest * x);
   }
   return result;
 }

@@ -35,7 +35,9 @@ double largest_multiplier(const sim::SteadyState& state) {
 
 Finding compare_transient(const sim::SteadyState& state, const sim::Transient& motion) {
   const std::string name = "steady state against transient";
-  if (!motion.outcome.ok()) return {name, Verdict::refused, 0.0, "transient: " + motion.outcome.reason};
+  const bool is_cut = motion.outcome.kind == core::OutcomeKind::event_limit;
+  if (!motion.outcome.ok() && (!is_cut || !state.outcome.ok()))
+    return {name, Verdict::refused, 0.0, "transient: " + motion.outcome.reason};
   if (!state.outcome.ok()) {
     if (motion.settled)
       return {name, Verdict::disagree, 0.0,

@@ -5,8 +5,8 @@
 
 namespace dualdamp::crosscheck {
 
-/// Work (`sim/orbits/patience.hpp`) of a transient, and of the periods of a difference quotient: about 2 s.
-inline constexpr long most_work = 500'000;
+/// Work (`sim::Engine::work`) of a transient, and of the periods of a difference quotient: about half a second.
+inline constexpr long most_work = 600'000;
 
 /// From its construction on, in processor time; what takes longer is not compared.
 class Patience {

@@ -10,23 +10,30 @@ namespace dualdamp::crosscheck {
 
 namespace {
 
-/// Energy that went to and fro: what rounding of the account is measured by.
-double exchanged(const sim::Model& model, const Walk& walk) {
-  const sim::Oscillator& o = model.oscillator;
+/// The largest of what the energy is made of, at samples and at the ends of intervals: a walk that ends early may
+/// have no sample.
+struct Extent {
   double x = 0.0;
   double v = 0.0;
   double y = 0.0;
   double f = 0.0;
-  for (const sim::Sample& sample : walk.samples) {
+
+  void add(const sim::Sample& sample) {
     x = std::max(x, std::abs(sample.x));
     v = std::max(v, std::abs(sample.v));
     y = std::max(y, std::abs(sample.y));
     f = std::max(f, std::abs(sample.external));
   }
-  const double extent = x + y;
+};
+
+/// Energy that went to and fro: what rounding of the account is measured by.
+double exchanged(const sim::Model& model, const Walk& walk, Extent size) {
+  const sim::Oscillator& o = model.oscillator;
+  for (const sim::Sample& sample : walk.samples) size.add(sample);
+  const double extent = size.x + size.y;
   const double events = static_cast<double>(walk.events.size()) + 1.0;
-  const double stored = o.mass * v * v + o.stiffness * extent * extent +
-                        std::abs(o.cubic_stiffness) * extent * extent * extent * extent + f * x;
+  const double stored = o.mass * size.v * size.v + o.stiffness * extent * extent +
+                        std::abs(o.cubic_stiffness) * extent * extent * extent * extent + size.f * size.x;
   return stored * events + std::abs(walk.energy.input) + std::abs(walk.energy.friction) +
          std::abs(walk.energy.viscous);
 }
@@ -73,26 +80,34 @@ Walk walk(const sim::Model& model, const WalkOptions& options) {
   Walk result;
   const std::unique_ptr<sim::Engine> engine = sim::make_engine(model);
   sim::EnergyAudit audit(model.oscillator);
+  Extent size;
   const double spacing = options.duration / walk_samples;
   const int pieces = engine->accuracy() > 0.0 ? 1 : 8;
-  long intervals = 0;
   while (const sim::Interval* interval = engine->next(options.duration)) {
-    if (options.with_energy) audit.observe(*interval);
+    if (options.with_energy) {
+      audit.observe(*interval);
+      size.add(interval->at(0.0));
+      size.add(interval->at(interval->duration));
+    }
     take_samples(*interval, spacing, result.samples);
     cut(*interval, pieces, result.pieces);
     result.end = interval->end();
     if (interval->ending)
       result.events.push_back({interval->end(), *interval->ending, engine->position(), engine->velocity()});
-    if (++intervals >= options.max_intervals) {
+    if (engine->work() >= options.most_work) {
       result.ended_early = true;
       break;
     }
   }
   result.outcome = engine->outcome();
+  // Velocities are known to the tolerance of the natural frequency times x, of which 1e-4 make 1e-7.
+  if (engine->accuracy() > 0.0) result.slowest = 1e-4 * sim::natural_frequency(model.oscillator);
   result.finite = all_finite(result);
   if (options.with_energy) {
     result.energy = audit.account();
-    result.energy_scale = exchanged(model, result);
+    result.energy_scale = exchanged(model, result, size);
+    const double force = model.oscillator.stiffness * size.y + size.f;
+    result.drive_energy = force * force / model.oscillator.stiffness;
   }
   return result;
 }

@@ -11,8 +11,9 @@ namespace dualdamp::crosscheck {
 
 struct WalkOptions {
   double duration = 0.0;  ///< s
-  /// A walk of more intervals ends early; so a stiff motion costs a bounded time, the same on every machine.
-  long max_intervals = 20'000;
+  /// A walk that takes more (`sim::Engine::work`) ends early; so a stiff motion costs a bounded time, the same on
+  /// every machine.
+  long most_work = 150'000;
   bool with_energy = false;
 };
 
@@ -27,14 +28,16 @@ struct Piece {
 
 struct Walk {
   core::Outcome outcome;
-  bool ended_early = false;  ///< by the number of intervals
+  bool ended_early = false;  ///< by its work
   double end = 0.0;          ///< where it ends [s]
   std::vector<sim::Event> events;
   std::vector<sim::Sample> samples;  ///< at duration/walk_samples, ...
   std::vector<Piece> pieces;         ///< without gaps from t = 0 on
   sim::Energy energy;
   double energy_scale = 0.0;  ///< sum of the moduli of all that was exchanged [J]
+  double drive_energy = 0.0;  ///< what the largest force of the drive would store in the spring [J]
   bool finite = true;         ///< every event and sample is
+  double slowest = 0.0;  ///< a speed over the size of x that the engine resolves no better [1/s]; 0: to rounding
 };
 
 /// Whether |v| <= `speed` throughout, as far as the pieces show it.
