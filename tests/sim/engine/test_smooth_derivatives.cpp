@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sim/orbits/period_map.hpp"
 #include "tests/support/make_law.hpp"
@@ -97,4 +98,31 @@ TEST_CASE("smooth engine: a perturbation that decays within one explicit step is
   const ForcingPeriod period = third_period(map, 0.00154, -0.0143);
   REQUIRE(period.monodromy.rows() == 3);
   CHECK(std::abs(period.monodromy(2, 2)) < 1e-9);
+}
+
+TEST_CASE("smooth engine: springs under a force limit that vanished and comes back are those of no stretch",
+          "[sim][smooth][derivative]") {
+  // Where the limit vanishes the rate of a spring's force is 0/0; what was left of its derivative came back with
+  // the limit, and the monodromy matrix was 5 % off.
+  sim::Model model;
+  model.oscillator = {.mass = 0.0555, .stiffness = 4.224, .damping = 0.0019};
+  model.excitation = {
+      .type = sim::ExcitationType::force_harmonic, .amplitude = 0.014946, .frequency = 2.4473, .phase = 4.834};
+  const std::vector<ParameterValues> elements = {{{"stiffness", 100.67}, {"share", 1.0}}};
+  add_law(model, "generalized_maxwell_slip",
+          {{"kinetic", 0.0013},
+           {"stribeck_velocity", 0.002208},
+           {"elements", elements},
+           {"attraction", 0.01587},
+           {"position_slope", -2.666}});
+  add_law(model, "reset_integrator", {{"kinetic", 0.001454}, {"stiffness", 9295.0}, {"static_gain", 0.743}});
+  sim::PeriodMap map(model);
+  const ForcingPeriod period = third_period(map, -0.0004, 0.0231);
+  for (const Eigen::Index j : {0, 1}) {
+    const double step = 1e-6 * period.size * (j == 0 ? 1.0 : 8.7);
+    const Eigen::VectorXd expected = quotient(map, period, j, step);
+    REQUIRE(expected.size() == period.monodromy.rows());
+    CAPTURE(j, period.monodromy.col(j).transpose(), expected.transpose());
+    CHECK((period.monodromy.col(j) - expected).head(2).norm() < 1e-3 * expected.head(2).norm());
+  }
 }
