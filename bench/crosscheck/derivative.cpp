@@ -18,6 +18,10 @@ using sim::State;
 
 /// Relative to the column, or to 1 where it is smaller: what a central difference knows at its best step.
 constexpr double tolerance = 1e-4;
+/// A larger difference of the one-sided quotients is a corner.
+constexpr double most_bend = 1e-2;
+/// At smaller steps, as parts of the size, the corner is at this state.
+constexpr double nearby = 2e-5;
 
 /// The size of every coordinate: those of the motion where a law states none.
 Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length, double omega) {
@@ -33,6 +37,7 @@ Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length
 
 struct Quotient {
   Eigen::VectorXd column;
+  Eigen::VectorXd bend;  ///< difference of the one-sided quotients
   bool same_sequence = false;
 };
 
@@ -60,7 +65,9 @@ class Quotients {
     // A slider far from zero is moved by what rounding leaves of the step.
     const double taken = sim::coordinates(above.begin)[coordinate] - sim::coordinates(below.begin)[coordinate];
     if (taken == 0.0) return {};
-    return {(sim::coordinates(above.end) - sim::coordinates(below.end)) / taken,
+    const Eigen::VectorXd upper = sim::coordinates(above.end);
+    const Eigen::VectorXd lower = sim::coordinates(below.end);
+    return {(upper - lower) / taken, (upper + lower - 2.0 * sim::coordinates(period_.end)) / (0.5 * taken),
             above_events.sequence() == events_.sequence() && below_events.sequence() == events_.sequence()};
   }
 
@@ -74,6 +81,7 @@ class Quotients {
 struct Nearest {
   Eigen::VectorXd column;
   double error = std::numeric_limits<double>::infinity();  ///< relative to the column; infinite: none was found
+  bool is_bent = false;                                    ///< one-sided quotients differ
   bool is_known = false;  ///< two quotients agree with each other, so that there is something to disagree with
 };
 
@@ -92,7 +100,11 @@ Nearest nearest_quotient(Quotients& quotients, Eigen::Index j, const Eigen::Vect
     const Quotient quotient = quotients.central(j, part * size[j]);
     if (!quotient.same_sequence) continue;
     const Eigen::VectorXd found = quotient.column.cwiseQuotient(size) * size[j];
-    if (last.size() > 0 && apart(found, last) < 0.5 * tolerance) nearest.is_known = true;
+    // Where events of one kind change places the sequence stays, and the one-sided quotients differ at every step.
+    const bool is_bent =
+        quotient.bend.cwiseQuotient(size).norm() * size[j] > most_bend * std::max(1.0, found.norm());
+    if (last.size() > 0 && !is_bent && apart(found, last) < 0.5 * tolerance) nearest.is_known = true;
+    nearest.is_bent = nearest.is_bent || (is_bent && part < nearby);
     last = found;
     if (const double error = apart(found, column); error < nearest.error) {
       nearest.column = quotient.column;
@@ -123,10 +135,11 @@ Finding compare_derivative(const std::string& name, const sim::Model& model, con
       if (j == 0) finding = {name, Verdict::not_compared, 0.0, "a period takes too long"};
       return finding;
     }
-    if (!nearest.is_known) {
+    if (!nearest.is_known || nearest.is_bent) {
       finding.verdict = Verdict::exception;
-      finding.text = std::isinf(nearest.error) ? "corner: the sequence of events changes at this state"
-                                               : "rough: no two difference quotients agree";
+      finding.text = std::isinf(nearest.error) || nearest.is_bent
+                         ? "corner: the sequence of events changes at this state"
+                         : "rough: no two difference quotients agree";
       continue;
     }
     Eigen::Index row = 0;

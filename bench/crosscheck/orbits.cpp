@@ -51,7 +51,7 @@ Finding compare_transient(const sim::SteadyState& state, const sim::Transient& m
     const double modulus = largest_multiplier(state);
     constexpr double safely = 1e-20;
     // With one on the unit circle orbits form a continuum, along which a motion may creep however slowly.
-    if (motion.closure > tolerance && std::pow(modulus, motion.periods / state.period_ratio) < safely)
+    if (!is_cut && motion.closure > tolerance && std::pow(modulus, motion.periods / state.period_ratio) < safely)
       return {name, Verdict::disagree, 0.0,
               fmt::format("largest multiplier {:.4g}, but after {} periods the transient closes to {:.1e} only",
                           modulus, motion.periods, motion.closure)};
