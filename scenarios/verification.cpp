@@ -270,13 +270,13 @@ struct OtherAnswer {
   sim::Model model;
 };
 
-OtherAnswer other_answer(const Scenario& scenario, const RunOptions& options) {
+OtherAnswer other_answer(const Scenario& scenario, const Question& question, const RunOptions& options) {
   OtherAnswer other{{}, {}, scenario.model};
   for (const Way& way : other_ways(scenario.model)) {
     other.model.solver = way.solver;
     other.words = way.words;
     try {
-      other.answer = scenario.question->run({other.model, tight, scenario.resolved, options});
+      other.answer = question.run({other.model, tight, scenario.resolved, options});
     } catch (const friction::LawFault& fault) {
       other.answer = failed(fault.what());
     }
@@ -308,9 +308,13 @@ Verification compare_answers(const Answer& answer, const Answer& other, const st
   return Comparison(answer, other, fields).compare();
 }
 
-Verification verify(const Scenario& scenario, const RunOptions& options, const Answer& answer) {
-  const OtherAnswer other = other_answer(scenario, options);
-  const std::string& words = other.words;
+Verification verify(const Scenario& scenario, const RunOptions& options, const Answer& all) {
+  const std::optional<Sampled> sampled =
+      all.result.is_null() ? std::optional<Sampled>() : scenario.question->sampled();
+  const std::optional<Answer> part = sampled ? std::optional(sampled->part(all)) : std::nullopt;
+  const Answer& answer = part ? *part : all;
+  const OtherAnswer other = other_answer(scenario, sampled ? *sampled->question : *scenario.question, options);
+  const std::string words = other.words + (sampled ? ", " + sampled->words : "");
   if (answer.result.is_null() || other.answer.result.is_null()) {
     Verification result{.engine = words, .agrees = false};
     if (answer.result.is_null())

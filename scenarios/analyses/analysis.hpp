@@ -10,6 +10,7 @@
 /// there is no problem `ask` turns the checked values into a question, which is immutable and can be run.
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,6 +49,15 @@ struct OtherWay {
   Answer answer;      ///< the numbers alone, by their keys in the result
 };
 
+class Question;
+
+/// A question about many points, asked of some of them.
+struct Sampled {
+  std::unique_ptr<const Question> question;
+  std::function<Answer(const Answer&)> part;  ///< what the answer about all points says of these
+  std::string words;                          ///< "36 of 3600 points"
+};
+
 class Question {
  public:
   Question() = default;
@@ -62,6 +72,8 @@ class Question {
                                                           const Answer& /*answer*/) const {
     return std::nullopt;
   }
+  /// For a verification that would take too long of all points; none: it takes all.
+  [[nodiscard]] virtual std::optional<Sampled> sampled() const { return std::nullopt; }
 };
 
 /// The ability of a question whose run is long: it writes its cases to `options.directory` as it goes, can be

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
+#include <string>
 #include <tuple>
 
 #include "core/numbers.hpp"
@@ -166,7 +168,56 @@ void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundar
   answer.tables.push_back(std::move(table));
 }
 
+constexpr std::size_t most_sampled = 4;
+
+std::vector<double> sampled_values(const std::vector<double>& values) {
+  if (values.size() <= most_sampled) return values;
+  std::vector<double> result;
+  for (std::size_t i = 0; i < most_sampled; ++i)
+    result.push_back(values[i * (values.size() - 1) / (most_sampled - 1)]);
+  return result;
+}
+
+/// The rows whose values in the column `name` are among these; all rows of a table that has no such column.
+Table with_rows(const Table& table, std::string_view name, const std::vector<double>& values) {
+  const auto key = std::ranges::find(table.columns, name, &Column::name);
+  if (key == table.columns.end()) return table;
+  const std::vector<double> keys = key->numbers;
+  const auto keep = [&](auto& list) {
+    if (list.size() != keys.size()) return;
+    std::size_t next = 0;
+    for (std::size_t row = 0; row < keys.size(); ++row)
+      if (std::ranges::find(values, keys[row]) != values.end()) list[next++] = list[row];
+    list.resize(next);
+  };
+  Table result = table;
+  for (Column& column : result.columns) {
+    keep(column.numbers);
+    if (column.choices.empty()) keep(column.texts);
+    keep(column.choices);
+  }
+  return result;
+}
+
 }  // namespace
+
+std::optional<Sampled> RegimeMapQuestion::sampled() const {
+  const std::vector<double> frequencies = sampled_values(frequencies_);
+  const std::vector<double> amplitudes = sampled_values(amplitudes_);
+  const std::size_t all = frequencies_.size() * amplitudes_.size();
+  const std::size_t some = frequencies.size() * amplitudes.size();
+  if (some == all) return std::nullopt;
+  const auto part = [=](const Answer& answer) {
+    Answer result = answer;
+    for (Table& table : result.tables) {
+      table = with_rows(table, "omega", frequencies);
+      if (table.key == "points") table = with_rows(table, "Y", amplitudes);
+    }
+    return result;
+  };
+  return Sampled{std::make_unique<RegimeMapQuestion>(frequencies, amplitudes, with_boundary_), part,
+                 std::to_string(some) + " of " + std::to_string(all) + " points"};
+}
 
 Answer RegimeMapQuestion::run(const RunContext& context) const {
   const sim::Model& model = context.model;

@@ -12,6 +12,8 @@ class RegimeMapQuestion final : public Question {
       : frequencies_(std::move(frequencies)), amplitudes_(std::move(amplitudes)), with_boundary_(with_boundary) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
+  /// Four frequencies times four amplitudes, evenly spaced in their lists, first and last included.
+  [[nodiscard]] std::optional<Sampled> sampled() const override;
 
  private:
   std::vector<double> frequencies_;

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/crosscheck/campaign.hpp"
 #include "bench/crosscheck/case.hpp"
@@ -173,4 +174,14 @@ TEST_CASE("crosscheck: a crash, an endless loop and an exception are entries and
   CHECK_THAT(endings[12].failure, Catch::Contains("more than 1 s"));
   CHECK_THAT(endings[13].failure, Catch::Contains("no motion"));
   CHECK(endings[14].text == "answer 14");
+}
+
+TEST_CASE("crosscheck: three hundred random systems have no disagreement, crash or hang",
+          "[crosscheck][campaign]") {
+  const auto [seed, first] = GENERATE(std::pair{21, 30}, std::pair{21, 150}, std::pair{24, 0});
+  crosscheck::Summary summary;
+  crosscheck::run_campaign(static_cast<std::uint64_t>(seed), static_cast<std::uint32_t>(first), 100,
+                           {.jobs = 2, .processor_seconds = 30}, summary);
+  INFO(summary.text(static_cast<std::uint64_t>(seed)));
+  CHECK(summary.holds());
 }
