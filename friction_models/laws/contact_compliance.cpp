@@ -21,6 +21,8 @@ constexpr double stopped = 1e-12;
 /// is at its limit.
 constexpr double at_limit = 3e-10;
 constexpr double rounded = 1e-13;
+/// Short of the limit by this part of it a contact has broken away at the limit.
+constexpr double short_of_limit = 1e-8;
 
 }  // namespace
 
@@ -105,7 +107,9 @@ double ContactCompliance::stretching_at_break_away(const Memory& memory, const I
   const double level = value(break_away(memory, now, side), now);
   const double beyond = side * value(affine_force(memory, now, {}), now) - level;
   const double terms = stiffness_ * (std::abs(now.x) + std::abs(memory.state[0])) + damping_ * std::abs(now.v);
-  const double force = level + (beyond > at_limit * level + rounded * terms ? beyond : 0.0);
+  const double rounding = rounded * terms;
+  const bool is_at_limit = beyond <= at_limit * level + rounding && beyond >= -short_of_limit * level - rounding;
+  const double force = is_at_limit ? level : level + beyond;
   return now.v - side * (force - now.force_limit_now(kinetic_)) / damping_;
 }
 

@@ -171,7 +171,7 @@ Direction ExactEngine::leaves_limit(double tolerance) {
   return direction;
 }
 
-/// Without a law that holds it a mass rests only where nothing ever moves it. Beside a fast decay the Taylor
+/// Without a law that holds it a mass stands still only where nothing ever moves it. Beside a fast decay the Taylor
 /// coefficients of a slow drive are within rounding; what the pull does after longer and longer times is not.
 Direction ExactEngine::moved_later(const ModeFunction& pull, double tolerance) const {
   constexpr int doublings = 60;

@@ -313,7 +313,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a search whose panels are split thousands of times each ends too") {
-  // 150 searches took 0.6 s: a mass that rings on a stiff contact for a hundred thousand cycles in a period.
+  // 150 searches took 0.6 s: a mass that rings on a stiff contact for a hundred thousand oscillations in a period.
   sim::Model model;
   model.oscillator = {.mass = 0.0034313611325045286, .stiffness = 0.05705331160642706, .damping = 0.00028};
   model.excitation = {
