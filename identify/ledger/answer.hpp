@@ -3,9 +3,10 @@
 ///
 /// An estimate can be used when nothing that is known speaks against it: its method found no fault, and no
 /// assumption that the method rests on is violated in the ledger. Where the ledger could test nothing, the method's
-/// own findings decide. Of several that can be used the one with the narrowest interval answers, the area of the
-/// intervals of c and F0; the order of a list plays no part. Where none has an interval, and all agree to 2 %, the
-/// one in the middle answers.
+/// own findings decide. The joint model's own estimate answers where it can be used: it has all data, and has set
+/// free what is violated. Else the one with the narrowest interval answers, the area of the intervals of c and F0;
+/// the order of a list plays no part. Where none has an interval, and all agree to 2 %, the one in the middle
+/// answers.
 
 #include <string>
 #include <vector>

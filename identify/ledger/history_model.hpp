@@ -9,7 +9,12 @@
 /// errors are still alike (autoregression.hpp): a departure must not be taken for noise. Readings of a within two
 /// samples of a reversal are not used, for the acceleration jumps there.
 ///
-/// Cost: a run of the forward model with some 20 derivatives, 2 us a sample.
+/// With relaxations taken, the model is fitted anew: the forces act on the simulated motion, readings have their
+/// gain, delay and zero. A constant set free begins at a fit of its own. Of free vibrations the end, below 3 x_f,
+/// is left out.
+///
+/// Cost: a run of the forward model with some 20 derivatives, 2 us a sample; ten times that for each explanation of
+/// a departure that is tried.
 
 #include <string>
 #include <variant>
