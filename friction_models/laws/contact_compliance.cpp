@@ -21,8 +21,6 @@ constexpr double stopped = 1e-12;
 /// is at its limit.
 constexpr double at_limit = 3e-10;
 constexpr double rounded = 1e-13;
-/// Short of the limit by this part of it a contact has broken away at the limit.
-constexpr double short_of_limit = 1e-8;
 
 }  // namespace
 
@@ -101,15 +99,12 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
 
 /// u' just after a break-away: u is continuous. The force is at its limit, and what is left of it beyond is
 /// rounding of x: divided by the damping it could be more than v. Only a step of the limits leaves the force well
-/// beyond. Short of the limit no slider breaks away: a slip that began with the slider's speed below zero would end
-/// at once.
+/// beyond.
 double ContactCompliance::stretching_at_break_away(const Memory& memory, const Instant& now, int side) const {
   const double level = value(break_away(memory, now, side), now);
   const double beyond = side * value(affine_force(memory, now, {}), now) - level;
   const double terms = stiffness_ * (std::abs(now.x) + std::abs(memory.state[0])) + damping_ * std::abs(now.v);
-  const double rounding = rounded * terms;
-  const bool is_at_limit = beyond <= at_limit * level + rounding && beyond >= -short_of_limit * level - rounding;
-  const double force = is_at_limit ? level : level + beyond;
+  const double force = level + (std::abs(beyond) > at_limit * level + rounded * terms ? beyond : 0.0);
   return now.v - side * (force - now.force_limit_now(kinetic_)) / damping_;
 }
 
