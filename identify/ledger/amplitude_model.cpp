@@ -174,8 +174,8 @@ class SteadyStates {
     };
     put(residual, rows.residuals.col(0));
     const Eigen::Matrix2d L = factor.matrixL();
-    rows.readings[i] = {Channel::amplitude, point.number, by_x[0] == 0.0 ? 0.0 : -L(0, 0) / by_x[0]};
-    if (has_phase) rows.readings[static_cast<std::size_t>(phase_row)] = {Channel::phase, point.number, L(1, 1)};
+    rows.readings[i] = {ReadingKind::amplitude, point.number, by_x[0] == 0.0 ? 0.0 : -L(0, 0) / by_x[0]};
+    if (has_phase) rows.readings[static_cast<std::size_t>(phase_row)] = {ReadingKind::phase, point.number, L(1, 1)};
     put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3),
                [](Parameters& p, double h) { p.friction.zeta += h; }),
         rows.base.col(0));
@@ -391,7 +391,7 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, const Taken& rel
   model.residuals = fit.rows.residuals;
   model.readings = fit.rows.readings;
   for (Reading& reading : model.readings)
-    if (reading.channel == Channel::amplitude) reading.per_deviation *= unit;
+    if (reading.kind == ReadingKind::amplitude) reading.per_deviation *= unit;
   model.base = fit.rows.base;
   model.relaxations = states.relaxations();
   model.relaxed = fit.rows.relaxed;

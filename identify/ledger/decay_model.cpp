@@ -155,8 +155,8 @@ ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index c
   return {scale, scale > rounding ? freedom : 0.0};
 }
 
-void add_readings(JointModel& model, Channel channel, Eigen::Index count, double per_deviation) {
-  for (int i = 1; i <= count; ++i) model.readings.push_back({channel, i, per_deviation});
+void add_readings(JointModel& model, ReadingKind kind, Eigen::Index count, double per_deviation) {
+  for (int i = 1; i <= count; ++i) model.readings.push_back({kind, i, per_deviation});
 }
 
 /// The model linearised at `at`, by central differences, with rows of unit deviation.
@@ -186,11 +186,11 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
   }
   const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
   model.scale_freedom = amplitudes.freedom;
-  add_readings(model, Channel::extreme, setting.count, amplitudes.deviation * setting.unit);
+  add_readings(model, ReadingKind::extreme, setting.count, amplitudes.deviation * setting.unit);
   model.spent = setting.timed ? 1.0 : 0.0;
   if (setting.timed) {
     const ChannelScale times = scale_channel(model, setting.count, setting.count);
-    add_readings(model, Channel::time, setting.count, times.deviation * setting.half_period);
+    add_readings(model, ReadingKind::time, setting.count, times.deviation * setting.half_period);
     model.readings.emplace_back();
     // Two of the columns are of the times alone.
     if (times.freedom == 0.0) model.spent += static_cast<double>(setting.count - 2);

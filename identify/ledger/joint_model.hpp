@@ -23,11 +23,11 @@ struct Relaxation {
 };
 
 /// What was read.
-enum class Channel { amplitude, phase, extreme, time };
+enum class ReadingKind { amplitude, phase, extreme, time };
 
 /// The reading behind a row.
 struct Reading {
-  Channel channel = Channel::amplitude;
+  ReadingKind kind = ReadingKind::amplitude;
   int number = 0;              ///< of the pair or of the extreme, from 1
   double per_deviation = 0.0;  ///< change of the reading that raises the row's residual by one; 0: no reading
 };

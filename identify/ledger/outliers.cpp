@@ -20,7 +20,8 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr double bound = 2.0;  ///< k
-constexpr std::array<Channel, 4> channels = {Channel::amplitude, Channel::phase, Channel::extreme, Channel::time};
+constexpr std::array<ReadingKind, 4> kinds = {ReadingKind::amplitude, ReadingKind::phase, ReadingKind::extreme,
+                                              ReadingKind::time};
 
 std::variant<JointModel, std::string> model_of(const Record& record, const KnownConstants& constants) {
   if (record.pairs) return amplitude_model(record, constants);
@@ -31,14 +32,14 @@ Pair& pair_of(Record& record, int number) { return *std::ranges::find(record.pai
 
 /// The place of a reading in a record.
 double& value_of(Record& record, const Reading& reading) {
-  switch (reading.channel) {
-    case Channel::amplitude:
+  switch (reading.kind) {
+    case ReadingKind::amplitude:
       return pair_of(record, reading.number).x;
-    case Channel::phase:
+    case ReadingKind::phase:
       return pair_of(record, reading.number).phase;
-    case Channel::extreme:
+    case ReadingKind::extreme:
       return record.decay->extremes[static_cast<std::size_t>(reading.number - 1)];
-    case Channel::time:
+    case ReadingKind::time:
       break;
   }
   return record.decay->times[static_cast<std::size_t>(reading.number - 1)];
@@ -46,14 +47,14 @@ double& value_of(Record& record, const Reading& reading) {
 
 std::string name_of(const Reading& reading) {
   const std::string number = std::to_string(reading.number);
-  switch (reading.channel) {
-    case Channel::amplitude:
+  switch (reading.kind) {
+    case ReadingKind::amplitude:
       return "x of pair " + number;
-    case Channel::phase:
+    case ReadingKind::phase:
       return "the phase of pair " + number;
-    case Channel::extreme:
+    case ReadingKind::extreme:
       return "extreme " + number;
-    case Channel::time:
+    case ReadingKind::time:
       break;
   }
   return "the time of extreme " + number;
@@ -73,12 +74,12 @@ std::optional<std::vector<Distance>> distances(Record& measured, Record& moved, 
   const auto& model = std::get<JointModel>(found);
   const Eigen::VectorXd left = model.residuals - model.base * pivoted_least_squares(model.base, model.residuals);
   std::vector<Distance> list;
-  for (const Channel channel : channels) {
+  for (const ReadingKind kind : kinds) {
     const std::size_t first = list.size();
     std::vector<double> sizes;
     for (std::size_t i = 0; i < model.readings.size(); ++i) {
       const Reading& reading = model.readings[i];
-      if (reading.channel != channel || reading.per_deviation == 0.0) continue;
+      if (reading.kind != kind || reading.per_deviation == 0.0) continue;
       const double shift = value_of(moved, reading) - value_of(measured, reading);
       const double off = left[static_cast<Eigen::Index>(i)] - shift / reading.per_deviation;
       const double sign = reading.per_deviation < 0.0 ? -1.0 : 1.0;
