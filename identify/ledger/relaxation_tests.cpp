@@ -190,11 +190,19 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
     test.zeta_change = rests.back().value.zeta - model.value.zeta;
     test.F0_change = rests.back().value.F0 - model.value.F0;
   }
+  // What the record shows in the second order only is never charged alone: it stands beside a departure of
+  // friction.
+  const auto is_hidden = [&](std::size_t i) {
+    return std::ranges::find(model.hidden, list[i].index) != model.hidden.end();
+  };
   std::size_t best = 0;
   for (std::size_t i = 1; i < list.size(); ++i)
-    if (rests[i].largest < rests[best].largest - equal_likelihood) best = i;
+    if (!is_hidden(i) && rests[i].largest < rests[best].largest - equal_likelihood) best = i;
   Departure departure{{list[best]}};
+  const Assumption charged = model.relaxations[list[best].index].assumption;
+  const bool of_friction = charged == Assumption::friction_velocity || charged == Assumption::friction_displacement;
   for (std::size_t i = 0; i < list.size(); ++i) {
+    if (is_hidden(i) && !of_friction) continue;
     const bool as_well = rests[i].largest <= rests[best].largest + equal_likelihood &&
                          (rests[i].p_value >= family_level || rests[best].p_value < family_level);
     if (i != best && as_well) departure.explanations.push_back(list[i]);

@@ -137,7 +137,7 @@ class Page(unittest.TestCase):
         self.assertIn("output amplitude x [rad]", dom)
         self.assertIn("input amplitude Y [rad]", dom)
         data = self.folder / "decay.csv"
-        data.write_text("x [deg]\n20\n-17.1\n14.4\n-11.9\n9.6\n-7.5\n5.6\n")
+        data.write_text("x [deg]\n20.000\n-18.006\n16.134\n-14.375\n12.724\n-11.173\n9.717\n")  # zeta 0.02, x_f 0.4 deg
         out = self.folder / "decay"
         self.run_program("identify", data, "--mass", "0.3 kg.m^2", "--stiffness", "12 N.m/rad", "--out", out, "--quiet")
         dom, console = self.load(out / "report.html")
