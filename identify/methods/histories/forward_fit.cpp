@@ -137,7 +137,8 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
   if (!(force.m > 0.0) || !(force.k > 0.0)) return {};
   std::vector<ForceParameters> list{force};
   for (const ForwardTest& test : tests)
-    if (const auto start = is_free(test) ? from_extremes(test, force, constants) : std::nullopt) list.push_back(*start);
+    if (const auto start = is_free(test) ? from_extremes(test, force, constants) : std::nullopt)
+      list.push_back(*start);
   const double length = ForwardLayout::length(tests);
   const double critical = 2.0 * std::sqrt(force.m * force.k);
   for (const double zeta : {0.02, 0.1, 0.25})
