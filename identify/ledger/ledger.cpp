@@ -115,9 +115,12 @@ class Writer {
 
   [[nodiscard]] std::string alternatives(const Departure& departure, const RelaxationTest& own) const {
     std::string text;
-    for (const RelaxationTest& other : departure.explanations)
-      if (assumption_of(other) != assumption_of(own))
-        text += (text.empty() ? "" : ", ") + std::string(name_of(assumption_of(other)));
+    std::vector<Assumption> said = {assumption_of(own)};
+    for (const RelaxationTest& other : departure.explanations) {
+      if (std::ranges::find(said, assumption_of(other)) != said.end()) continue;
+      said.push_back(assumption_of(other));
+      text += (text.empty() ? "" : ", ") + std::string(name_of(said.back()));
+    }
     return text.empty() ? "no other assumption explains it as well" : "explained as well by: " + text;
   }
 

@@ -228,6 +228,8 @@ RelaxationTests test_relaxations(const JointModel& model) {
     const auto least = std::ranges::min_element(result.tests, {}, &RelaxationTest::p_value);
     if (least == result.tests.end() || least->p_value >= family_level || taken.size() == most_departures) break;
     result.departures.push_back(charged(here, taken, result.tests));
+    // That of the departure, whichever relaxation is charged with it.
+    for (RelaxationTest& test : result.departures.back().explanations) test.p_value = least->p_value;
     RelaxationTest& best = result.departures.back().explanations.front();
     taken.push_back(best.index);
     if (model.refit) {

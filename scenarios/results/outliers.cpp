@@ -15,7 +15,11 @@ std::string rounded(double value) {
   return core::format_number(value, digits);
 }
 
-std::string percent(double share) { return (share < 0.0 ? "" : "+") + rounded(100.0 * share) + " %"; }
+std::string percent(double share) {
+  constexpr double rounding = 1e-6;
+  if (std::abs(share) < rounding) return "0 %";
+  return (share < 0.0 ? "" : "+") + rounded(100.0 * share) + " %";
+}
 
 }  // namespace
 

@@ -32,6 +32,8 @@ Found ledgers(Kind kind, int records, Assumption assumption, void (*alter)(Rig&)
     const Ledger ledger = ledger_of(m.record, m.constants);
     REQUIRE_FALSE(ledger.data.empty());
     REQUIRE(ledger.entries.size() == assumption_count);
+    for (const LedgerEntry& entry : ledger.entries)
+      if (entry.standing == Standing::violated) CHECK(entry.p_value.value_or(1.0) < family_level);
     found.any += ledger.departures.empty() ? 0 : 1;
     found.named += ledger.is_violated(assumption) ? 1 : 0;
   }
