@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bench/grid.hpp"
-#include "bench/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

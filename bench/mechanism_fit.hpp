@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "bench/mechanisms.hpp"
-#include "bench/rigs/rigs.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
 #include "sim/orbits/steady_state_near.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "bench/campaign.hpp"
-#include "bench/rigs/rigs.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/format/common_keys.hpp"
@@ -13,6 +12,7 @@
 #include "scenarios/measurements/sensors.hpp"
 #include "scenarios/measurements/work_checks.hpp"
 #include "scenarios/results/motion.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/rigs/rigs.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
 #include "scenarios/analyses/analysis.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

@@ -40,6 +40,7 @@ ROOMS = {
         "orbits": [".", "engine", "motion", "analytic", "batch"],
         "batch": [".", "engine", "motion", "orbits"],
         "conformance": [".", "engine"],
+        "rigs": ["."],
     },
     "identify": {
         ".": ["methods"],  # the list of methods
@@ -50,6 +51,7 @@ ROOMS = {
         "uncertainty": [".", "statistics", "records", "models"],
         "methods": [".", "statistics", "records", "models", "uncertainty"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
+        "any_law": [".", "statistics", "records", "models", "methods"],
     },
     "scenarios": {
         ".": ["format", "results", "measurements", "analyses"],  # loads and runs

@@ -1,4 +1,4 @@
-#include "bench/rigs/groups.hpp"
+#include "sim/rigs/groups.hpp"
 
 #include <cmath>
 #include <stdexcept>

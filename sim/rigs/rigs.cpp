@@ -1,4 +1,4 @@
-#include "bench/rigs/rigs.hpp"
+#include "sim/rigs/rigs.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/rigs/groups.hpp"
+#include "sim/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 

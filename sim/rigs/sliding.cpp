@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "bench/rigs/groups.hpp"
+#include "sim/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "bench/rigs/groups.hpp"
+#include "sim/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 

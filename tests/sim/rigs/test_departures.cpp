@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "bench/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/rigs/rigs.hpp"
 #include "friction_models/parameters.hpp"
+#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/rigs/groups.hpp"
+#include "sim/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/rigs/groups.hpp"
+#include "sim/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 
