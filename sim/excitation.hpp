@@ -8,8 +8,13 @@
 ///            Hz), with values sqrt(D/h) times normal draw n of stream `noise_stream` of the seed. The spectral
 ///            density, two-sided, is D (sin(w h/2)/(w h/2))^4: D [m^2.s or N^2.s] at low frequencies, 0.3 dB below
 ///            it at w_b/5 and 7.8 dB at w_b. (An analyser's one-sided density for each Hz is 2 D.)
+/// chirp:     A cos(phi(t)), the frequency phi'(t) going from w_0 to w_1 within T, linearly or exponentially; by
+///            cubics between nodes of the exact value and slope, within 1e-9 A (and 2e-7 A phi' of the rate). Then
+///            it keeps its last value.
+/// samples:   a polynomial between given nodes (`sim/sampled_signal.hpp`)
 
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -31,6 +36,20 @@ struct Noise {
   [[nodiscard]] double spacing() const { return std::numbers::pi / bandwidth; }
 };
 
+enum class ChirpLaw {
+  linear,       ///< phi' = w_0 + (w_1 - w_0) t/T
+  exponential,  ///< phi' = w_0 (w_1/w_0)^(t/T)
+};
+
+struct Chirp {
+  double from = 0.0;      ///< w_0 [rad/s], > 0
+  double to = 0.0;        ///< w_1 [rad/s], > 0
+  double duration = 0.0;  ///< T [s], > 0
+  ChirpLaw law = ChirpLaw::linear;
+};
+
+class SampledSignal;
+
 /// Away from the draws that laws of the same seed make.
 inline constexpr std::uint32_t noise_stream = 2;
 
@@ -42,24 +61,40 @@ enum class ExcitationType {
   force_ramp,
   base_noise,
   force_noise,
+  base_chirp,
+  force_chirp,
+  base_samples,
+  force_samples,
 };
 
 struct Excitation {
   ExcitationType type = ExcitationType::none;
-  double amplitude = 0.0;  ///< m (base) or N (force), >= 0
+  double amplitude = 0.0;  ///< m (base) or N (force), >= 0; of a harmonic excitation or a chirp
   double frequency = 0.0;  ///< w [rad/s], > 0 for a harmonic excitation
-  double phase = 0.0;      ///< phi [rad]
+  double phase = 0.0;      ///< phi [rad], at t = 0
   double offset = 0.0;     ///< constant force [N], force_harmonic only
   double slope = 0.0;      ///< V [m/s] of base_ramp or R [N/s] of force_ramp
   std::vector<Harmonic> harmonics{};
-  Noise noise{};  ///< of base_noise and force_noise
+  Noise noise{};                                   ///< of base_noise and force_noise
+  Chirp chirp{};                                   ///< of base_chirp and force_chirp
+  std::shared_ptr<const SampledSignal> samples{};  ///< of base_samples and force_samples; m or N
 
   [[nodiscard]] bool moves_base() const {
     return type == ExcitationType::base_harmonic || type == ExcitationType::base_ramp ||
-           type == ExcitationType::base_noise;
+           type == ExcitationType::base_noise || type == ExcitationType::base_chirp ||
+           type == ExcitationType::base_samples;
+  }
+  [[nodiscard]] bool is_ramp() const {
+    return type == ExcitationType::base_ramp || type == ExcitationType::force_ramp;
   }
   [[nodiscard]] bool is_noise() const {
     return type == ExcitationType::base_noise || type == ExcitationType::force_noise;
+  }
+  [[nodiscard]] bool is_chirp() const {
+    return type == ExcitationType::base_chirp || type == ExcitationType::force_chirp;
+  }
+  [[nodiscard]] bool is_sampled() const {
+    return type == ExcitationType::base_samples || type == ExcitationType::force_samples;
   }
   [[nodiscard]] bool is_harmonic() const {
     return type == ExcitationType::base_harmonic || type == ExcitationType::force_harmonic;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::sim {
 
@@ -69,7 +70,15 @@ class Check {
     } else if (e.is_noise()) {
       in(not_negative, "excitation.intensity", e.noise.intensity, e.moves_base() ? "m^2.s" : "N^2.s");
       in(positive, "excitation.bandwidth", e.noise.bandwidth, "rad/s");
-    } else if (e.type != ExcitationType::none) {
+    } else if (e.is_chirp()) {
+      in(not_negative, "excitation.amplitude", e.amplitude, unit);
+      in(any, "excitation.phase", e.phase, "rad");
+      in(positive, "excitation.from", e.chirp.from, "rad/s");
+      in(positive, "excitation.to", e.chirp.to, "rad/s");
+      in(positive, "excitation.duration", e.chirp.duration, "s");
+    } else if (e.is_sampled()) {
+      if (e.samples == nullptr) problems_.push_back({.message = "a sampled excitation has no samples"});
+    } else if (e.is_ramp()) {
       in(any, e.moves_base() ? "excitation.velocity" : "excitation.rate", e.slope, e.moves_base() ? "m/s" : "N/s");
     }
   }
@@ -77,6 +86,7 @@ class Check {
   void model(const Model& model) {
     oscillator(model.oscillator);
     excitation(model.excitation);
+    jumps(model);
     if (model.friction.size() > max_laws)
       problems_.push_back(too_many("system.friction", max_laws, model.friction.size()));
     in(any, "initial.position", model.initial.position, "m");
@@ -87,6 +97,18 @@ class Check {
   std::vector<Diagnostic> take() { return std::move(problems_); }
 
  private:
+  /// A base that jumps would drag the mass along with a damper between them by an infinite force.
+  void jumps(const Model& model) {
+    const Excitation& e = model.excitation;
+    if (!e.is_sampled() || e.samples == nullptr || !e.samples->jumps()) return;
+    if (!e.moves_base() || model.oscillator.damper_to != DamperTo::base || model.oscillator.damping == 0.0) return;
+    const std::string jump = e.samples->interpolation() == Interpolation::step
+                                 ? "a base that moves in steps"
+                                 : "a base motion that repeats and does not end where it began";
+    problems_.push_back({.message = jump + " makes an infinite force in a damper to the base",
+                         .allowed = "a base motion without jumps, or damper_to: ground"});
+  }
+
   void harmonic(const Harmonic& harmonic, std::string_view unit) {
     in({.low = 2, .high = max_order}, "excitation.harmonics.order", harmonic.order, "");
     in(not_negative, "excitation.harmonics.amplitude", harmonic.amplitude, unit);
@@ -112,6 +134,14 @@ std::string type_of(const Excitation& e) {
       return "excitation type 'base_noise'";
     case ExcitationType::force_noise:
       return "excitation type 'force_noise'";
+    case ExcitationType::base_chirp:
+      return "excitation type 'base_chirp'";
+    case ExcitationType::force_chirp:
+      return "excitation type 'force_chirp'";
+    case ExcitationType::base_samples:
+      return "excitation type 'base_samples'";
+    case ExcitationType::force_samples:
+      return "excitation type 'force_samples'";
   }
   return "this excitation";
 }

@@ -1,5 +1,6 @@
 #include "sim/engine/drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,8 +15,20 @@ double damping_ratio(const Oscillator& oscillator) {
   return oscillator.damping / (2.0 * std::sqrt(oscillator.mass * oscillator.stiffness));
 }
 
+namespace {
+
+/// Derivatives of a polynomial s later.
+std::array<double, 4> shifted(const std::array<double, 4>& d, double s) {
+  return {d[0] + s * (d[1] + s * (d[2] / 2.0 + s * d[3] / 6.0)), d[1] + s * (d[2] + s * d[3] / 2.0),
+          d[2] + s * d[3], d[3]};
+}
+
+}  // namespace
+
 Drive::Drive(const Oscillator& oscillator, const Excitation& excitation)
-    : period_(std::numeric_limits<double>::infinity()), base_(excitation.moves_base()) {
+    : pieces_(make_pieces(excitation)),
+      period_(std::numeric_limits<double>::infinity()),
+      base_(excitation.moves_base()) {
   if (base_) {
     through_spring_ = oscillator.stiffness;
     through_damper_ = oscillator.damper_to == DamperTo::base ? oscillator.damping : 0.0;
@@ -31,59 +44,66 @@ Drive::Drive(const Oscillator& oscillator, const Excitation& excitation)
     add(1, excitation.amplitude, excitation.phase);
     for (const Harmonic& harmonic : excitation.harmonics) add(harmonic.order, harmonic.amplitude, harmonic.phase);
     period_ = 2.0 * std::numbers::pi / excitation.frequency;
-    if (!base_) offset_ = excitation.offset;
-  } else if (excitation.is_noise()) {
-    period_ = excitation.noise.spacing();
-    deviation_ = std::sqrt(excitation.noise.intensity / period_);
-    draws_ = {.seed = excitation.noise.seed, .stream = noise_stream};
-  } else if (excitation.type != ExcitationType::none) {
-    ramp_ = excitation.slope;
+    if (!base_) polynomial_[0] = excitation.offset;
   }
   turns_.assign(frequencies_.size(), 1.0);
   reset(0.0);
 }
 
+double Drive::begin_of(long n) const {
+  if (n == 0) return 0.0;
+  return has_pieces() ? pieces_->begin(n) : static_cast<double>(n) * period_;
+}
+
 void Drive::set_force() {
-  force_offset_ = through_spring_ * offset_ + through_damper_ * ramp_;
-  force_ramp_ = through_spring_ * ramp_;
+  const std::array<double, 4> now = shifted(polynomial_, piece_time_);
+  for (std::size_t n = 0; n < 3; ++n)
+    force_polynomial_[n] = through_spring_ * now[n] + through_damper_ * now[n + 1];
+  force_polynomial_[3] = through_spring_ * now[3];
+  polynomial_scale_ = std::abs(through_damper_ * now[1]);
+  double power = std::abs(through_spring_);
+  for (std::size_t n = 0; n < 4; ++n) {
+    polynomial_scale_ += std::abs(polynomial_[n]) * power;
+    power *= piece_time_ / static_cast<double>(n + 1);
+  }
 }
 
 void Drive::reset(double t) {
+  if (has_pieces()) return enter(0);
   for (std::size_t j = 0; j < turns_.size(); ++j) turns_[j] = std::polar(1.0, frequencies_[j] * t);
-  ramp_time_ = t;
-  if (is_noise()) {
-    enter(0);
-  } else {
-    set_force();
-  }
-}
-
-void Drive::end_period(double t) {
-  if (is_noise()) {
-    ramp_time_ = period_;
-  } else {
-    reset(t);
-  }
-}
-
-void Drive::enter(long cell) {
-  cell_ = cell;
-  ramp_time_ = 0.0;
-  offset_ = node(cell);
-  ramp_ = (node(cell + 1) - offset_) / period_;
   set_force();
 }
 
-double Drive::force_constant() const { return force_offset_ + force_ramp_ * ramp_time_; }
+void Drive::end_period(double t) {
+  if (!has_pieces()) return reset(t);
+  piece_time_ = period_;
+  set_force();
+}
 
-double Drive::force_scale() const {
-  return phasor_scale_ + std::abs(through_spring_ * offset_) + std::abs(through_damper_ * ramp_) +
-         std::abs(force_ramp_ * ramp_time_);
+void Drive::enter(long piece) {
+  piece_ = piece;
+  piece_time_ = 0.0;
+  const PolynomialPiece entered = pieces_->piece(piece);
+  period_ = entered.duration;
+  polynomial_ = entered.derivatives;
+  set_force();
+}
+
+void Drive::pass(double s) {
+  if (!has_pieces()) return;
+  piece_time_ += s;
+  set_force();
+}
+
+double Drive::force_size(double time) const {
+  const double later = has_pieces() ? pieces_->size() * through_spring_ : 0.0;
+  return std::max(force_scale() + std::abs(force_polynomial_[1]) * time, later);
 }
 
 Drive::Value Drive::at(double s) const {
-  double level = offset_ + ramp_ * (ramp_time_ + s);
-  double rate = ramp_;
+  const std::array<double, 4> then = shifted(polynomial_, piece_time_ + s);
+  double level = then[0];
+  double rate = then[1];
   for (std::size_t j = 0; j < frequencies_.size(); ++j) {
     const Complex value = amplitudes_[j] * turns_[j] * std::polar(1.0, frequencies_[j] * s);
     level += value.real();

@@ -1,12 +1,13 @@
 #pragma once
-/// The excitation as the engines see it: phasors that turn with time, a constant and a ramp. A noise is a ramp from
-/// node to node: a cell.
+/// The excitation as the engines see it: phasors that turn with time and a polynomial, which changes from piece to
+/// piece (`sim/engine/drive_pieces.hpp`).
 
-#include <optional>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "core/exponential_basis.hpp"
-#include "core/random.hpp"
+#include "sim/engine/drive_pieces.hpp"
 #include "sim/excitation.hpp"
 #include "sim/oscillator.hpp"
 
@@ -18,38 +19,43 @@ class Drive {
 
   /// Angular frequencies of fundamental and harmonics [rad/s].
   [[nodiscard]] const std::vector<double>& frequencies() const { return frequencies_; }
-  /// What time is counted modulo [s]: the forcing period, or the cell of a noise; else infinite.
+  /// What time is counted modulo [s]: the forcing period, or the present piece; infinite where that lasts.
   [[nodiscard]] double period() const { return period_; }
-  [[nodiscard]] bool ramped() const { return is_noise() || ramp_ != 0.0; }
+  /// Time at which period or piece n begins [s].
+  [[nodiscard]] double begin_of(long n) const;
+  /// Highest power of time in the polynomials.
+  [[nodiscard]] int degree() const { return pieces_ == nullptr ? 0 : pieces_->degree(); }
 
-  [[nodiscard]] bool is_noise() const { return deviation_.has_value(); }
+  [[nodiscard]] bool has_pieces() const { return pieces_ != nullptr; }
 
-  /// Sets the drive to time t [s] after the start of a period, or of the ramp; a noise to its start.
+  /// Sets the drive to time t [s] after the start of a period; of a drive with pieces to its start.
   void reset(double t);
-  /// The same at the end of a period; a noise stays at the end of its cell.
+  /// The same at the end of a period; a drive with pieces stays at the end of the present one.
   void end_period(double t);
-  /// Of a noise: the present cell, counted from 0.
-  [[nodiscard]] long cell() const { return cell_; }
-  /// Sets a noise to the start of a cell.
-  void enter(long cell);
+  /// The present piece, counted from 0.
+  [[nodiscard]] long piece() const { return piece_; }
+  /// Sets the drive to the start of a piece.
+  void enter(long piece);
   /// Turns phasor j by exp(i w_j s).
   void turn(std::size_t j, core::Complex rotation) { turns_[j] *= rotation; }
-  /// Moves a ramp on by s.
-  void pass(double s) { ramp_time_ += s; }
+  /// Moves the polynomial on by s.
+  void pass(double s);
 
   /// Force on the mass from base and external force, spring k y and, with the damper to base, c y' [N].
   [[nodiscard]] core::Complex force_phasor(std::size_t j) const { return force_[j] * turns_[j]; }
-  [[nodiscard]] double force_constant() const;
-  [[nodiscard]] double force_ramp() const { return force_ramp_; }
+  /// Its polynomial part now: derivatives by time [N, N/s, N/s^2, N/s^3].
+  [[nodiscard]] const std::array<double, 4>& force_polynomial() const { return force_polynomial_; }
   /// Sum of moduli of all force parts now [N].
-  [[nodiscard]] double force_scale() const;
+  [[nodiscard]] double force_scale() const { return phasor_scale_ + polynomial_scale_; }
+  /// How large the force becomes within a time [N]: a drive may begin at zero.
+  [[nodiscard]] double force_size(double time) const;
 
-  /// Phasor j of base [m] or external force [N] now; their constant part is offset().
+  /// Phasor j of base [m] or external force [N] now; their constant part is offset(), of the present piece.
   [[nodiscard]] core::Complex phasor(std::size_t j) const { return amplitudes_[j] * turns_[j]; }
-  [[nodiscard]] double offset() const { return offset_; }
+  [[nodiscard]] double offset() const { return polynomial_[0]; }
   [[nodiscard]] bool moves_base() const { return base_; }
 
-  /// The drive `s` after now, in the present cell of a noise.
+  /// The drive `s` after now; the polynomial is that of the present piece.
   struct Value {
     double y = 0.0;
     double y_rate = 0.0;
@@ -59,26 +65,22 @@ class Drive {
 
  private:
   void set_force();
-  [[nodiscard]] double node(long n) const { return *deviation_ * draws_.normal(static_cast<std::uint64_t>(n)); }
 
   std::vector<double> frequencies_;
   std::vector<core::Complex> amplitudes_;  ///< m or N
   std::vector<core::Complex> force_;       ///< N
   std::vector<core::Complex> turns_;
+  std::shared_ptr<const DrivePieces> pieces_;
+  long piece_ = 0;
   double period_;
-  double offset_ = 0.0;          ///< m or N
-  double ramp_ = 0.0;            ///< m/s or N/s
-  double ramp_time_ = 0.0;       ///< s
-  double force_offset_ = 0.0;    ///< N
-  double force_ramp_ = 0.0;      ///< N/s
-  double phasor_scale_ = 0.0;    ///< N, sum of the phasors' moduli
-  double through_spring_ = 1.0;  ///< force on the mass for each unit of the drive
-  double through_damper_ = 0.0;  ///< and of its rate
+  std::array<double, 4> polynomial_{};        ///< derivatives at the start of the piece [m or N, by s^n]
+  double piece_time_ = 0.0;                   ///< since then [s]
+  std::array<double, 4> force_polynomial_{};  ///< now [N/s^n]
+  double polynomial_scale_ = 0.0;             ///< N, sum of the polynomial's parts now
+  double phasor_scale_ = 0.0;                 ///< N, sum of the phasors' moduli
+  double through_spring_ = 1.0;               ///< force on the mass for each unit of the drive
+  double through_damper_ = 0.0;               ///< and of its rate
   bool base_ = false;
-
-  std::optional<double> deviation_;  ///< of a noise's nodes [m or N]
-  core::RandomStream draws_;
-  long cell_ = 0;
 };
 
 }  // namespace dualdamp::sim

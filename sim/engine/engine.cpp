@@ -60,7 +60,7 @@ Engine::Engine(const Model& model) : model_(valid(model)), drive_(model.oscillat
 Engine::~Engine() = default;
 
 void Engine::start(double x, double v) {
-  local_time_ = 0.0;
+  local_time_ = period_begin_ = 0.0;
   periods_passed_ = 0;
   x_ = x;
   v_ = v;
@@ -70,7 +70,7 @@ void Engine::start(double x, double v) {
 }
 
 void Engine::restart(const State& state) {
-  local_time_ = 0.0;
+  local_time_ = period_begin_ = 0.0;
   periods_passed_ = 0;
   x_ = state.x;
   v_ = state.v;
@@ -95,15 +95,14 @@ void Engine::place() {
 
 const Interval* Engine::next(double horizon) {
   core::stop_if_cancelled();
-  // Only now: the interval handed out last lies in the cell before.
-  if (drive_.is_noise() && drive_.cell() != periods_passed_) {
+  // Only now: the interval handed out last lies in the piece before.
+  if (drive_.has_pieces() && drive_.piece() != periods_passed_) {
     local_time_ = 0.0;
     drive_.enter(periods_passed_);
   }
-  const double begin = periods_passed_ == 0 ? 0.0 : static_cast<double>(periods_passed_) * drive_.period();
-  const double left = (horizon - begin) - local_time_;
-  const double in_cell = drive_.period() - local_time_;
-  if (drive_.is_noise() && left >= in_cell) return step(in_cell, true);
+  const double left = (horizon - period_begin_) - local_time_;
+  const double in_piece = drive_.period() - local_time_;
+  if (drive_.has_pieces() && left >= in_piece) return step(in_piece, true);
   return step(std::min(left, drive_.period()), false);
 }
 
@@ -119,8 +118,9 @@ void Engine::track_sensitivity(bool track) {
   if (tracking_) reset_sensitivity();
 }
 
-double Engine::time() const {
-  return periods_passed_ == 0 ? local_time_ : static_cast<double>(periods_passed_) * drive_.period() + local_time_;
+void Engine::pass_period() {
+  ++periods_passed_;
+  period_begin_ = drive_.begin_of(periods_passed_);
 }
 
 void Engine::change_direction(Direction direction) {

@@ -7,7 +7,8 @@
 /// it reverses. Where a stick ends (the pull exceeds the static limits) the mass slips in the direction of the
 /// pull. A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times for each law.
 ///
-/// Time is kept modulo the forcing period, or the cell of a noise, so that long runs lose no phase.
+/// Time is kept modulo the forcing period, or from the start of the present piece of a drive, so that long runs
+/// lose no phase.
 
 #include <Eigen/Core>
 #include <memory>
@@ -38,18 +39,17 @@ class Engine {
   void restart(const State& state);
 
   /// The next interval, ending at an event or at `horizon` [s], whichever is first, and not longer than one forcing
-  /// period or than the present cell of a noise. Valid until the next call. A null pointer: the horizon is reached,
-  /// or outcome() is not ok().
+  /// period or than the present piece of the drive. Valid until the next call. A null pointer: the horizon is
+  /// reached, or outcome() is not ok().
   [[nodiscard]] const Interval* next(double horizon);
   /// The same up to the end of the present forcing period, where time and phase are set exactly: the period map.
   /// A null pointer only when outcome() is not ok(): watch periods_passed().
   [[nodiscard]] const Interval* next_in_period();
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
-  [[nodiscard]] double time() const;  ///< s
-  [[nodiscard]] long periods_passed() const {
-    return periods_passed_;
-  }  ///< whole forcing periods passed, or cells of a noise
+  [[nodiscard]] double time() const { return period_begin_ + local_time_; }  ///< s
+  /// Whole forcing periods passed, or pieces of the drive.
+  [[nodiscard]] long periods_passed() const { return periods_passed_; }
   [[nodiscard]] double position() const { return x_; }  ///< m
   [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
@@ -60,7 +60,7 @@ class Engine {
   [[nodiscard]] virtual long work() const { return count_.searches + count_.panels + count_.splits; }
   /// Tangencies within the last interval.
   [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
-  /// Forcing period [s], or the cell of a noise; else infinite.
+  /// Forcing period [s], or the present piece of the drive; else infinite.
   [[nodiscard]] double period() const { return drive_.period(); }
 
   /// How well a motion over one period is known, relative to its size; 0: to rounding.
@@ -104,6 +104,7 @@ class Engine {
   virtual void jumped(std::size_t, const friction::Memory& /*before*/, friction::Trigger) {}
 
   [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
+  void pass_period();
   void change_direction(friction::Direction direction);
   void jump(std::size_t law, friction::Trigger trigger);
   EventKind act(const Ending& ending);
@@ -124,7 +125,8 @@ class Engine {
   bool can_stick_ = false;  ///< some law has a static limit
   double x_ = 0.0;
   double v_ = 0.0;
-  double local_time_ = 0.0;  ///< within the forcing period
+  double local_time_ = 0.0;    ///< within the forcing period or the piece
+  double period_begin_ = 0.0;  ///< s
   long periods_passed_ = 0;
   friction::Direction direction_ = friction::Direction::none;
   std::vector<friction::Memory> memories_;

@@ -76,8 +76,8 @@ class ExactEngine::ExactInterval final : public Interval {
   }
 
   [[nodiscard]] const ClosedForm* closed_form() const override {
-    // A ramp of the drive is not in the form.
-    if (engine_.mode_->ramped() || !ClosedForm::covers(engine_.mode_->basis())) return nullptr;
+    // A polynomial of the drive is not in the form.
+    if (engine_.mode_->degree() > 0 || !ClosedForm::covers(engine_.mode_->basis())) return nullptr;
     if (!formed_) form();
     formed_ = true;
     return &form_;
@@ -108,7 +108,7 @@ void ExactEngine::ExactInterval::form() const {
   core::assign(basis, 1.0, engine_.motion_, form_.x);
   ModeFunction& driven = drive.moves_base() ? form_.y : form_.external;
   core::clear(basis, drive.moves_base() ? form_.external : form_.y);
-  mode.represent({.constant = drive.offset()}, driven);
+  mode.represent({.polynomial = {drive.offset()}}, driven);
   for (std::size_t j = 0; j < drive.frequencies().size(); ++j) {
     const auto k = static_cast<std::size_t>(mode.harmonic_element(j));
     const Complex start = drive.phasor(j) * Complex(form_.end.re[k], -form_.end.im[k]);
@@ -122,7 +122,7 @@ void ExactEngine::ExactInterval::form() const {
   if (direction == Direction::none) return;
   core::assign(basis, friction::sign(direction), engine_.speed(), form_.v);
   core::assign(basis, friction::sign(direction), engine_.speed_rate(), form_.a);
-  mode.represent({.constant = force.constant, .transients = transients}, form_.force);
+  mode.represent({.polynomial = {force.constant}, .transients = transients}, form_.force);
   core::accumulate(basis, force.position, form_.x, form_.force);
   core::accumulate(basis, force.velocity, form_.v, form_.force);
 }
@@ -229,7 +229,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
   local_time_ += s;
   if (to_period_end || local_time_ >= drive_.period()) {
     local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
-    ++periods_passed_;
+    pass_period();
     drive_.end_period(local_time_);
   } else {
     for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) {

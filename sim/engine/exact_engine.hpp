@@ -41,7 +41,7 @@ class ExactEngine final : public Engine {
   struct ModeKey {
     double damping = 0.0;
     double stiffness = 0.0;
-    bool ramped = false;
+    int degree = 0;
     std::vector<double> decays;
 
     friend auto operator<=>(const ModeKey&, const ModeKey&) = default;
@@ -67,7 +67,7 @@ class ExactEngine final : public Engine {
     friction::Affine
         limit;             ///< of static friction, while the mass sticks; its constant is that where it sticks now
     bool lasting = false;  ///< need not be asked for again
-    bool ramped = false;   ///< something grows with time: modes without that element are cheaper
+    int degree = 0;        ///< highest power of time in anything: modes without such elements are cheaper
     std::vector<double> transients;
     std::vector<double> decays;
   };

@@ -25,7 +25,7 @@ void ExactEngine::collect(bool with_guards) {
   const friction::Instant at = now();
   const bool sticks = direction_ == Direction::none;
   total_->force = total_->limit = {};
-  total_->ramped = drive_.ramped();
+  total_->degree = drive_.degree();
   total_->transients.clear();
   total_->decays.clear();
   law_guards_.clear();
@@ -42,7 +42,7 @@ void ExactEngine::collect(bool with_guards) {
     law_guard_counts_[i] = law_guards_.size() - before;
   }
   for (const Affine& guard : law_guards_) {
-    total_->ramped = total_->ramped || guard.rate != 0.0;
+    if (guard.rate != 0.0) total_->degree = std::max(total_->degree, 1);
     if (guard.transient != 0.0) add_transient(0.0, guard.decay);
   }
 }
@@ -52,7 +52,7 @@ void ExactEngine::add_force(const Affine& part) {
   total_->force.rate += part.rate;
   total_->force.position += part.position;
   total_->force.velocity += part.velocity;
-  total_->ramped = total_->ramped || part.rate != 0.0;
+  if (part.rate != 0.0) total_->degree = std::max(total_->degree, 1);
   if (part.transient != 0.0) add_transient(part.transient, part.decay);
 }
 
@@ -61,7 +61,7 @@ void ExactEngine::add_limit(const Affine& part) {
   total_->limit.constant += part.constant + part.position * x_;
   total_->limit.position += part.position;
   total_->limit.rate += part.rate;
-  total_->ramped = total_->ramped || part.rate != 0.0;
+  if (part.rate != 0.0) total_->degree = std::max(total_->degree, 1);
 }
 
 void ExactEngine::add_transient(double size, double decay) {
@@ -76,28 +76,29 @@ void ExactEngine::add_transient(double size, double decay) {
 
 const LinearMode& ExactEngine::mode_for(double damping, double stiffness) {
   const auto fits = [&](const LinearMode& mode) {
-    return mode.damping() == damping && mode.stiffness() == stiffness && mode.ramped() == total_->ramped &&
+    return mode.damping() == damping && mode.stiffness() == stiffness && mode.degree() == total_->degree &&
            mode.decays() == total_->decays;
   };
   if (mode_ != nullptr && fits(*mode_)) return *mode_;
   key_.damping = damping;
   key_.stiffness = stiffness;
-  key_.ramped = total_->ramped;
+  key_.degree = total_->degree;
   key_.decays = total_->decays;
   const auto known = modes_.find(key_);
   if (known != modes_.end()) return known->second;
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& entry) { return &entry.second != mode_; });
   return modes_
-      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_->ramped,
+      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_->degree,
                    total_->decays)
       .first->second;
 }
 
 /// forcing_ = drive + extra - the laws' parts that do not move with the mass.
 void ExactEngine::load_forcing(double extra_constant) {
-  forcing_.constant = drive_.force_constant() - total_->force.constant + extra_constant;
-  forcing_.ramp = drive_.force_ramp() - total_->force.rate;
+  forcing_.polynomial = drive_.force_polynomial();
+  forcing_.polynomial[0] += extra_constant - total_->force.constant;
+  forcing_.polynomial[1] -= total_->force.rate;
   for (std::size_t j = 0; j < forcing_.phasors.size(); ++j) forcing_.phasors[j] = drive_.force_phasor(j);
   forcing_.transients.resize(total_->transients.size());
   for (std::size_t j = 0; j < total_->transients.size(); ++j) forcing_.transients[j] = -total_->transients[j];
@@ -122,14 +123,14 @@ const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
 void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFunction& guard) const {
   const core::ExponentialBasis& basis = mode_->basis();
   ModeFunction level;
-  mode_->represent({.constant = total_->limit.constant, .ramp = total_->limit.rate}, level);
+  mode_->represent({.polynomial = {total_->limit.constant, total_->limit.rate}}, level);
   core::assign(basis, -direction, pull, guard);
   core::accumulate(basis, 1.0, level, guard);
 }
 
 /// The pull at this instant; total_ holds the laws that do not hold the mass.
 double ExactEngine::pull_now() const {
-  double pull = drive_.force_constant() - total_->force.constant -
+  double pull = drive_.force_polynomial()[0] - total_->force.constant -
                 (model_.oscillator.stiffness + total_->force.position) * x_;
   for (std::size_t j = 0; j < drive_.frequencies().size(); ++j) pull += drive_.force_phasor(j).real();
   for (const double transient : total_->transients) pull -= transient;
@@ -151,7 +152,7 @@ void ExactEngine::lay_stick() {
   mode_ = &pull_on_mode(pull);
   const core::ExponentialBasis& basis = mode_->basis();
   core::clear(basis, motion_);
-  mode_->represent({.constant = x_}, motion_);
+  mode_->represent({.polynomial = {x_}}, motion_);
   force_scale_ = force_scale();
   if (!can_stick_) return;
   const double stiffness = model_.oscillator.stiffness + total_->force.position;
@@ -207,8 +208,8 @@ void ExactEngine::add_law_guards() {
         watch.is_speed = g.velocity * friction::sign(direction_) > 0.0 && g.constant == 0.0 && g.rate == 0.0 &&
                          g.position == 0.0 && g.transient == 0.0;
       }
-      ModeForcing own{
-          .constant = g.constant, .ramp = g.rate, .transients = std::vector<double>(mode_->decays().size())};
+      ModeForcing own{.polynomial = {g.constant, g.rate},
+                      .transients = std::vector<double>(mode_->decays().size())};
       for (std::size_t d = 0; d < mode_->decays().size(); ++d) {
         if (mode_->decays()[d] == g.decay) own.transients[d] = g.transient;
       }

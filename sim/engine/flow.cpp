@@ -94,11 +94,11 @@ double Flow::respond(std::size_t i, std::span<const double> X, double t, std::sp
 
 const Drive::Value& Flow::drive(double t) const {
   for (const KnownDrive& known : known_drives_) {
-    if (known.t == t && known.cell == drive_.cell()) return known.value;
+    if (known.t == t && known.piece == drive_.piece()) return known.value;
   }
   KnownDrive& next = known_drives_[oldest_drive_];
   oldest_drive_ = (oldest_drive_ + 1) % known_drives_.size();
-  next = {t, drive_.cell(), drive_.at(t)};
+  next = {t, drive_.piece(), drive_.at(t)};
   return next.value;
 }
 

@@ -28,7 +28,7 @@ namespace dualdamp::sim {
 
 class Flow final : public VectorField {
  public:
-  /// `drive` counts time from the start of a period and stays there; of a noise it is in the present cell. `past`:
+  /// `drive` counts time from the start of a period and stays there; with pieces it is in the present one. `past`:
   /// asked for the velocity of old where a law sees it.
   Flow(const Model& model, const Drive& drive, const VelocityHistory& past);
 
@@ -95,7 +95,7 @@ class Flow final : public VectorField {
   /// The drive of late: iterations and displaced steps ask for the times of a step's stages again and again.
   struct KnownDrive {
     double t = std::numeric_limits<double>::quiet_NaN();
-    long cell = 0;  ///< of a noise
+    long piece = 0;
     Drive::Value value{};
   };
   mutable std::array<KnownDrive, 8> known_drives_;

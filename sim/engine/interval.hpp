@@ -47,7 +47,8 @@ class Interval {
   double begin = 0.0;     ///< s
   double duration = 0.0;  ///< s
   friction::Direction direction = friction::Direction::none;
-  std::optional<EventKind> ending;  ///< none: it ends at a period boundary, a noise's node or the horizon
+  std::optional<EventKind>
+      ending;  ///< none: it ends at a period boundary, at the end of a drive's piece or the horizon
 
   /// The motion at `begin + s`, 0 <= s <= duration.
   [[nodiscard]] virtual Sample at(double s) const = 0;

@@ -15,11 +15,11 @@ namespace {
 /// Relative distance of exponents below which divided differences take over; naive forms lose at most this factor.
 constexpr double closeness = 1e-2;
 /// A stiffness vanishes when the mass cannot feel it within the time that matters: own exponents below this part of
-/// the drive's frequency, or (without a drive) the smaller one below that part of the larger one. A ramp loses the
-/// square.
+/// the drive's frequency, or (without a drive) the smaller one below that part of the larger one. A power s^n loses
+/// the power n + 1 of that part.
 constexpr double slow_beside_drive = 1e-2;
 constexpr double slow_beside_decay = 1e-8;
-constexpr double ramp_slow_beside_decay = 1e-4;
+constexpr std::array<double, 4> power_slow_beside_decay = {1e-8, 1e-4, 2e-3, 1e-2};
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -33,16 +33,18 @@ void add(ModeFunction& f, int k, Complex coefficient) {
 }  // namespace
 
 LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies,
-                       bool ramped, std::span<const double> decays)
+                       int degree, std::span<const double> decays)
     : mass_(mass),
       damping_(damping),
       stiffness_(stiffness),
       decays_(decays.begin(), decays.end()),
-      ramped_(ramped) {
+      degree_(degree) {
   for (const double frequency : frequencies) fastest_drive_ = std::max(fastest_drive_, frequency);
   lay_own_motion();
-  constant_ = drive(0.0, basis_.add(0.0), slow_beside_decay);
-  if (ramped) ramp_ = drive(0.0, basis_.add(0.0, constant_.source), ramp_slow_beside_decay);
+  for (int n = 0; n <= degree; ++n) {
+    const int source = n == 0 ? basis_.add(0.0) : basis_.add(0.0, powers_.back().source);
+    powers_.push_back(drive(0.0, source, power_slow_beside_decay[at(n)]));
+  }
   for (const double frequency : frequencies) {
     const Complex z(0.0, frequency);
     harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
@@ -116,8 +118,7 @@ LinearMode::Driven LinearMode::drive(Complex z, int source, double slow) {
 
 void LinearMode::represent(const ModeForcing& forcing, ModeFunction& f) const {
   core::clear(basis_, f);
-  add(f, constant_.source, forcing.constant);
-  if (ramped_) add(f, ramp_.source, forcing.ramp);
+  for (std::size_t n = 0; n < powers_.size(); ++n) add(f, powers_[n].source, forcing.polynomial[n]);
   for (std::size_t j = 0; j < forcing.phasors.size(); ++j) add(f, harmonics_[j].source, forcing.phasors[j]);
   for (std::size_t j = 0; j < forcing.transients.size(); ++j) add(f, transients_[j].source, forcing.transients[j]);
 }
@@ -138,22 +139,26 @@ void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFun
       slope += coefficient.real();
     }
   };
-  double constant = forcing.constant;
-  if (ramped_) {
-    const double coefficient = forcing.ramp * ramp_.gain.real();
-    add(x, ramp_.target, coefficient);
-    if (ramp_.near == Near::none) {
-      // s/K lags behind by C/K^2: K (s/K - C/K^2) + C/K = s.
-      const double lag = coefficient * damping_ * ramp_.gain.real();
-      add(x, constant_.source, -lag);
-      start -= lag;
-      slope += coefficient;
-    } else if (ramp_.near == Near::first) {
-      // Of the other own exponent u the ramp's element leaves the force -1/u.
-      constant += forcing.ramp / second_.real();
+  // From the highest power down: what an element does not balance is left to lower ones.
+  std::array<double, 4> left = forcing.polynomial;
+  for (std::size_t n = powers_.size(); n-- > 0;) {
+    const Driven& power = powers_[n];
+    const double gain = power.gain.real();
+    const double coefficient = left[n] * gain;
+    add(x, power.target, coefficient);
+    if (power.near == Near::none) {
+      // m x'' + C x' + K x of s^n/(K n!) is s^n/n! + C/K s^(n-1)/(n-1)! + m/K s^(n-2)/(n-2)!.
+      if (n == 0) start += coefficient;
+      if (n == 1) slope += coefficient;
+      if (n >= 1) left[n - 1] -= coefficient * damping_;
+      if (n >= 2) left[n - 2] -= coefficient * mass_;
+    } else if (power.near != Near::both) {
+      // Of the other own exponent u the element leaves the force -1/u.
+      const Complex other = power.near == Near::first ? second_ : first_;
+      if (n == 0) slope += coefficient;
+      if (n >= 1) left[n - 1] += left[n] / other.real();
     }
   }
-  apply(constant_, constant);
   for (std::size_t j = 0; j < forcing.phasors.size(); ++j) apply(harmonics_[j], forcing.phasors[j]);
   for (std::size_t j = 0; j < forcing.transients.size(); ++j) apply(transients_[j], forcing.transients[j]);
 
@@ -198,7 +203,7 @@ Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) c
 Eigen::Vector2d LinearMode::response(std::size_t source, const ExponentialBasis::Values& values) const {
   ModeForcing forcing;
   if (source == 0) {
-    forcing.constant = 1.0;
+    forcing.polynomial[0] = 1.0;
   } else {
     forcing.transients.assign(decays_.size(), 0.0);
     forcing.transients[source - 1] = 1.0;

@@ -1,6 +1,6 @@
 #pragma once
 /// Closed-form motion of one mode:  m x'' + C x' + K x = f(s),
-///     f(s) = constant + ramp s + sum_i transient_i exp(-decay_i s) + Re sum_j phasor_j exp(i w_j s)      [N].
+///     f(s) = sum_n polynomial_n s^n/n! + sum_i transient_i exp(-decay_i s) + Re sum_j phasor_j exp(i w_j s)  [N].
 ///
 /// C [N.s/m] and K [N/m] of any sign, zero included. A basis of exponentials is laid out once for (m, C, K, w);
 /// each interval then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's
@@ -9,6 +9,7 @@
 /// far from each other are never on one chain: there derivatives would cancel, and their bounds be useless.
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,20 +19,19 @@ namespace dualdamp::sim {
 
 /// The right-hand side of a mode, relative to the start of the interval.
 struct ModeForcing {
-  double constant = 0.0;                 ///< N
-  double ramp = 0.0;                     ///< N/s; only for a mode laid out with a ramp
+  std::array<double, 4> polynomial{};    ///< derivatives [N/s^n]; zero beyond the degree of the mode
   std::vector<core::Complex> phasors{};  ///< N, one for each frequency of the mode, or none
   std::vector<double> transients{};      ///< N, one for each decay of the mode, or none
 };
 
 class LinearMode {
  public:
-  /// `ramped`: the forcing may have a ramp.
-  LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies, bool ramped,
+  /// `degree`: the highest power of s in the forcing, 0 to 3.
+  LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies, int degree,
              std::span<const double> decays = {});
 
   [[nodiscard]] const core::ExponentialBasis& basis() const { return basis_; }
-  [[nodiscard]] bool ramped() const { return ramped_; }
+  [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] double damping() const { return damping_; }
   [[nodiscard]] double stiffness() const { return stiffness_; }
   [[nodiscard]] const std::vector<double>& decays() const { return decays_; }
@@ -54,7 +54,7 @@ class LinearMode {
 
   /// How a forcing exp(z s) enters the particular solution: gain on one element.
   struct Driven {
-    int source = 0;  ///< the element exp(z s) (or s) itself
+    int source = 0;  ///< the element exp(z s) (or s^n/n!) itself
     int target = 0;  ///< element of the particular solution: source, or a divided difference with those of `near`
     core::Complex gain;
     Near near = Near::none;
@@ -82,12 +82,11 @@ class LinearMode {
   core::Complex first_;         ///< the oscillator's own exponents
   core::Complex second_;
   OwnForm own_form_ = OwnForm::oscillating;
-  double inverse_gap_ = 0.0;  ///< 1/Im first_ or 1/(first_ - second_); unused for a chain [s]
-  int own_first_ = 0;         ///< exp(first_ s)
-  int own_second_ = -1;       ///< exp(second_ s), or the divided difference; unused when oscillating
-  Driven constant_;
-  Driven ramp_;
-  bool ramped_;
+  double inverse_gap_ = 0.0;    ///< 1/Im first_ or 1/(first_ - second_); unused for a chain [s]
+  int own_first_ = 0;           ///< exp(first_ s)
+  int own_second_ = -1;         ///< exp(second_ s), or the divided difference; unused when oscillating
+  std::vector<Driven> powers_;  ///< s^n/n!
+  int degree_;
   std::vector<Driven> harmonics_;
   std::vector<Driven> transients_;
 };

@@ -117,8 +117,7 @@ void SmoothEngine::restore_past(const State& state) {
 void SmoothEngine::set_scales() {
   const double wn = natural_frequency(model_.oscillator);
   if (x_scale_ == 0.0) {
-    // A ramp that begins at zero has the size of what it reaches in the time of the oscillator.
-    double force = drive_.force_scale() + std::abs(drive_.force_ramp()) / wn;
+    double force = drive_.force_size(1.0 / wn);
     // With the direction of the motion: against it a force that falls with speed is beyond all sizes.
     const Direction direction = direction_ == Direction::none ? Direction::forward : direction_;
     for (std::size_t i = 0; i < memories_.size(); ++i)
@@ -386,7 +385,7 @@ void SmoothEngine::pass_time(bool to_period_end) {
   local_time_ += taken_;
   if (!to_period_end && local_time_ < drive_.period()) return;
   local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
-  ++periods_passed_;
+  pass_period();
   past_.shift(drive_.period());
   for (double& kink : breaks_) kink -= drive_.period();
   std::erase_if(breaks_, [&](double kink) { return kink < local_time_; });

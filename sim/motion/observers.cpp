@@ -11,6 +11,9 @@ namespace dualdamp::sim {
 
 namespace {
 
+/// A base that is elsewhere by more than this part of its motion has jumped; less is rounding.
+constexpr double jump = 1e-12;
+
 /// Calls visit(begin, width) for panels that cover the interval, each resolved by a polynomial of low degree.
 template <class Visit>
 void for_panels(const Interval& interval, const Visit& visit) {
@@ -194,8 +197,15 @@ double EnergyAudit::stored(const Sample& sample) const {
 
 void EnergyAudit::observe(const Interval& interval) {
   const auto [begin, end] = Ends(interval);
-  if (!started_) first_ = stored(begin);
+  if (!started_) {
+    first_ = stored(begin);
+  } else if (std::abs(begin.y - base_) > jump * reach_) {
+    // The work of a base that has jumped is what the spring stores more of.
+    input_.add(spring_energy(oscillator_, begin.y - begin.x) - spring_energy(oscillator_, base_ - begin.x));
+  }
   started_ = true;
+  base_ = end.y;
+  reach_ = std::max({reach_, std::abs(begin.y), std::abs(end.y)});
   last_ = stored(end);
   if (const ClosedForm* form = interval.closed_form()) {
     add_in_closed_form(*form);

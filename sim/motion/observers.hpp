@@ -83,6 +83,8 @@ class EnergyAudit {
   CompensatedSum friction_;
   CompensatedSum viscous_;
   CompensatedSum square_speed_;
+  double base_ = 0.0;   ///< where the last interval ended [m]
+  double reach_ = 0.0;  ///< largest |y| so far [m]
   double first_ = 0.0;
   double last_ = 0.0;
 };

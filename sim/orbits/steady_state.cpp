@@ -40,7 +40,7 @@ constexpr double known = 1e-6;
 State linear_response(const Model& model) {
   const Oscillator& o = model.oscillator;
   const Drive drive(o, model.excitation);
-  State state{.x = drive.force_constant() / o.stiffness};
+  State state{.x = drive.force_polynomial()[0] / o.stiffness};
   for (std::size_t j = 0; j < drive.frequencies().size(); ++j) {
     const double w = drive.frequencies()[j];
     const std::complex<double> x =

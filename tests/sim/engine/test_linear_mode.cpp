@@ -32,11 +32,11 @@ struct Case {
     std::vector<double> decays;
     for (const auto& harmonic : problem.harmonics) frequencies.push_back(harmonic.frequency);
     for (const auto& transient : problem.transients) decays.push_back(transient.decay);
-    return {problem.mass, problem.damping, problem.stiffness, frequencies, problem.ramp != 0.0, decays};
+    return {problem.mass, problem.damping, problem.stiffness, frequencies, problem.ramp != 0.0 ? 1 : 0, decays};
   }
 
   [[nodiscard]] ModeForcing forcing() const {
-    ModeForcing f{.constant = problem.constant, .ramp = problem.ramp};
+    ModeForcing f{.polynomial = {problem.constant, problem.ramp}};
     for (const auto& harmonic : problem.harmonics) f.phasors.push_back(harmonic.phasor);
     for (const auto& transient : problem.transients) f.transients.push_back(transient.amplitude);
     return f;
