@@ -116,7 +116,8 @@ struct dualdamp_law_table {
 
   /* Optional. Mode and states in which it begins; without it mode 0 and states 0. */
   int (*start)(const void* law, const struct dualdamp_instant* now, int* mode, double* states);
-  /* Optional. The static limit: the force up to which the law makes the mass stick [N], >= 0. */
+  /* Optional. The static limit: how far the force that makes the mass stick can go from that of direction 0 [N],
+   * >= 0. The latter is 0 for a law that holds equally in both directions. */
   int (*static_limit)(const void* law, int mode, const double* states, const struct dualdamp_instant* now,
                       double* limit);
   /* Required with guards. Values > 0 while the mode holds; it ends when one reaches 0 from above. A guard that has

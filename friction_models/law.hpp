@@ -15,9 +15,10 @@
 ///               released (`Trigger::direction_change`), or at a time of the law's own schedule. It is called again
 ///               while a guard is violated in the new mode. It decides by the mode and the trigger, not by values.
 ///
-/// Sticking belongs to the driver: a law that can make the mass stick says up to which force, its static limit.
-/// With v = 0 the mass sticks while |pull| <= the sum of the static limits, where pull is the sum of all forces on
-/// the mass except those of laws with a static limit; otherwise it slips in the direction of the pull. At v = 0
+/// Sticking belongs to the driver: a law that can make the mass stick says how far its force can go from that of
+/// direction none, its static limit. Of a law that holds equally in both directions the force of direction none is
+/// 0. With v = 0 the mass sticks while |pull| <= the sum of the static limits, where pull is the sum of all forces
+/// on the mass, those of the laws for direction none; otherwise it slips in the direction of the pull. At v = 0
 /// every law first sees a change of direction to none.
 ///
 /// A law asks the instant for its force limits, `now.force_limit(kinetic)`: modifiers (drift, fluctuation, a slope

@@ -71,7 +71,7 @@ concept Guards = requires(const L& law, const Memory& memory, const Instant& now
   { law.guards(memory, now, direction, values) } -> std::same_as<void>;
 };
 
-/// Makes the mass stick, up to this static force limit [N].
+/// Makes the mass stick, with forces up to this static limit [N] from that of direction none.
 template <class L>
 concept AffineLimit = requires(const L& law, const Memory& memory, const Instant& now) {
   { law.affine_limit(memory, now) } -> std::same_as<Affine>;

@@ -7,6 +7,7 @@
 
 // The built-in laws, one line each, sorted by name. The source of each law defines its entry, NAME_entry().
 #define DUALDAMP_LAWS(LAW)      \
+  LAW(asymmetric_coulomb)       \
   LAW(bouc_wen)                 \
   LAW(bristle)                  \
   LAW(contact_compliance)       \
@@ -16,6 +17,7 @@
   LAW(friction_lag)             \
   LAW(generalized_maxwell_slip) \
   LAW(iwan)                     \
+  LAW(iwan_four_parameter)      \
   LAW(lugre)                    \
   LAW(normal_vibration)         \
   LAW(rate_state)               \

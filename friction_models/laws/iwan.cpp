@@ -6,6 +6,7 @@
 
 #include "friction_models/law_entry.hpp"
 #include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/modifiers/force_limits.hpp"
 #include "friction_models/modifiers/modified.hpp"
 
 namespace dualdamp::friction {
@@ -184,18 +185,13 @@ void Iwan::scales(const Memory&, std::span<double> scales) const {
   std::ranges::fill(scales, slip_distance_.front());
 }
 
-namespace {
-
-/// Limits that vary change the order in which the elements slide: each element is then a law of its own.
-std::vector<Law> make_iwan(const ParameterValues& p) {
-  if (!p.has("drift") && !p.has("fluctuation")) return {Law(Iwan(Iwan::elements(p)))};
+std::vector<Law> Iwan::laws(std::vector<Element> elements, const ParameterValues& values) {
+  if (ModifierSettings(values).do_nothing()) return {Law(Iwan(std::move(elements)))};
   std::vector<Law> laws;
-  for (const auto& [stiffness, limit] : Iwan::elements(p))
-    laws.push_back(modified(Law(ContactCompliance(limit, limit, stiffness, 0.0)), p));
+  for (const auto& [stiffness, limit] : elements)
+    laws.push_back(modified(Law(ContactCompliance(limit, limit, stiffness, 0.0)), values));
   return laws;
 }
-
-}  // namespace
 
 LawEntry iwan_entry() {
   return {.name = "iwan",
@@ -203,9 +199,9 @@ LawEntry iwan_entry() {
           .equation = "F = sum of stiffness (x - a) over stuck elements, of +-limit over sliding ones",
           .states = "turning points that are remembered",
           .sources = "iwan1966, masing1926",
-          .modifiers = {"drift", "fluctuation"},
+          .modifiers = Iwan::modifiers(),
           .parameters = Iwan::parameters(),
-          .make = make_iwan};
+          .make = [](const ParameterValues& p) { return Iwan::laws(Iwan::elements(p), p); }};
 }
 
 }  // namespace dualdamp::friction

@@ -20,6 +20,7 @@
 /// elements.
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "friction_models/law.hpp"
@@ -39,6 +40,12 @@ class Iwan {
   [[nodiscard]] static std::vector<Element> elements(const ParameterValues& values);
   /// Slip distances spread evenly from 0 to 2 limit/stiffness: k_i = stiffness/n, f_i = 2 limit (i + 1/2)/n^2.
   [[nodiscard]] static std::vector<Element> uniform(double stiffness, double limit, int count);
+
+  /// The modifiers that elements in parallel take.
+  [[nodiscard]] static std::vector<std::string_view> modifiers() { return {"drift", "fluctuation"}; }
+  /// The elements as one law, or under modifiers among `values` as many: limits that vary change the order in which
+  /// the elements slide, so each is then a law of its own.
+  [[nodiscard]] static std::vector<Law> laws(std::vector<Element> elements, const ParameterValues& values);
 
   /// At least one element, in any order.
   explicit Iwan(std::vector<Element> elements);

@@ -270,9 +270,10 @@ std::optional<CoulombLimits> coulomb_limits(const friction::Law& law) {
   if (!law.is_affine() || law.is_modal() || !law.aperiodic().empty()) return std::nullopt;
   const friction::Affine forward = law.affine_force({}, {}, friction::Direction::forward);
   const friction::Affine backward = law.affine_force({}, {}, friction::Direction::backward);
+  const friction::Affine resting = law.affine_force({}, {}, friction::Direction::none);
   const friction::Affine limit = law.affine_limit({}, {});
   if (!is_constant(forward) || !is_constant(backward) || !is_constant(limit)) return std::nullopt;
-  const bool levels = backward.constant == -forward.constant && 0.0 <= forward.constant;
+  const bool levels = backward.constant == -forward.constant && resting.constant == 0.0 && 0.0 <= forward.constant;
   if (!levels || limit.constant < forward.constant) return std::nullopt;
   return CoulombLimits{forward.constant, limit.constant};
 }

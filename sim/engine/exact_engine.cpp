@@ -252,7 +252,7 @@ double ExactEngine::start_acceleration() const {
 /// follows at once.
 void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
   if (!at_once) sensitivity_.leave(start_acceleration(), model_.friction, memories_, begin, direction_);
-  sensitivity_.lay(model_.friction, memories_, begin, direction_, holds_mass_, total_->decays);
+  sensitivity_.lay(model_.friction, memories_, begin, direction_, total_->decays);
   if (sensitivity_.has_states()) memories_before_ = memories_;
 }
 

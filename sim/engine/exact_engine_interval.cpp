@@ -14,8 +14,8 @@ using core::ModeFunction;
 using friction::Affine;
 using friction::Direction;
 
-/// Asks every law once what it does in this interval: forces of a slip, or while the mass sticks the limits of the
-/// laws that hold the mass and the forces of the others; and the guards.
+/// Asks every law once what it does in this interval: its force, while the mass sticks the limits of the laws that
+/// hold it, too; and the guards.
 void ExactEngine::collect(bool with_guards) {
   const int index = static_cast<int>(direction_) + 1;
   total_ = &totals_[static_cast<std::size_t>(index)];
@@ -31,11 +31,8 @@ void ExactEngine::collect(bool with_guards) {
   law_guards_.clear();
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     const friction::Law& law = model_.friction[i];
-    if (sticks && holds_mass_[i]) {
-      add_limit(law.affine_limit(memories_[i], at));
-    } else {
-      add_force(law.affine_force(memories_[i], at, direction_));
-    }
+    if (sticks && holds_mass_[i]) add_limit(law.affine_limit(memories_[i], at));
+    add_force(law.affine_force(memories_[i], at, direction_));
     if (!with_guards || !modal_[i]) continue;
     const std::size_t before = law_guards_.size();
     law.affine_guards(memories_[i], at, direction_, law_guards_);
@@ -109,7 +106,7 @@ double ExactEngine::force_scale() const {
          (model_.oscillator.stiffness + std::abs(total_->force.position)) * std::abs(x_);
 }
 
-/// All forces on the mass while it sticks here, except those of laws that hold it, as a function of time.
+/// The pull while the mass sticks here, as a function of time.
 const LinearMode& ExactEngine::pull_on_mode(ModeFunction& pull) {
   const Oscillator& o = model_.oscillator;
   const double stiffness = o.stiffness + total_->force.position;
@@ -128,7 +125,7 @@ void ExactEngine::limit_guard(const ModeFunction& pull, double direction, ModeFu
   core::accumulate(basis, 1.0, level, guard);
 }
 
-/// The pull at this instant; total_ holds the laws that do not hold the mass.
+/// The pull at this instant; total_ holds the laws for direction none.
 double ExactEngine::pull_now() const {
   double pull = drive_.force_polynomial()[0] - total_->force.constant -
                 (model_.oscillator.stiffness + total_->force.position) * x_;

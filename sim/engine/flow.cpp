@@ -30,9 +30,8 @@ constexpr double resolved = 1e-11;
 
 Flow::Flow(const Model& model, const Drive& drive, const VelocityHistory& past)
     : model_(model), drive_(drive), past_(past) {
-  for (const friction::Law& law : model_.friction) silent_.push_back(law.holds_mass());
-  first_.resize(silent_.size());
-  count_.resize(silent_.size());
+  first_.resize(model_.friction.size());
+  count_.resize(model_.friction.size());
   scales_.assign(2, 1.0);
 }
 
@@ -173,11 +172,10 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
   }
 }
 
-/// Sum of the laws' forces; while the mass sticks, of those that do not hold the mass.
+/// Sum of the laws' forces.
 double Flow::resisting(std::span<const double> X, double t) const {
   double force = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) {
-    if (direction_ == Direction::none && silent_[i]) continue;
     force += model_.friction[i].force(memory(i, X), instant(i, X, t), direction_);
   }
   return force;
@@ -190,7 +188,7 @@ double Flow::pull(std::span<const double> X, double t) const {
 double Flow::limit(std::span<const double> X, double t) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) {
-    if (silent_[i]) sum += model_.friction[i].static_limit(memory(i, X), instant(i, X, t));
+    if (model_.friction[i].holds_mass()) sum += model_.friction[i].static_limit(memory(i, X), instant(i, X, t));
   }
   return sum;
 }

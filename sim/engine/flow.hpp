@@ -51,7 +51,7 @@ class Flow final : public VectorField {
   void gather(double x, double v, const std::vector<friction::Memory>& memories, std::vector<double>& X) const;
   void scatter(std::span<const double> X, std::vector<friction::Memory>& memories) const;
 
-  /// While the mass sticks: all forces on the mass but those of laws that hold it, and how much those hold [N].
+  /// While the mass sticks: the pull and its limit [N] (sim/engine/sticking_gate.hpp).
   [[nodiscard]] double pull(std::span<const double> X, double t) const;
   [[nodiscard]] double limit(std::span<const double> X, double t) const;
   /// Guards of law i, appended.
@@ -83,7 +83,6 @@ class Flow final : public VectorField {
   std::size_t size_ = 2;
   std::vector<std::size_t> first_;  ///< of each law: index of its first state in X
   std::vector<std::size_t> count_;  ///< of each law
-  std::vector<char> silent_;        ///< laws that hold the mass
   std::vector<double> own_scales_;  ///< 0 for positions
   std::vector<double> scales_;
   mutable long responses_ = 0;

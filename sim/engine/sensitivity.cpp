@@ -51,12 +51,12 @@ Instant Sensitivity::displaced(const Instant& now, std::size_t column) const {
 }
 
 void Sensitivity::lay(Laws laws, const Memories& memories, const Instant& now, Direction direction,
-                      const std::vector<char>& silent, const std::vector<double>& decays) {
+                      const std::vector<double>& decays) {
   begin_ = motion_;
   if (!with_states_) return;
   force_.assign(motion_.size(), Eigen::VectorXd::Zero(at(1 + decays.size())));
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (memories[i].state.empty() || (direction == Direction::none && silent[i])) continue;
+    if (memories[i].state.empty()) continue;
     const Affine base = laws[i].affine_force(memories[i], now, direction);
     for (std::size_t c = 0; c < motion_.size(); ++c) {
       if (!perturbed(i, c)) continue;

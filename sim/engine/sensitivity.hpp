@@ -37,10 +37,9 @@ class Sensitivity {
   /// Identity, for a motion that begins with these memories. `modal`: some law may come to have states.
   void begin(const Memories& memories, bool modal);
 
-  /// Asks the laws what perturbed states exert in the interval that begins now. `silent`: laws whose force does not
-  /// act, for the mass sticks; `decays`: of the mode's transients.
+  /// Asks the laws what perturbed states exert in the interval that begins now. `decays`: of the transients.
   void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,
-           const std::vector<char>& silent, const std::vector<double>& decays);
+           const std::vector<double>& decays);
 
   /// Over a slip. `responses`: (x, v) at its end to a unit constant force and to a unit of each transient,
   /// from rest at zero.

@@ -2,7 +2,7 @@
 /// The sticking gate: where a slip ends, does the mass stick or reverse?
 ///
 /// A slip ends where the velocity reaches 0. There the sum of forces decides, with
-///   pull   all forces on the mass except those of the laws that can hold it [N],
+///   pull   all forces on the mass, those of the laws for direction none [N],
 ///   limit  the sum of the static limits of these laws [N]:
 ///       |pull| < limit   the mass sticks (event: stop);
 ///       |pull| > limit   the mass slips in the direction of the pull (event: reversal, or none where it goes on);

@@ -14,15 +14,25 @@ namespace {
 /// Relative rounding of a law's force.
 constexpr double rounding = 1e-12;
 
-/// F never falls as v grows from 0, and is not below the static limit; at one time.
-bool rises_with_speed(const Law& law, double t, double x) {
+/// The forces with which the law can hold the mass lie between those of the slips backward and forward.
+bool holds_between(const Law& law, const Instant& at) {
+  const double middle = law.force({}, at, Direction::none);
+  const double limit = law.static_limit({}, at);
+  const double forward = law.force({}, at, Direction::forward);
+  const double backward = law.force({}, at, Direction::backward);
+  return middle + limit <= forward + rounding * std::abs(forward) &&
+         middle - limit >= backward - rounding * std::abs(backward);
+}
+
+/// F never falls as v grows from 0 in this direction.
+bool rises_with_speed(const Law& law, double t, Direction direction) {
   constexpr double slowest = 1e-12;  // m/s
   constexpr double fastest = 1e9;
   constexpr double ratio = 1.26;  // ten speeds a decade
-  double before = law.force({}, {.t = t, .x = x}, Direction::forward);
-  if (law.static_limit({}, {.t = t, .x = x}) > before * (1.0 + rounding)) return false;
+  const double s = sign(direction);
+  double before = s * law.force({}, {.t = t}, direction);
   for (double v = slowest; v < fastest; v *= ratio) {
-    const double force = law.force({}, {.t = t, .x = x, .v = v}, Direction::forward);
+    const double force = s * law.force({}, {.t = t, .v = s * v}, direction);
     if (!(force >= before - rounding * std::abs(before))) return false;
     before = force;
   }
@@ -31,20 +41,22 @@ bool rises_with_speed(const Law& law, double t, double x) {
 
 bool is_monotone(const Law& law) {
   if (law.is_modal() || law.delay() > 0.0) return false;
-  if (law.is_affine()) {
-    const friction::Affine force = law.affine_force({}, {}, Direction::forward);
-    return force.position == 0.0 && force.velocity >= 0.0 &&
-           law.static_limit({}, {}) <= law.force({}, {}, Direction::forward);
-  }
-  const auto same_at = [&](double x) {
-    const Instant at{.t = 0.3, .x = x, .v = 1.0};
-    return law.force({}, at, Direction::forward) == law.force({}, {.t = 0.3, .v = 1.0}, Direction::forward);
+  const auto same_at = [&](double x, Direction direction) {
+    const Instant at{.t = 0.3, .x = x, .v = sign(direction)};
+    return law.force({}, at, direction) == law.force({}, {.t = 0.3, .v = sign(direction)}, direction);
   };
-  if (!same_at(0.1) || !same_at(-7.0)) return false;
-  for (const double t : {0.0, 0.3, 1.7, 11.0}) {
-    if (!rises_with_speed(law, t, 0.0)) return false;
+  for (const Direction direction : {Direction::forward, Direction::backward}) {
+    if (law.is_affine()) {
+      const friction::Affine force = law.affine_force({}, {}, direction);
+      if (force.position != 0.0 || force.velocity < 0.0) return false;
+      continue;
+    }
+    if (!same_at(0.1, direction) || !same_at(-7.0, direction)) return false;
+    for (const double t : {0.0, 0.3, 1.7, 11.0}) {
+      if (!rises_with_speed(law, t, direction) || !holds_between(law, {.t = t})) return false;
+    }
   }
-  return true;
+  return holds_between(law, {});
 }
 
 }  // namespace

@@ -20,8 +20,16 @@ constexpr int max_doublings = 60;
 struct ForceLimits {
   double kinetic = 0.0;
   double holding = 0.0;
-  bool rigid = true;  ///< no law remembers anything
+  bool coulomb = true;  ///< each law is Coulomb friction, the same in both directions
 };
+
+bool is_coulomb(const friction::Law& law, const friction::Memory& memory) {
+  if (law.is_modal()) return false;
+  const double kinetic = law.force(memory, {}, Direction::forward);
+  return law.force(memory, {.x = 1.0, .v = 1.0}, Direction::forward) == kinetic &&
+         law.force(memory, {.v = -1.0}, Direction::backward) == -kinetic &&
+         law.force(memory, {}, Direction::none) == 0.0;
+}
 
 ForceLimits limits_of(const Model& model) {
   ForceLimits limits;
@@ -29,14 +37,14 @@ ForceLimits limits_of(const Model& model) {
     const friction::Memory memory = law.start({});
     limits.kinetic += law.force(memory, {}, Direction::forward);
     limits.holding += law.static_limit(memory, {});
-    limits.rigid = limits.rigid && !law.is_modal();
+    limits.coulomb = limits.coulomb && is_coulomb(law, memory);
   }
   return limits;
 }
 
 std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits) {
   const Oscillator& o = model.oscillator;
-  const bool his = limits.rigid && limits.kinetic == limits.holding && o.damper_to == DamperTo::ground &&
+  const bool his = limits.coulomb && limits.kinetic == limits.holding && o.damper_to == DamperTo::ground &&
                    model.excitation.type == ExcitationType::base_harmonic && model.excitation.harmonics.empty();
   if (!his) return std::nullopt;
   const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));

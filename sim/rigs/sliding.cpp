@@ -8,6 +8,17 @@ namespace {
 
 using friction::ParameterValues;
 
+/// Friction that is larger forward, v > 0, than backward by this share of their mean: the level and the damper.
+sim::Model asymmetry(const RigBase& base, RigValues p) {
+  sim::Model model = base.model;
+  model.oscillator.damping = (1.0 - p[0]) * base.c();
+  return with_law(model, "asymmetric_coulomb",
+                  {{"kinetic_forward", (1.0 + p[0]) * base.F0},
+                   {"kinetic_backward", (1.0 - p[0]) * base.F0},
+                   {"viscous_forward", 2.0 * p[0] * base.c()},
+                   {"viscous_backward", 0.0}});
+}
+
 sim::Model friction_lag(const RigBase& base, RigValues p) {
   return with_law(
       base.model, "friction_lag",
@@ -60,6 +71,22 @@ sim::Model warming_contact(const RigBase& base, RigValues p) {
   RigBase cold = base;
   cold.F0 = when_cold(base, base.F0, heat, p[0]);
   return with_coulomb(cold, {{"warming", warming(base, p[0])}});
+}
+
+/// Friction that differs between the directions.
+std::vector<Rig> by_direction() {
+  return {
+      {.name = "asymmetry",
+       .meaning = "Coulomb and viscous friction are larger forward than backward",
+       .parameters = {{.name = "excess",
+                       .unit = "1",
+                       .meaning = "excess of the forward friction over the mean of both directions",
+                       .range = {.low = 0.0, .high = 1.0}}},
+       .build = asymmetry,
+       .severity = "excess of the forward friction, Coulomb and viscous, over the mean of both directions",
+       .largest = 1.0,
+       .values_at = [](const RigBase&, double s) { return std::vector{s}; }},
+  };
 }
 
 /// Coulomb friction that falls with speed.
@@ -182,6 +209,6 @@ std::vector<Rig> by_warmth() {
 
 }  // namespace
 
-std::vector<Rig> sliding_rigs() { return joined({by_speed(), by_place(), by_warmth()}); }
+std::vector<Rig> sliding_rigs() { return joined({by_direction(), by_speed(), by_place(), by_warmth()}); }
 
 }  // namespace dualdamp::bench
