@@ -21,7 +21,7 @@
 #include "cli/lists.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
-#include "cli/result_directory.hpp"
+#include "cli/report/result_directory.hpp"
 #include "core/build_info.hpp"
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"

@@ -167,7 +167,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   const Section format = scenario_format(options.analyses);
   Reading reading = read(document, format);
   const std::string directory = std::filesystem::path(name).parent_path().string();
-  Checked checked = check(document, reading, format, options.analyses, {directory, options.data_anywhere});
+  Checked checked =
+      check(document, reading, format, options.analyses, {directory, options.data_anywhere, options.data_texts});
   reading.problems.insert(reading.problems.end(), document.problems().begin(), document.problems().end());
   if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), name);
 

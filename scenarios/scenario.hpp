@@ -59,6 +59,7 @@ struct LoadOptions {
   std::vector<Override> set = {};
   /// Data files may lie outside the scenario's directory: their names come from the command line, not from a file.
   bool data_anywhere = false;
+  DataTexts data_texts = {};
   AnalysisList analyses = scenarios::analyses();  ///< what the file may ask for
 };
 

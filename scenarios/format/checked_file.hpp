@@ -1,6 +1,8 @@
 #pragma once
 /// A scenario while it is being checked: the file's text as a tree, what was read of it, and the problems found.
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,10 +14,14 @@
 
 namespace dualdamp::scenarios {
 
+/// Data that lie in memory, by the name that stands for their file: CSV or universal file format.
+using DataTexts = std::map<std::string, std::string, std::less<>>;
+
 /// Where data files are looked for.
 struct DataPlace {
   std::string directory;
-  bool anywhere = false;  ///< they may lie outside it
+  bool anywhere = false;   ///< they may lie outside it
+  const DataTexts& texts;  ///< looked through first
 };
 
 class CheckedFile {
@@ -23,7 +29,7 @@ class CheckedFile {
   /// `format`: the tables by which the document was read. `needs`: those of its analysis; empty when the file is
   /// too faulty to know it. Both outlive this.
   CheckedFile(const Document& document, Reading& reading, const Section& format, const std::vector<Needs>& needs,
-              DataPlace data_place = {});
+              DataPlace data_place);
 
   /// The record of `analysis.data`, once it has been read.
   std::optional<identify::MeasuredRecord> data;

@@ -20,7 +20,7 @@ std::optional<fs::path> safe_path(CheckedFile& file, const std::string& name) {
   fs::path path(name);
   const std::string allowed = "a relative path inside the scenario's directory";
   const Place place = file.place_of("analysis.data");
-  if (file.data_place().anywhere) return path;
+  if (file.data_place().anywhere || file.data_place().texts.contains(name)) return path;
   if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) {
     file.complain(place, "'analysis.data' must stay inside the scenario's directory", allowed, name);
     return std::nullopt;
@@ -68,16 +68,23 @@ core::InputError with_reason(const core::InputError& fault, const CoordinateSour
   return core::InputError(std::move(problems));
 }
 
+/// From memory where the caller has it there.
+identify::MeasuredRecord read(const DataTexts& texts, const std::string& path,
+                              const identify::ReadOptions& options) {
+  const auto text = texts.find(options.name);
+  return text == texts.end() ? identify::read_record(path, options) : identify::parse_record(text->second, options);
+}
+
 /// Where nothing in the scenario tells what the coordinate is, the units of the columns do.
 identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name) {
   identify::ReadOptions options = read_options(file, name);
   try {
-    return identify::read_record(path, options);
+    return read(file.data_place().texts, path, options);
   } catch (const core::InputError& fault) {
     if (file.coordinate_source()) throw with_reason(fault, *file.coordinate_source());
     options.coordinate = core::Coordinate::angle;
     try {
-      identify::MeasuredRecord data = identify::read_record(path, options);
+      identify::MeasuredRecord data = read(file.data_place().texts, path, options);
       file.tell_coordinate({options.coordinate, "the units of " + name});
       return data;
     } catch (const core::InputError&) {

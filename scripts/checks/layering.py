@@ -21,7 +21,7 @@ FOLDERS = {
     "scenarios": ["core", "friction_models", "sim", "identify"],
     "bench": ["core", "friction_models", "sim", "identify", "scenarios"],
     "cli": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
-    "python": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
+    "python": ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli"],  # of cli/ the page of results
 }
 # What a room may include of its own folder, beside itself. "." is the folder's own top level.
 ROOMS = {
@@ -86,11 +86,12 @@ LIBRARIES = {
     "HDF5": (r"hdf5\.h", ["identify"], SOURCES),
     "iconv of the C library": (r"iconv\.h", ["identify"], SOURCES),
     "nlohmann-json": (r"nlohmann/", ["scenarios", "bench", "cli"], PUBLIC),
+    "pybind11": (r"pybind11/", ["python"], PRIVATE),
     "fmt": (r"fmt/", ABOVE_SIM, SOURCES),
     "CLI11": (r"CLI/", ["cli"], PUBLIC),
     "MPI": (r"mpi\.h", ["bench"], SOURCES),
     "the dynamic loader": (r"dlfcn\.h", ["friction_models"], SOURCES),
-    "the operating system": (r"(sys/\w+|unistd|fcntl|pthread|poll|signal|termios)\.h", ["identify", "scenarios", "bench", "cli"], SOURCES),
+    "the operating system": (r"(sys/\w+|unistd|fcntl|pthread|poll|signal|termios)\.h", ["identify", "scenarios", "bench", "cli", "python"], SOURCES),
 }
 STANDARD = re.compile(r"[a-z_0-9]+$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

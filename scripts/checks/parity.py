@@ -20,7 +20,7 @@ from pathlib import Path
 
 import yaml
 
-CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "tests"]
+CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "python", "tests"]
 LIBRARIES = ["core", "friction_models", "sim", "identify", "scenarios"]  # folders whose headers are installed
 PAIR_LIST = re.compile(r"\bdualdamp_module\([^)]*?\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
 SHIPPED = ["scenarios/examples", "scenarios/paper", "scenarios/stress"]

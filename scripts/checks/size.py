@@ -5,7 +5,7 @@ usage: size.py ROOT
 
 Sources are .cpp, .hpp, .h, .js and .py files under version control or not ignored. Functions are found by `ast` in Python, and in C++
 and JavaScript by their braces: a block whose head has an argument list and is no control statement, class or namespace. Nested
-functions count as part of the outer one.
+functions count as part of the outer one; a docstring in Python does not count.
 """
 
 import ast
@@ -102,7 +102,8 @@ def python_functions(text):
     def visit(node):
         for child in ast.iter_child_nodes(node):
             if isinstance(child, (ast.FunctionDef, ast.AsyncFunctionDef)):
-                yield child.name, child.lineno, child.end_lineno
+                documented = ast.get_docstring(child) is not None
+                yield child.name, child.body[0].end_lineno if documented else child.lineno, child.end_lineno
             else:
                 yield from visit(child)
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 HEADER = ["term", "symbol", "unit", "meaning", "in the code", "replaced"]
 GLOSSARY = "docs/glossary.md"
-CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli"]
+CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "python"]
 EVERYWHERE = [*CODE, "tests", "docs", "scripts", "cmake"]
 SOURCES = (".hpp", ".cpp", ".h", ".c", ".js", ".py", ".html", ".css", ".in")
 TEXTS = (*SOURCES, ".md", ".yaml", ".txt", ".cmake", "")
@@ -32,9 +32,9 @@ CONTRACT = ["cycles", "stops_per_cycle", "average_cycles", "jump_cycle", "knew",
 # Between two words of a phrase: white space, also with the signs of a comment or of a text that goes on.
 GAP = r'[\s/#*"]+'
 QUOTED = re.compile(r"`([^`]+)`")
-# A contract name as one: in quotes or backticks, as a key before a colon, as the end of a path, after "takes only one of".
+# A contract name as one: in quotes or backticks, as a key before a colon, as an argument of Python, as the end of a path, after "takes only one of".
 AS_CONTRACT = re.compile(
-    r"(?P<quote>[`\"'])(?P<path>[\w.\[\]]*?)\b(?:{0})(?P=quote)|\b(?:{0})(?=\s*:)|(?<=[\w\]]\.)(?:{0})\b|\bone of duration, (?:{0})\b".format(
+    r"(?P<quote>[`\"'])(?P<path>[\w.\[\]]*?)\b(?:{0})(?P=quote)|\b(?:{0})(?=\s*:|=\w)|(?<=[\w\]]\.)(?:{0})\b|\bone of duration, (?:{0})\b".format(
         "|".join(CONTRACT)))
 
 

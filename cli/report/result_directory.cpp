@@ -1,4 +1,4 @@
-#include "cli/result_directory.hpp"
+#include "cli/report/result_directory.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,0 +1,165 @@
+"""Steady states, one or millions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ._analyses import function
+from ._errors import NumericalFailure
+from ._library import core
+
+
+class SteadyStates:
+    """Steady states of many oscillators; where all parameters are numbers, of one.
+
+    Attributes
+    ----------
+    amplitude, peak, trough : float or ndarray
+        (peak - trough)/2, max x, min x [m]. NaN where there is no steady state.
+    phase : float or ndarray
+        Lag of the fundamental of x behind the drive [rad], in [0, 2 pi).
+    multiplier : float or ndarray
+        Largest modulus of a Floquet multiplier of the full period.
+    stops : int or ndarray
+        Stops in a period.
+    outcome : str or ndarray of str
+        ``"done"``, or why there is no steady state: ``"no_steady_state"``, ``"not_unique"``, ``"event_limit"``, ....
+    """
+
+    __slots__ = ("peak", "trough", "phase", "multiplier", "stops", "_outcome")
+
+    def __init__(self, peak, trough, phase, multiplier, stops, outcome):
+        self.peak = peak
+        self.trough = trough
+        self.phase = phase
+        self.multiplier = multiplier
+        self.stops = stops
+        self._outcome = outcome
+
+    @property
+    def amplitude(self):
+        return 0.5 * (self.peak - self.trough)
+
+    @property
+    def outcome(self):
+        if isinstance(self._outcome, int):
+            return core.outcomes[self._outcome]
+        return np.array(core.outcomes)[self._outcome]
+
+    @property
+    def shape(self):
+        return np.shape(self._outcome)
+
+    def to_pandas(self):
+        """One row for each oscillator, in the order of the flattened arrays."""
+        import pandas
+
+        names = ("amplitude", "peak", "trough", "phase", "multiplier", "stops", "outcome")
+        return pandas.DataFrame({name: np.ravel(getattr(self, name)) for name in names})
+
+    def __repr__(self):
+        if self.shape == ():
+            return f"<steady state: amplitude={self.amplitude:.6g}, phase={self.phase:.6g}, stops={self.stops}>"
+        return f"<steady states: shape {self.shape}, {np.count_nonzero(self._outcome)} without one>"
+
+
+def steady_state(
+    system=None,
+    excitation=None,
+    *,
+    mass=None,
+    stiffness=None,
+    damping=None,
+    zeta=None,
+    F0=None,
+    static=None,
+    Y=None,
+    force=None,
+    omega=None,
+    damper_to="ground",
+    threads=0,
+    **keys,
+):
+    """The steady state under a harmonic excitation: of any system, or of arrays of oscillators with Coulomb friction.
+
+    ``steady_state(system, excitation)`` runs a scenario, with any friction law. Without a system the parameters are SI numbers or
+    arrays, which are broadcast; many oscillators at once are computed in vector registers on all cores.
+
+    Parameters
+    ----------
+    system : System or mapping, optional
+        The oscillator.
+    excitation : Excitation or mapping, optional
+        A harmonic one.
+    mass, stiffness : array_like
+        kg and N/m, > 0.
+    damping, zeta : array_like
+        Viscous damping c [N.s/m], or c / (2 sqrt(m k)); one of the two.
+    F0 : array_like
+        Kinetic friction force [N], >= 0.
+    static : array_like, optional
+        Static force limit [N], >= F0; default: F0.
+    Y, force : array_like
+        Amplitude of the base [m], or of a force on the mass [N]; one of the two.
+    omega : array_like, optional
+        Frequency of the drive [rad/s], > 0; default: sqrt(k/m).
+    damper_to : {"ground", "base"}, optional
+        Other end of the damper.
+    threads : int, optional
+        At most so many; 0: all cores.
+    **keys
+        With a system: further parts of the scenario, ``initial`` and ``numerics``; ``out`` as in `run`.
+
+    Returns
+    -------
+    Result or SteadyStates
+        A Result for a system, SteadyStates for arrays. These agree with the result of a scenario to rounding, not to the bit.
+
+    Raises
+    ------
+    InvalidScenario
+        A value is out of range.
+    NumericalFailure
+        There is no steady state, where one is asked for. In an array it is NaN, and its outcome says why.
+
+    Examples
+    --------
+    >>> import dualdamp as dd
+    >>> import numpy as np
+    >>> states = dd.steady_state(mass=1, stiffness=100, zeta=0.2, F0=np.linspace(0, 2, 3)[:, None], Y=np.linspace(0.1, 0.5, 5))
+    >>> states.amplitude.shape
+    (3, 5)
+    >>> round(dd.steady_state(mass=1, stiffness=100, zeta=0.2, F0=2, Y=0.1).amplitude, 4)
+    0.1861
+    """
+    if system is not None:
+        numbers = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
+        for name, value in numbers.items():
+            if value is not None:
+                raise TypeError(f"steady_state takes a system or {name}, not both")
+        return function("steady_state")(system, excitation, threads=threads, **keys)
+    if keys:
+        raise TypeError(f"without a system, steady_state has no parameter {next(iter(keys))!r}")
+    drive = force if Y is None else Y
+    for name, value in (("mass", mass), ("stiffness", stiffness), ("F0", F0), ("Y or force", drive)):
+        if value is None:
+            raise TypeError(f"steady_state needs {name}, or a system")
+    if (Y is None) == (force is None):
+        raise TypeError("steady_state takes one of Y and force")
+    if (damping is None) == (zeta is None):
+        raise TypeError("steady_state takes one of damping and zeta")
+    if damping is None:
+        damping = 2.0 * zeta * (mass * stiffness) ** 0.5 if _is_scalar(zeta, mass, stiffness) else 2.0 * np.asarray(zeta) * np.sqrt(np.multiply(mass, stiffness))
+    if omega is None:
+        omega = (stiffness / mass) ** 0.5 if _is_scalar(mass, stiffness) else np.sqrt(np.divide(stiffness, mass))
+    if damper_to not in ("ground", "base"):
+        raise ValueError(f"damper_to is 'ground' or 'base', not {damper_to!r}")
+    values = (mass, damping, stiffness, F0, F0 if static is None else static, drive, omega)
+    states = SteadyStates(*core.steady_states(Y is not None, damper_to == "base", threads, values))
+    if states._outcome.__class__ is int and states._outcome != 0:
+        raise NumericalFailure(f"there is no steady state: {states.outcome}")
+    return states
+
+
+def _is_scalar(*values):
+    return all(value.__class__ in (float, int) for value in values)

@@ -1,0 +1,127 @@
+"""Identification of measured data from files, arrays and data frames."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+
+import numpy as np
+
+from ._library import core
+from ._run import run_source, source_of
+
+# Stands for a file where data lie in memory.
+_IN_MEMORY = "data"
+
+
+def identify(
+    data,
+    *,
+    mass=None,
+    stiffness=None,
+    frequency=None,
+    gravity_stiffness=None,
+    coordinate=None,
+    methods=None,
+    units=None,
+    columns=None,
+    scale=None,
+    out=None,
+    threads=0,
+    **options,
+):
+    """Identify viscous damping and Coulomb friction from measured data.
+
+    Parameters
+    ----------
+    data : path, pandas.DataFrame, structured array or mapping of str to array_like
+        A CSV, MATLAB or universal file; or columns by name: ``Y`` and ``x`` (amplitudes), ``t`` with ``x``, ``y``, ``v``, ``a``,
+        ``force`` (histories), ``x`` alone (extremes of a free vibration), ``omega``, ``phase``, ``sweep``, .... A name may have a
+        unit, ``"x [mm]"``; without one numbers are SI. docs/data-files.md says all.
+    mass, stiffness : str or float, optional
+        Constants of the rig: ``"1.042 kg"``, also with their uncertainty, ``"1.042 kg +- 0.5 %"``.
+    frequency : str, optional
+        Of the drive, with its unit: ``"6.17 Hz"``.
+    gravity_stiffness, coordinate : optional
+        Of a pendulum, and ``"angle"`` where x is one, as in a scenario file.
+    methods : list of str, optional
+        Default: all that fit the data. ``print(dualdamp.methods)`` lists them.
+    units, columns, scale : mapping, optional
+        What the data do not say of themselves: ``{"x": "mm"}``, ``{"x": "LVDT 2"}``, ``{"x": "2.5 mm/V"}``.
+    out, threads
+        As in `run`.
+    **options
+        Further keys of the analysis ``identify``: ``robust=True``, ``sigma_x="3 um"``, ``decimal=","``, ``bootstrap=1000``, ....
+
+    Returns
+    -------
+    Result
+        ``answer`` (None where no method can be trusted; then ``answer_reason`` says why), ``estimates``, ``assumptions``,
+        ``verdict``.
+
+    Raises
+    ------
+    InvalidScenario
+        The data or the constants are not what an identification needs; every problem with its place. Row i of an array is line
+        i + 2.
+    NumericalFailure
+        No method gives an estimate.
+
+    Warns
+    -----
+    IncompleteResult
+        There is no answer.
+
+    Examples
+    --------
+    >>> import dualdamp as dd
+    >>> import numpy as np
+    >>> Y = np.linspace(0.04, 0.1, 7)
+    >>> x = 2.5 * Y - 0.0637                                # zeta 0.2, F0 2 N
+    >>> found = dd.identify({"Y": Y, "x": x}, mass="1 kg", stiffness="100 N/m", frequency="10 rad/s", methods=["resonance_least_squares"])
+    >>> round(found.estimates[0].zeta, 3)
+    0.2
+    """
+    texts = {}
+    if isinstance(data, (str, os.PathLike)):
+        name = os.fspath(data)
+    else:
+        name = _IN_MEMORY
+        texts[name] = core.csv_text(*_columns_of(data))
+    system = {"mass": mass, "stiffness": stiffness, "gravity_stiffness": gravity_stiffness, "coordinate": coordinate}
+    analysis = {"type": "identify", "data": name, "methods": methods, "units": units, "columns": columns, "scale": scale, **options}
+    scenario = {"system": system, "analysis": analysis}
+    if frequency is not None:
+        scenario["excitation"] = {"type": "base_harmonic", "frequency": frequency}
+    return run_source(source_of(scenario, data=texts), out=out, threads=threads)
+
+
+def _columns_of(data):
+    """[(head, numbers or texts)] and their length."""
+    if isinstance(data, np.ndarray):
+        if data.dtype.names is None:
+            raise TypeError("an array of data needs names: a structured array, a DataFrame, or a dict of columns such as {'Y': ..., 'x': ...}")
+        pairs = [(name, data[name]) for name in data.dtype.names]
+    elif isinstance(data, Mapping) or hasattr(data, "items"):  # a DataFrame has items, too
+        pairs = list(data.items())
+    else:
+        raise TypeError(f"data are a path, a DataFrame, a structured array or a dict of columns, not {type(data).__name__}")
+    columns = [(_head(str(name)), _cells(name, values)) for name, values in pairs]
+    lengths = {len(cells) for _, cells in columns}
+    if len(lengths) > 1:
+        raise ValueError("the columns differ in length: " + ", ".join(f"{head} {len(cells)}" for head, cells in columns))
+    return columns, lengths.pop() if lengths else 0
+
+
+def _cells(name, values):
+    cells = np.asarray(values)
+    if cells.ndim != 1:
+        raise ValueError(f"the column {name!r} has {cells.ndim} dimensions; a column has one")
+    if cells.dtype.kind in "fiub":
+        return cells.astype(np.float64)
+    return [_head(str(cell)) for cell in cells]
+
+
+def _head(text):
+    """A field of a CSV file."""
+    return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"\n#') else text

@@ -1,0 +1,178 @@
+"""Running scenarios."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Mapping
+
+from ._errors import CheckFailed, IncompleteResult, NumericalFailure
+from ._library import core
+from ._results import Result
+from ._scenario import flow, plain, text_of
+
+
+def run(scenario, changes=None, *, out=None, threads=0, resume=False, verify=False, progress=None):
+    """Run a scenario.
+
+    Parameters
+    ----------
+    scenario : mapping, str or path
+        A dict as a scenario file holds it; or the text of such a file, which has more than one line; or the name of one.
+    changes : mapping, optional
+        Values laid over the scenario, by path: ``{"system.friction.kinetic": "3 N"}``, as the program's ``--set``.
+    out : path, optional
+        Directory for the files that the program writes: result.json, a CSV file for each table, report.html.
+    threads : int, optional
+        At most so many; 0: all cores.
+    resume : bool, optional
+        A stress test goes on where an earlier run with the same `out` was interrupted.
+    verify : bool, optional
+        Compute the result again by another engine and compare.
+    progress : callable or True, optional
+        Called as ``progress(done, all)`` while a long run lasts, from one thread at a time. True: a bar of tqdm where that is
+        installed, else a line on stderr.
+
+    Returns
+    -------
+    Result
+        Numbers, tables and warnings.
+
+    Raises
+    ------
+    InvalidScenario
+        The scenario or its data cannot be run; every problem with its place.
+    NumericalFailure
+        There is no result: no steady state, values beyond the range of numbers, a law that broke its contract.
+    CheckFailed
+        A value of the result is not the one that the scenario expects, or the verification disagrees.
+    KeyboardInterrupt
+        Ctrl-C, or "interrupt" in a notebook; within a tenth of a second or so.
+
+    Warns
+    -----
+    IncompleteResult
+        The result lacks something: an identification without an answer, failed cases of a stress test.
+
+    Notes
+    -----
+    Data files of a scenario file or text lie in the directory of that file (of a text: in the current one) or below. A dict may
+    name any file. The lock of the interpreter is released while a scenario runs.
+
+    Examples
+    --------
+    >>> import dualdamp as dd
+    >>> result = dd.run({
+    ...     "system": {"mass": "1 kg", "stiffness": "100 N/m", "damping": "4 N.s/m", "friction": {"law": "coulomb", "kinetic": "2 N"}},
+    ...     "excitation": {"type": "base_harmonic", "amplitude": "0.1 m", "frequency": "natural"},
+    ...     "analysis": {"type": "steady_state"}})
+    >>> round(result.amplitude, 6), result.stops_per_cycle
+    (0.186078, 0)
+    """
+    if verify:
+        changes = {**(changes or {}), "numerics.verify": True}
+    return run_source(source_of(scenario, changes), out=out, threads=threads, resume=resume, progress=progress)
+
+
+def check(scenario, changes=None):
+    """Check a scenario without running it.
+
+    Parameters
+    ----------
+    scenario, changes
+        As in `run`.
+
+    Returns
+    -------
+    str
+        The scenario as one line of JSON, with SI numbers and defaults filled in; itself a valid scenario.
+
+    Raises
+    ------
+    InvalidScenario
+        It cannot be run; every problem with its place.
+    """
+    return core.resolved(source_of(scenario, changes))
+
+
+def load_plugin(path):
+    """Load a friction law from a shared library with the C interface of docs/plugins.md.
+
+    Parameters
+    ----------
+    path : path
+        The library. It is loaded once and stays; call this before the first scenario is run.
+
+    Raises
+    ------
+    InvalidScenario
+        It is no such library.
+    """
+    core.load_plugin(os.fspath(path))
+
+
+def source_of(scenario, changes=None, data=None):
+    """What the libraries are to read. `data`: texts that stand for data files, by name."""
+    set_ = [f"{path}={flow(plain(value))}" for path, value in (changes or {}).items()]
+    data = data or {}
+    if isinstance(scenario, Mapping):
+        return core.Source(text_of(scenario), "scenario", data_anywhere=True, data=data, set=set_)
+    if isinstance(scenario, str) and "\n" in scenario:
+        return core.Source(scenario, "scenario", data=data, set=set_)
+    if isinstance(scenario, (str, os.PathLike)):
+        return core.Source("", os.fspath(scenario), is_file=True, data=data, set=set_)
+    raise TypeError(f"a scenario is a dict, a text or a path, not {type(scenario).__name__}")
+
+
+def run_source(source, *, out=None, threads=0, resume=False, progress=None):
+    report = _Progress() if progress is True else progress
+    try:
+        done = core.run(source, "" if out is None else os.fspath(out), threads, resume, report)
+    finally:
+        if isinstance(report, _Progress):
+            report.close()
+    result = Result(done)
+    if out is not None:
+        for message in done.save(os.fspath(out)):
+            warnings.warn(message, stacklevel=3)
+    if done.numbers == "null":
+        raise NumericalFailure(done.failure, result)
+    if result.status == 1:
+        raise CheckFailed(_failed_checks(result), result)
+    if result.status != 0:
+        warnings.warn(IncompleteResult(done.failure or "some cases failed; their rows have a reason"), stacklevel=3)
+    return result
+
+
+def _failed_checks(result):
+    lines = [f"{check.value} is {check.found}, expected {check.expected}" for check in result.checks if not check.ok]
+    verification = result.document.get("verification") or {}
+    if not verification.get("agrees", True):
+        lines.append("verification: " + verification["reason"])
+    return "\n".join(lines)
+
+
+class _Progress:
+    """A bar of tqdm, or a line on stderr."""
+
+    def __init__(self):
+        self._bar = None
+        self._is_shown = False
+
+    def __call__(self, done, all_):
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            self._is_shown = True
+            print(f"\r{done} of {all_} cases", end="", file=sys.stderr, flush=True)
+            return
+        if self._bar is None:
+            self._bar = tqdm(total=all_, unit="case")
+        self._bar.update(done - self._bar.n)
+
+    def close(self):
+        if self._bar is not None:
+            self._bar.close()
+        elif self._is_shown:
+            print(file=sys.stderr)

@@ -1,0 +1,84 @@
+"""Scenarios as Python values: from dicts to the text that the libraries read."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping
+
+SCHEMA = "dualdamp/1"
+_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+
+
+def plain(value):
+    """Mappings, lists and scalars as Python has them, without what is None; arrays become lists."""
+    if hasattr(value, "to_dict") and not isinstance(value, Mapping) and hasattr(type(value), "_is_scenario_part"):
+        return plain(value.to_dict())
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items() if item is not None}
+    if isinstance(value, (str, bool, int, float)):
+        # numpy.float64 is a float with another repr.
+        return float(value) if isinstance(value, float) else value
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple, range)):
+        return [plain(item) for item in value]
+    raise TypeError(f"a scenario holds no {type(value).__name__}: {value!r}; it holds texts, numbers, True, False, lists and dicts")
+
+
+def flow(value):
+    """A plain value on one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_key(key)}: {flow(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(flow, value)) + "]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    return repr(value)
+
+
+def _key(key):
+    return key if _PLAIN_KEY.match(key) else json.dumps(key, ensure_ascii=False)
+
+
+def _lines(value, margin):
+    for key, item in value.items():
+        if isinstance(item, dict) and item:
+            yield f"{margin}{_key(key)}:"
+            yield from _lines(item, margin + "  ")
+        elif isinstance(item, list) and item and all(isinstance(part, dict) for part in item):
+            yield f"{margin}{_key(key)}:"
+            yield from (f"{margin}  - {flow(part)}" for part in item)
+        else:
+            yield f"{margin}{_key(key)}: {flow(item)}"
+
+
+def text_of(scenario):
+    """The text of a scenario that is given as a mapping.
+
+    Parameters
+    ----------
+    scenario : mapping
+        Keys and values as in a scenario file (docs/scenario-reference.md). ``schema`` may be left out. Values may be texts with
+        units, numbers, arrays, `System`, `Law` and `Excitation`; a key whose value is None is left out.
+
+    Returns
+    -------
+    str
+        YAML, one key a line. The places that messages about a dict give are places in this text.
+
+    Examples
+    --------
+    >>> print(text_of({"analysis": {"type": "simulate", "cycles": 3}}))
+    schema: "dualdamp/1"
+    analysis:
+      type: "simulate"
+      cycles: 3
+    <BLANKLINE>
+    """
+    return "\n".join(_lines({"schema": SCHEMA, **plain(scenario)}, "")) + "\n"

@@ -1,0 +1,63 @@
+#include "python/src/interruptible.hpp"
+
+#include <signal.h>
+
+#include <thread>
+
+namespace dualdamp::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Python's handler while ours stands in its place.
+struct sigaction before;
+bool is_watching = false;
+
+extern "C" void cancel_and_pass_on(int number) {
+  core::request_cancellation();
+  before.sa_handler(number);
+}
+
+bool is_main_thread() {
+  static const auto main_thread =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return PyThread_get_thread_ident() == main_thread;
+}
+
+}  // namespace
+
+InterruptWatch::InterruptWatch() {
+  if (!is_main_thread() || is_watching) return;
+  if (::sigaction(SIGINT, nullptr, &before) != 0) return;
+  // Without a handler of Python's the signal ends the process, or is ignored, as its owner wants it.
+  if ((before.sa_flags & SA_SIGINFO) != 0 || before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN) return;
+  struct sigaction ours = before;
+  ours.sa_handler = cancel_and_pass_on;
+  is_watching = is_set_ = ::sigaction(SIGINT, &ours, nullptr) == 0;
+}
+
+InterruptWatch::~InterruptWatch() {
+  if (!is_set_) return;
+  ::sigaction(SIGINT, &before, nullptr);
+  is_watching = false;
+  core::clear_cancellation();
+}
+
+void InterruptWatch::raise() const {
+  if (PyErr_CheckSignals() == 0) PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
+}
+
+void CallbackError::keep() {
+  if (!error_) error_ = std::current_exception();
+  core::request_cancellation();
+}
+
+void CallbackError::rethrow_if_any() const {
+  if (!error_) return;
+  core::clear_cancellation();
+  std::rethrow_exception(error_);
+}
+
+}  // namespace dualdamp::python

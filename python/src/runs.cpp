@@ -1,0 +1,217 @@
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <variant>
+
+#include "bench/analyses.hpp"
+#include "cli/report/result_directory.hpp"
+#include "core/numbers.hpp"
+#include "python/src/interruptible.hpp"
+#include "python/src/parts.hpp"
+#include "scenarios/output.hpp"
+#include "scenarios/run.hpp"
+#include "scenarios/scenario.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Where a scenario comes from, and what is laid over it.
+struct Source {
+  std::string text;  ///< of the scenario; without one it is the file `name`
+  std::string name;  ///< of the file, or what stands for it in messages
+  bool is_file = false;
+  bool data_anywhere = false;                    ///< data files may lie outside the scenario's directory
+  std::map<std::string, std::string> data = {};  ///< data in memory
+  std::vector<std::string> set = {};             ///< PATH=VALUE
+};
+
+struct Settings {
+  std::string directory = {};
+  int threads = 0;
+  bool resume = false;
+  std::optional<std::function<void(std::size_t, std::size_t)>> progress = {};
+};
+
+scenarios::Scenario load(const Source& source) {
+  scenarios::LoadOptions options{.data_anywhere = source.data_anywhere, .analyses = bench::analyses()};
+  for (const auto& [name, text] : source.data) options.data_texts.emplace(name, text);
+  for (const std::string& assignment : source.set) options.set.push_back({assignment, "set"});
+  if (source.is_file) return scenarios::load_scenario(source.name, options);
+  return scenarios::parse_scenario(source.text, source.name, options);
+}
+
+/// A campaign writes its cases while it runs: where nobody says where to, they live as long as the run.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() : path_((std::filesystem::temp_directory_path() / "dualdamp-XXXXXX").string()) {
+    if (::mkdtemp(path_.data()) == nullptr) throw scenarios::OutputError("cannot make a directory " + path_);
+  }
+  ~TemporaryDirectory() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// A scenario with its result.
+struct Run {
+  std::shared_ptr<const scenarios::Scenario> scenario;
+  std::shared_ptr<const scenarios::RunResult> result;
+};
+
+scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, CallbackError& error) {
+  scenarios::RunOptions options{
+      .directory = settings.directory, .threads = settings.threads, .resume = settings.resume};
+  if (settings.progress)
+    options.progress = [&](const scenarios::Progress& progress) {
+      const py::gil_scoped_acquire lock;
+      try {
+        (*settings.progress)(progress.done, progress.all);
+      } catch (const py::error_already_set&) {
+        error.keep();
+      }
+    };
+  std::optional<TemporaryDirectory> temporary;
+  if (options.directory.empty() && dynamic_cast<const scenarios::Campaign*>(scenario.question.get()) != nullptr)
+    options.directory = temporary.emplace().path();
+  std::optional<sim::ThreadLimit> limit;
+  if (settings.threads > 0) limit.emplace(settings.threads);
+  return scenarios::run(scenario, options);
+}
+
+Run run(const Source& source, const Settings& settings) {
+  CallbackError error;
+  Run done;
+  interruptible(
+      [&] {
+        done.scenario = std::make_shared<const scenarios::Scenario>(load(source));
+        done.result = std::make_shared<const scenarios::RunResult>(compute(*done.scenario, settings, error));
+        return true;
+      },
+      &error);
+  return done;
+}
+
+std::string document(const Run& run) {
+  std::ostringstream out;
+  scenarios::json_document(run.scenario, run.result)(out);
+  return std::move(out).str();
+}
+
+/// Writes what the program writes; returns what it tells.
+std::vector<std::string> save(const Run& run, const std::string& directory) {
+  const core::Provenance& provenance = run.result->provenance;
+  return cli::write_results(directory, provenance.source, provenance.data_sha256,
+                            scenarios::output_files(run.scenario, run.result));
+}
+
+/// The numbers of a column without a copy, or its texts: (those that differ, which of them each row has).
+py::object cells_of(const scenarios::Column& column, const py::object& owner) {
+  if (column.kind != scenarios::CellKind::text) {
+    py::array_t<double> cells(static_cast<py::ssize_t>(column.numbers.size()), column.numbers.data(), owner);
+    cells.attr("setflags")(py::arg("write") = false);
+    return cells;
+  }
+  if (column.choices.empty()) return py::make_tuple(column.texts, py::none());
+  return py::make_tuple(column.texts, py::array_t<std::uint32_t>(static_cast<py::ssize_t>(column.choices.size()),
+                                                                 column.choices.data()));
+}
+
+/// [(name, key in the result, [(column, unit, kind, cells)])]; without the tables that are only for a terminal.
+py::list tables_of(const py::object& self) {
+  static constexpr const char* kinds[] = {"number", "count", "truth", "text"};
+  py::list tables;
+  for (const scenarios::Table& table : self.cast<const Run&>().result->tables) {
+    if (!table.is_file) continue;
+    py::list columns;
+    for (const scenarios::Column& column : table.columns)
+      columns.append(py::make_tuple(column.name, column.unit, kinds[static_cast<std::size_t>(column.kind)],
+                                    cells_of(column, self)));
+    tables.append(py::make_tuple(table.name, table.key, columns));
+  }
+  return tables;
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// A column of data: its head, and numbers or texts, which are fields of a CSV file.
+using DataColumn = std::pair<std::string, std::variant<Numbers, std::vector<std::string>>>;
+
+/// The text of a data file: numbers read back to the same bits.
+std::string csv_text(const std::vector<DataColumn>& columns, std::size_t rows) {
+  std::string text;
+  for (const auto& [head, cells] : columns) text += (text.empty() ? "" : ",") + head;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const char* separator = "\n";
+    for (const auto& [head, cells] : columns) {
+      text += separator;
+      if (const auto* texts = std::get_if<std::vector<std::string>>(&cells))
+        text += texts->at(row);
+      else
+        text += core::format_number(std::get<Numbers>(cells).at(row));
+      separator = ",";
+    }
+  }
+  return text + "\n";
+}
+
+void add_run_class(py::module_& module) {
+  py::class_<Run>(module, "Run")
+      .def_property_readonly("status", [](const Run& run) { return static_cast<int>(run.result->status); })
+      .def_property_readonly("analysis", [](const Run& run) { return run.scenario->analysis_name; })
+      .def_property_readonly("failure", [](const Run& run) { return run.result->failure; })
+      .def_property_readonly("warnings", [](const Run& run) { return run.result->warnings; })
+      .def_property_readonly("scenario", [](const Run& run) { return run.scenario->resolved; })
+      .def_property_readonly("numbers", [](const Run& run) { return run.result->result; })
+      .def_property_readonly("verification",
+                             [](const Run& run) {
+                               const auto& verification = run.result->verification;
+                               return verification ? verification->reason : std::string();
+                             })
+      .def("tables", &tables_of)
+      .def("document", &document, py::call_guard<py::gil_scoped_release>())
+      .def("save", &save, py::arg("directory"), py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+  py::class_<Source>(module, "Source")
+      .def(py::init<std::string, std::string, bool, bool, std::map<std::string, std::string>,
+                    std::vector<std::string>>(),
+           py::arg("text"), py::arg("name"), py::arg("is_file") = false, py::arg("data_anywhere") = false,
+           py::arg("data") = std::map<std::string, std::string>{}, py::arg("set") = std::vector<std::string>{});
+  add_run_class(module);
+  module.def(
+      "run",
+      [](const Source& source, const std::string& directory, int threads, bool resume,
+         std::optional<std::function<void(std::size_t, std::size_t)>> progress) {
+        return run(source, {directory, threads, resume, std::move(progress)});
+      },
+      py::arg("source"), py::arg("directory") = "", py::arg("threads") = 0, py::arg("resume") = false,
+      py::arg("progress") = py::none());
+  module.def("resolved", [](const Source& source) { return load(source).resolved; }, py::arg("source"));
+  module.def(
+      "law_parameters",
+      [](const std::string& law, const std::vector<std::string>& set) {
+        static_cast<void>(scenarios::law_parameters(law, set));
+      },
+      py::arg("law"), py::arg("set"));
+  module.def("csv_text", &csv_text, py::arg("columns"), py::arg("rows"));
+}
+
+}  // namespace dualdamp::python

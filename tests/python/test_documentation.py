@@ -1,0 +1,105 @@
+"""The examples of docs/python.md and of every docstring give what they say; signatures and stub follow the tables."""
+
+import doctest
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import dualdamp as dd
+import pytest
+from dualdamp import _analyses, _tables
+
+ROOT = Path(__file__).resolve().parents[2]
+OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+
+
+def run_examples(text, name):
+    test = doctest.DocTestParser().get_doctest(text, {}, name, name, 0)
+    report = []
+    doctest.DocTestRunner(optionflags=OPTIONS).run(test, out=report.append)
+    assert not report, "".join(report)
+    return len(test.examples)
+
+
+def test_the_page():
+    assert run_examples((ROOT / "docs/python.md").read_text(), "python.md") > 20
+
+
+@pytest.mark.parametrize("name", sorted(set(dd.__all__) - {"laws", "methods", "excitations"}))
+def test_docstring(name):
+    text = inspect.getdoc(getattr(dd, name))
+    assert text and len(text.splitlines()) >= 1
+    run_examples(text, name)
+
+
+def test_there_are_examples():
+    with_examples = [name for name in dd.__all__ if ">>>" in (inspect.getdoc(getattr(dd, name)) or "")]
+    assert {"run", "identify", "System", "law", "excitation", "steady_state", "simulate", "xy_curve", "quantity"} <= set(with_examples)
+
+
+def test_the_package_itself():
+    assert run_examples(dd.__doc__, "dualdamp") == 4
+
+
+@pytest.mark.parametrize("kind, names", [("laws", dd.laws), ("excitation", dd.excitations)], ids=["laws", "excitations"])
+def test_signatures_and_docstrings_follow_the_tables(kind, names):
+    for name in names:
+        keys = [key["name"] for key in _tables.entry(kind, name)["keys"]]
+        make = getattr(names, name)
+        assert list(inspect.signature(make).parameters) == keys
+        assert all(f"\n{key} : " in make.__doc__ for key in keys)
+
+
+def test_analyses_have_all_their_keys():
+    for name in _analyses.OF_SYSTEMS:
+        keys = {key["name"] for key in _tables.entry("analyses", name)["keys"]}
+        assert keys < set(inspect.signature(getattr(dd, name)).parameters)
+
+
+def test_everything_is_where_the_package_says():
+    for name in dd.__all__:
+        assert getattr(dd, name) is not None
+    assert sorted(dd.__all__) == dd.__all__ and set(dd.__all__) < set(dir(dd))
+    with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
+        dd.nothing
+
+
+def test_the_stub_is_fresh():
+    written = subprocess.run([sys.executable, ROOT / "scripts/lib/python_stubs.py"], capture_output=True, text=True, check=True).stdout
+    assert written == (ROOT / "python/dualdamp/__init__.pyi").read_text(), "python3 scripts/lib/python_stubs.py > python/dualdamp/__init__.pyi"
+
+
+GOOD = """
+import dualdamp as dd
+import numpy as np
+rig = dd.System(mass="1 kg", stiffness=100, damping_ratio=0.2, friction=dd.law("coulomb", kinetic="2 N"))
+drive = dd.excitation("base_harmonic", amplitude="0.1 m", frequency="natural")
+result: dd.Result = rig.xy_curve(drive, amplitudes=[0.1, "20 cm"])
+number: float = result.points["x"].max()
+states: dd.SteadyStates = dd.steady_state(mass=1, stiffness=100, zeta=0.2, F0=np.zeros(3), Y=0.1)
+law: dd.Law = dd.laws.lugre(kinetic=1, stribeck_velocity="1 mm/s", sigma0=1e5, sigma1=10)
+found: dd.Result = dd.identify({"Y": [1.0], "x": [2.0]}, mass=1, stiffness=2, frequency="1 Hz", robust=True)
+other: dd.Result = dd.steady_state(rig, drive)
+"""
+BAD = [
+    'dd.law("coulomb")',
+    'dd.law("kulomb", kinetic=1)',
+    'dd.law("coulomb", kinetik=1)',
+    "dd.System(mass=[1])",
+    "dd.xy_curve(rig)",
+    "dd.run(3)",
+    'dd.identify("a.csv", frequency=3)',
+]
+
+
+def test_types(tmp_path):
+    api = pytest.importorskip("mypy.api")
+    (tmp_path / "good.py").write_text(GOOD)
+    report, _, status = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(tmp_path / "good.py")])
+    assert status == 0, report
+    (tmp_path / "bad.py").write_text(GOOD + "\n".join(BAD) + "\n")
+    report, _, status = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(tmp_path / "bad.py")])
+    first = len(GOOD.splitlines()) + 1
+    lines = {int(line.split(":")[1]) for line in report.splitlines() if ": error:" in line}
+    assert lines == set(range(first, first + len(BAD))), report

@@ -1,0 +1,94 @@
+"""Identification from files, arrays, dicts and data frames: the same numbers by every way."""
+
+import warnings
+
+import dualdamp as dd
+import numpy as np
+import pytest
+
+RIG = {"mass": "1.042 kg", "stiffness": "1568 N/m", "frequency": "6.17 Hz"}
+FILE = "scenarios/examples/my_rig.csv"
+
+
+@pytest.fixture
+def pairs():
+    """Its numbers and the names of its columns."""
+    lines = [line for line in open(FILE) if not line.startswith("#")]
+    head = lines[0].strip().split(",")
+    return np.array([[float(cell) for cell in line.split(",")] for line in lines[1:]]), head
+
+
+def test_as_the_program(program, tmp_path):
+    import json
+
+    status, text, _ = program("identify", FILE, "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz", "--json", "--out", tmp_path)
+    found = dd.identify(FILE, **RIG)
+    assert found.status == status == 0
+    assert found.result == json.loads(text)["result"]
+    assert found.answer.zeta == found.result["answer"]["zeta"]
+    assert found.estimates[0].interval95.zeta[0] < found.estimates[0].zeta
+
+
+def test_every_kind_of_columns(pairs):
+    expected = dd.identify(FILE, **RIG).result
+    numbers, head = pairs
+    columns = {name: numbers[:, i] for i, name in enumerate(head)}
+    structured = np.rec.fromarrays(list(columns.values()), names=head)
+    kinds = [columns, structured]
+    try:
+        import pandas
+
+        kinds.append(pandas.DataFrame(columns))
+    except ImportError:
+        pass
+    for data in kinds:
+        assert dd.identify(data, **RIG).result == expected, type(data)
+
+
+def test_labels_of_sweeps_and_bits(pairs):
+    """Texts are labels, numbers keep their bits."""
+    numbers, _ = pairs
+    data = {"Y": numbers[:, 0] * 1e-3 / 3, "x": numbers[:, 1] * 1e-3 / 3, "sweep": np.array(["a", 'a, "b"'])[np.arange(len(numbers)) % 2]}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.IncompleteResult)
+        found = dd.identify(data, methods=["resonance_least_squares"], **RIG)
+    Y, x = data["Y"], data["x"]
+    slope = np.polyfit(Y, x, 1)[0]
+    assert found.estimates[0].zeta == pytest.approx(0.5 / slope, rel=1e-3)
+
+
+def test_messages_name_the_row_of_an_array():
+    with pytest.raises(dd.InvalidScenario, match="data:4") as caught:
+        dd.identify({"Y": [0.1, 0.2, np.nan], "x": [0.1, 0.2, 0.3]}, **RIG)
+    assert caught.value.diagnostics[0].line == 4
+
+
+def test_wrong_arguments():
+    with pytest.raises(ValueError, match="the columns differ in length: Y 1, x 2"):
+        dd.identify({"Y": [1], "x": [1, 2]}, **RIG)
+    with pytest.raises(TypeError, match="an array of data needs names"):
+        dd.identify(np.zeros((3, 2)), **RIG)
+    with pytest.raises(ValueError, match="has 2 dimensions"):
+        dd.identify({"Y": np.zeros((3, 2))}, **RIG)
+    with pytest.raises(dd.InvalidScenario, match="unknown key 'robst' in 'analysis' with type identify"):
+        dd.identify(FILE, robst=True, **RIG)
+    with pytest.raises(dd.InvalidScenario, match="frequency"):
+        dd.identify(FILE, mass=1.042, stiffness=1568, frequency=6.17)
+
+
+def test_no_answer_is_said():
+    """A bent line: there is a result, and no answer."""
+    Y = np.linspace(0.03, 0.12, 12)
+    with pytest.warns(dd.IncompleteResult):
+        found = dd.identify({"Y": Y, "x": 2.5 * Y - 0.0637 - 6 * Y**2}, mass=1, stiffness=100, frequency="10 rad/s")
+    assert found.status == 4 and found.answer is None and found.answer_reason
+
+
+def test_a_round_trip(rig, drive):
+    """Identification of a simulated curve gives the damping and friction of the system."""
+    curve = rig.xy_curve(drive.replace(amplitude=None), amplitudes={"from": "0.04 m", "to": "0.2 m", "count": 12, "spacing": "linear"})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.IncompleteResult)
+        found = dd.identify(curve.points[["Y", "x"]], mass=1, stiffness=100, frequency="10 rad/s", methods=["den_hartog_fit"])
+    assert found.estimates[0].zeta == pytest.approx(0.2, abs=1e-9)
+    assert found.estimates[0].F0 == pytest.approx(2, abs=1e-9)

@@ -1,0 +1,66 @@
+"""Every shipped scenario gives what the program gives, to the last bit: numbers, tables, status, messages."""
+
+import csv
+import json
+import warnings
+from pathlib import Path
+
+import dualdamp as dd
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENARIOS = sorted(path.relative_to(ROOT) for folder in ("examples", "paper") for path in (ROOT / "scenarios" / folder).glob("*.yaml"))
+
+
+def same(document):
+    """Without what differs from run to run."""
+    document = json.loads(json.dumps(document))
+    del document["program"]
+    for key in ("started", "duration"):
+        del document["provenance"][key]
+    return document
+
+
+def rows_of(path):
+    with path.open(newline="") as file:
+        lines = [line for line in file if not line.startswith("# ")]
+    rows = list(csv.reader(lines))
+    return [head.split(" [")[0] for head in rows[0]], rows[1:]
+
+
+def as_text(cell):
+    """A cell as the number or the text that the CSV file would be read as."""
+    if isinstance(cell, str):
+        return cell
+    value = float(cell)
+    return "" if np.isnan(value) else value
+
+
+def test_there_are_scenarios():
+    assert len(SCENARIOS) > 60
+
+
+@pytest.mark.parametrize("path", SCENARIOS, ids=lambda path: path.stem)
+def test_scenario(path, program, tmp_path):
+    status, _, message = program("run", path, "--out", tmp_path / "program", "--quiet")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.IncompleteResult)
+        try:
+            result = dd.run(path)
+        except (dd.NumericalFailure, dd.CheckFailed) as failure:
+            result = failure.result
+    assert result.status == status, message
+    document = json.loads((tmp_path / "program" / "result.json").read_text())
+    assert same(result.document) == same(document)
+
+    written = {file.stem for file in (tmp_path / "program").glob("*.csv")}
+    assert set(result.tables) == written
+    for name, array in result.tables.items():
+        head, rows = rows_of(tmp_path / "program" / f"{name}.csv")
+        assert list(array.dtype.names) == head
+        assert len(array) == len(rows)
+        for i, column in enumerate(head):
+            is_text = array.dtype[column].kind == "O"
+            expected = [row[i] if is_text or row[i] == "" else float(row[i]) for row in rows]
+            assert [as_text(cell) for cell in array[column]] == expected, column
