@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "bench/case.hpp"
-#include "bench/case_file.hpp"
 #include "bench/grid.hpp"
 #include "bench/scores.hpp"
-#include "core/build_info.hpp"
 #include "core/numbers.hpp"
-#include "core/provenance.hpp"
-#include "sim/parallel.hpp"
+#include "scenarios/analyses/shared/long_run.hpp"
+#include "scenarios/results/case_file.hpp"
 
 namespace dualdamp::bench {
 
@@ -36,57 +33,19 @@ Truth truth_of(const StressTest& question, const RunContext& context) {
   return truth;
 }
 
-/// The same scenario run by the same program gives the same lines.
-std::string fingerprint(const std::string& scenario) {
-  const core::BuildInfo build = core::build_info();
-  return core::sha256(scenario + "\n" + std::string(build.version) + "\n" + std::string(build.commit));
-}
-
-/// Counts finished cases and tells of them now and then.
-class Meter {
- public:
-  Meter(std::size_t done, std::size_t all, const RunOptions& options)
-      : first_(done), done_(done), all_(all), options_(options), start_(Clock::now()), told_(start_) {}
-
-  void add() {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    constexpr double pause = 0.2;
-    if (!options_.progress || (seconds_since(told_) < pause && done_ < all_)) return;
-    told_ = Clock::now();
-    const double rate = static_cast<double>(done_ - first_) / std::max(seconds_since(start_), 1e-9);
-    options_.progress({done_, all_, rate, static_cast<double>(all_ - done_) / rate});
-  }
-
- private:
-  std::size_t first_;
-  std::size_t done_;
-  std::size_t all_;
-  const RunOptions& options_;
-  Clock::time_point start_;
-  Clock::time_point told_;
-  std::mutex mutex_;
-};
-
 /// All motions that are left, on all threads of all processes.
-void run_cases(const StressTest& question, const Grid& grid, const RunContext& context, CaseFile& file) {
+void run_cases(const StressTest& question, const Grid& grid, const RunContext& context, scenarios::CaseFile& file) {
   const RunOptions& options = context.options;
   const Truth truth = truth_of(question, context);
   const sim::SteadyStateOptions steady = context.steady_states();
-  Meter meter(file.finished(), grid.cases(), options);
+  scenarios::Meter meter(file.finished(), grid.cases(), options);
   const auto wanted = [&](std::size_t number) { return !file.is_finished(number); };
   const auto take = [&](std::size_t number, const std::string& line) {
     file.add(number, line);
     meter.add();
   };
-  const auto work = [&] {
-    for (std::size_t motion = options.processes->next(); motion < grid.motions();
-         motion = options.processes->next()) {
-      run_motion(grid, truth, steady, motion, wanted, take);
-    }
-  };
-  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
-  sim::in_parts(static_cast<std::size_t>(threads), 1, threads, [&](std::size_t, std::size_t) { work(); });
+  scenarios::share_out(grid.motions(), options,
+                       [&](std::size_t motion) { run_motion(grid, truth, steady, motion, wanted, take); });
 }
 
 Table score_table(const Scores& scores, const Grid& grid) {
@@ -213,15 +172,9 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   const Grid grid(question);
   const RunOptions& options = context.options;
   scenarios::ProcessGroup& processes = *options.processes;
-  CaseFile file(options.directory, fingerprint(context.resolved), grid.cases(), processes.rank());
-  // Parts of an earlier run are gone before anybody begins a new one.
-  if (processes.rank() == 0 && !options.resume) file.begin();
-  processes.wait();
-  if (options.resume)
-    file.resume();
-  else if (processes.rank() != 0)
-    file.begin();
-  processes.wait();
+  scenarios::CaseFile file(options.directory, "cases", scenarios::fingerprint(context.resolved), grid.cases(),
+                           processes.rank());
+  scenarios::open_cases(file, options);
   run_cases(question, grid, context, file);
   file.close();
   processes.wait();

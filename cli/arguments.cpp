@@ -49,7 +49,8 @@ class Parser {
     add_plugins(app_);
     app_.footer(
         "Exit status: 0 done, 1 a requested check failed, 2 wrong command line, 3 invalid scenario or data,\n"
-        "4 numerical failure, 5 some cases of a stress test failed, 70 a bug of this program, 130 interrupted.");
+        "4 numerical failure, 5 some cases of a stress test or points of a sweep failed, 70 a bug of this program, "
+        "130 interrupted.");
     add_run();
     add_check();
     add_identify();
@@ -96,7 +97,7 @@ class Parser {
         ->check(CLI::Range(1, max_jobs))
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
-    run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test");
+    run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test or sweep");
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again by another engine and compare; the same as numerics.verify");
     add_plugins(*run_command_);

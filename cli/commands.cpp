@@ -181,7 +181,7 @@ Report run_file(const RunCommand& command, const std::string& file) {
     Scenario scenario = scenarios::load_scenario(file, options);
     const std::string directory = output_directory(command, file);
     if (command.resume && campaign_of(scenario) == nullptr)
-      return refused(ExitStatus::usage, file + ": --resume goes on with a stress test, and this is none");
+      return refused(ExitStatus::usage, file + ": --resume goes on with a stress test or a sweep, and this is none");
     if (command.dry_run) return checked(scenario, directory);
     return run_and_write(std::move(scenario),
                          {.directory = directory, .threads = command.jobs, .resume = command.resume},

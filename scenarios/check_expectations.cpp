@@ -8,10 +8,10 @@ namespace dualdamp::scenarios {
 namespace {
 
 /// Indices whose bound is known before the run.
-void check_index(CheckedFile& file, const Analysis& analysis, Place place, const ResultPath& path) {
+void check_index(CheckedFile& file, const Expectable& result, Place place, const ResultPath& path) {
   const std::size_t bracket = path.pattern.find("[]");
-  if (bracket == std::string::npos || analysis.length_of == nullptr) return;
-  const auto count = analysis.length_of(file, path.pattern.substr(0, bracket));
+  if (bracket == std::string::npos) return;
+  const auto count = result.length_of(path.pattern.substr(0, bracket));
   if (count && path.indices.front() >= *count)
     file.complain(place, "there is no such item in the result", "an index below " + std::to_string(*count),
                   std::to_string(path.indices.front()));
@@ -19,11 +19,9 @@ void check_index(CheckedFile& file, const Analysis& analysis, Place place, const
 
 }  // namespace
 
-void check_expectations(CheckedFile& file, const Analysis& analysis) {
-  if (!file.values().contains("expect")) return;
+void check_expectations(CheckedFile& file, const Expectable& result) {
   std::vector<std::string> patterns;
-  for (const ResultField& field : result_fields(analysis, file.values().at("analysis")))
-    patterns.push_back(field.path);
+  for (const ResultField& field : result.fields) patterns.push_back(field.path);
   for (std::size_t i = 0; i < file.values().at("expect").size(); ++i) {
     const Json& expectation = file.values().at("expect").at(i);
     if (!expectation.contains("value") || patterns.empty()) continue;
@@ -31,10 +29,10 @@ void check_expectations(CheckedFile& file, const Analysis& analysis) {
     const auto text = expectation.at("value").get<std::string>();
     const auto path = parse_result_path(text);
     if (!path || std::ranges::find(patterns, path->pattern) == patterns.end()) {
-      file.complain(place, "the result of analysis '" + file.analysis() + "' has no number '" + text + "'",
-                    joined(patterns), {}, nearest(path ? path->pattern : text, patterns));
+      file.complain(place, "the result of " + result.subject + " has no number '" + text + "'", joined(patterns),
+                    {}, nearest(path ? path->pattern : text, patterns));
     } else {
-      check_index(file, analysis, place, *path);
+      check_index(file, result, place, *path);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/numbers.hpp"
 #include "scenarios/check_expectations.hpp"
@@ -173,6 +174,18 @@ void check_uncertainties(CheckedFile& file, const Analysis& analysis, const Anal
                     "with analysis.type " + joined(names));
 }
 
+/// Items of the result's lists, as far as they are known before the run.
+std::size_t result_rows(const CheckedFile& file, const Analysis& analysis) {
+  std::set<std::string> lists;
+  for (const ResultField& field : result_fields(analysis, file.values().at("analysis")))
+    if (const std::size_t end = field.path.find("[]"); end != std::string::npos)
+      lists.insert(field.path.substr(0, end));
+  std::size_t rows = 0;
+  for (const std::string& list : lists)
+    if (analysis.length_of != nullptr) rows += analysis.length_of(file, list).value_or(0);
+  return rows;
+}
+
 }  // namespace
 
 Checked check(const Document& document, Reading& reading, const Section& format, const AnalysisList& analyses,
@@ -195,9 +208,15 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   resolve_damping(file);
   resolve_frequency(file);
   if (analysis->check != nullptr) analysis->check(file);
-  check_expectations(file, *analysis);
+  if (file.values().contains("expect"))
+    check_expectations(file, {result_fields(*analysis, file.values().at("analysis")),
+                              "analysis '" + file.analysis() + "'", [&](std::string_view list) {
+                                return analysis->length_of == nullptr ? std::nullopt
+                                                                      : analysis->length_of(file, list);
+                              }});
+  const std::size_t rows = result_rows(file, *analysis);
   resolve_coordinate(file);
-  return {analysis, std::move(file.data)};
+  return {analysis, std::move(file.data), rows};
 }
 
 }  // namespace dualdamp::scenarios

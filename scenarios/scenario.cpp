@@ -14,6 +14,8 @@
 #include "scenarios/format/values.hpp"
 #include "scenarios/results/files.hpp"
 #include "scenarios/scenario_format.hpp"
+#include "scenarios/scenario_reading.hpp"
+#include "scenarios/sweep.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/orbits/steady_state.hpp"
 
@@ -126,6 +128,8 @@ sim::Model model(const Json& values) {
   return result;
 }
 
+}  // namespace
+
 std::vector<Expectation> expectations(const Json& values, const Document& document, const Reading& reading) {
   std::vector<Expectation> result;
   if (!values.contains("expect")) return result;
@@ -157,15 +161,9 @@ void throw_sorted(std::vector<core::Diagnostic> problems, const std::string& fil
   throw core::InputError(std::move(problems));
 }
 
-}  // namespace
-
-Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
-  Document document(name, text);
-  for (const Override& item : options.set) document.set(item.assignment, item.origin);
-  refuse_other_schema(document);
-
+Scenario scenario_of(const Document& document, Reading reading, const std::string& name,
+                     const LoadOptions& options) {
   const Section format = scenario_format(options.analyses);
-  Reading reading = read(document, format);
   const std::string directory = std::filesystem::path(name).parent_path().string();
   Checked checked =
       check(document, reading, format, options.analyses, {directory, options.data_anywhere, options.data_texts});
@@ -175,10 +173,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   const Json& values = reading.values;
   Scenario scenario;
   scenario.file = name;
-  scenario.file_sha256 = core::sha256(text);
   if (checked.data) scenario.data_sha256 = checked.data->sha256;
   scenario.resolved = values.dump();
-  for (const Override& item : options.set) scenario.overrides.push_back(item.assignment);
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
   if (values.contains("system")) scenario.model = model(values);
   if (values.contains("system") && values.at("system").contains("friction"))
@@ -187,6 +183,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
   const Json& section = values.at("analysis");
   scenario.analysis_name = std::string(checked.analysis->name);
+  scenario.result_rows = checked.result_rows;
   scenario.result_fields = result_fields(*checked.analysis, section);
   for (ResultField& field : scenario.result_fields)
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
@@ -194,6 +191,19 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
       checked.analysis->ask({section, values.value("system", Json()), values.value("excitation", Json()),
                              scenario.model, std::move(checked.data)});
   scenario.expect = expectations(values, document, reading);
+  return scenario;
+}
+
+Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
+  Document document(name, text);
+  for (const Override& item : options.set) document.set(item.assignment, item.origin);
+  refuse_other_schema(document);
+  const bool is_sweep = document.root().find("sweep") != nullptr;
+  Scenario scenario = is_sweep
+                          ? swept_scenario(std::move(document), name, options)
+                          : scenario_of(document, read(document, scenario_format(options.analyses)), name, options);
+  scenario.file_sha256 = core::sha256(text);
+  for (const Override& item : options.set) scenario.overrides.push_back(item.assignment);
   return scenario;
 }
 

@@ -38,6 +38,7 @@ struct Scenario {
   std::string analysis_name;
   std::shared_ptr<const Question> question;
   std::vector<ResultField> result_fields;  ///< what the result may hold
+  std::size_t result_rows = 0;             ///< items of its lists, as far as they are known before the run
   std::vector<Expectation> expect;
   double tolerance = 0.0;
   bool verify = false;                ///< the result is to be computed again in another way

@@ -56,6 +56,11 @@ Choice choice_of(const AnalysisList& analyses) {
 }  // namespace
 
 Section scenario_format(const AnalysisList& analyses) {
+  Field sweep;
+  sweep.name = "sweep";
+  sweep.kind = Kind::sweep;
+  sweep.meaning =
+      "asks the question once for each value of a number of this file, or for each pair of values of two";
   return {
       {words("schema", {std::string(schema_name)}, "version of this format").required(),
        text("title", "a title in one line"), section("system", system_section(), "the oscillator"),
@@ -64,7 +69,7 @@ Section scenario_format(const AnalysisList& analyses) {
                {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
                  quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0)}},
                "the state at t = 0"),
-       choice("analysis", choice_of(analyses), "the question").required(),
+       choice("analysis", choice_of(analyses), "the question").required(), std::move(sweep),
        section_list("expect", expect_section(), "checks of the result; if a value differs, the exit status is 1")
            .items(1, 10'000),
        section(

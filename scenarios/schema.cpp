@@ -5,6 +5,7 @@
 
 #include "core/units.hpp"
 #include "scenarios/format/excitations.hpp"
+#include "scenarios/format/limits.hpp"
 #include "scenarios/scenario_format.hpp"
 
 namespace dualdamp::scenarios {
@@ -101,6 +102,26 @@ Json choice_schema(const Choice& choice, const std::string& name) {
           {"allOf", std::move(cases)}};
 }
 
+/// Paths are not looked up: what their values must be depends on the key they name.
+Json sweep_schema() {
+  constexpr int most_keys = 2;
+  Json number = {{"type", {"number", "string"}}};
+  Json list = {{"type", "array"}, {"items", number}, {"minItems", 1}, {"maxItems", max_swept}};
+  Json range = {{"type", "object"},
+                {"properties",
+                 {{"from", number},
+                  {"to", number},
+                  {"count", {{"type", "integer"}, {"minimum", 2}, {"maximum", max_swept}}},
+                  {"spacing", {{"enum", {"linear", "log"}}}}}},
+                {"required", {"from", "to", "count"}},
+                {"additionalProperties", false}};
+  return {{"type", "object"},
+          {"minProperties", 1},
+          {"maxProperties", most_keys},
+          {"additionalProperties",
+           {{"if", {{"type", "array"}}}, {"then", std::move(list)}, {"else", std::move(range)}}}};
+}
+
 Json field_form(const Field& field) {
   switch (field.kind) {
     case Kind::text:
@@ -124,6 +145,8 @@ Json field_form(const Field& field) {
       return list_schema(field, {{"enum", field.words}});
     case Kind::scalar:
       return {{"anyOf", {number_schema({}), {{"type", "boolean"}}, {{"type", "string"}}}}};
+    case Kind::sweep:
+      return sweep_schema();
     case Kind::choice:
       break;
   }

@@ -11,6 +11,7 @@ extern const std::string_view data_js;
 extern const std::string_view elements_js;
 extern const std::string_view chart_js;
 extern const std::string_view views_js;
+extern const std::string_view sweep_js;
 extern const std::string_view views_of_analyses_js;
 extern const std::string_view page_js;
 extern const std::string_view d3_min_js;

@@ -61,7 +61,7 @@ function body() {
   const result = run.result ?? {};
   const parts = [];
   for (const error of run.errors) parts.push(make("p", { class: "note bad" }, error.message));
-  const view = run.result ? (views[run.analysis] ?? { charts: viewOfTables }) : {};
+  const view = run.result ? (run.result.sweep ? views.sweep : views[run.analysis] ?? { charts: viewOfTables }) : {};
   parts.push(...(view.opens?.(result) ?? []));
   if (result.verdict) parts.push(make("p", { class: "verdict" }, result.verdict));
   const said = view.said?.(result) ?? [];

@@ -42,6 +42,9 @@ Json document(const fs::path& path) {
   for (const char* key : {"program", "analysis", "status", "result", "warnings", "checks", "errors"})
     if (!json.is_object() || !json.contains(key))
       refuse(path, std::string("this is no result of dualdamp: there is no '") + key + "'");
+  // What the points of a sweep hold is in its tables.
+  if (json["result"].is_object() && json["result"].contains("sweep"))
+    for (Json& point : json["result"]["sweep"]) point.erase("result");
   return json;
 }
 
@@ -137,7 +140,7 @@ scenarios::OutputFile report_page(const std::string& directory) {
             std::string script;
             for (const std::string_view part :
                  {assets::d3_min_js, assets::data_js, assets::elements_js, assets::chart_js, assets::views_js,
-                  assets::views_of_analyses_js, assets::page_js})
+                  assets::sweep_js, assets::views_of_analyses_js, assets::page_js})
               script += std::string(part) + "\n";
             const Json result = document(place / "result.json");
             write_page(out, {{"style", std::string(assets::page_css)},

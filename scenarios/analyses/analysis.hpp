@@ -104,6 +104,8 @@ struct Analysis {
   Section keys;              ///< of `analysis`, beside its type
   std::vector<Needs> needs;  ///< of the other sections
   std::vector<ResultField> results;
+  /// Single numbers by which results are compared and drawn, the most telling first: paths of `results`.
+  std::vector<std::string_view> main = {};
   bool uses_uncertainties = false;  ///< those of the system's constants and of the frequency
   bool verifiable = false;          ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.

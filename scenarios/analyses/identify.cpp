@@ -214,6 +214,7 @@ const Analysis& identify_analysis() {
       .keys = keys(),
       .needs = needs(),
       .results = joined(estimate_fields(), outlier_fields()),
+      .main = {"answer.zeta", "answer.F0", "answer.c"},
       .uses_uncertainties = true,
       .check = check,
       .ask = ask,

@@ -76,6 +76,7 @@ const Analysis& simulate_analysis() {
                                     .keys = keys(),
                                     .needs = {{"", excitations().names(), {"amplitude", "frequency"}, true, ""}},
                                     .results = fields(),
+                                    .main = {"final.x", "final.v", "energy.friction"},
                                     .verifiable = true,
                                     .check = check,
                                     .ask = ask};

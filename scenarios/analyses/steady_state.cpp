@@ -99,6 +99,7 @@ const Analysis& steady_state_analysis() {
                                     .keys = {},
                                     .needs = needs_of_steady_states({"amplitude", "frequency"}),
                                     .results = fields(),
+                                    .main = {"amplitude", "phase", "max_speed"},
                                     .verifiable = true,
                                     .ask = ask};
   return analysis;

@@ -271,6 +271,9 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
       return "a list of " + joined(field.words);
     case Kind::scalar:
       return "a number, true, false or a text";
+    case Kind::sweep:
+      return "a map of 1 or 2 paths, such as system.friction.kinetic, and their values: a list, or {from, to, "
+             "count, spacing}";
     case Kind::choice:
       break;
   }

@@ -33,6 +33,7 @@ enum class Kind {
   word_list,   ///< a list of distinct `words`
   scalar,      ///< a number, true, false or a text
   choice,      ///< a map, or (when `listed`) a list of maps
+  sweep,       ///< a map of paths of other keys and their values (swept_keys.hpp)
 };
 
 struct Choice;

@@ -137,6 +137,8 @@ class Reader {
     switch (field.kind) {
       case Kind::choice:
         return map_or_list(node, field, path);
+      case Kind::sweep:
+        return nullptr;  // read before all others: swept_keys.hpp
       case Kind::grid:
         return node.kind == Node::Kind::map ? range_of_grid(node, field, path) : list(node, field, path);
       case Kind::quantities:

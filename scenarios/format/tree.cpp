@@ -116,18 +116,34 @@ void Document::set(std::string_view assignment, std::string origin) {
   const int source = static_cast<int>(sources_.size());
   sources_.push_back({std::move(origin), std::string(assignment), {}});
   sources_.back().line_starts = starts_of_lines(assignment);
-  const auto refuse = [&](std::size_t offset, std::string message, std::string allowed) {
-    throw InputError(Diagnostic{locate(place_at(source, offset)), std::move(message), std::move(allowed), {}, {}});
-  };
-
   const std::size_t equals = assignment.find('=');
-  const auto steps = split_path(assignment.substr(0, equals));
-  if (equals == std::string_view::npos || !steps)
-    refuse(0, "this does not name a value",
-           "PATH=VALUE, such as system.friction.kinetic=3 N or excitation.harmonics[0].order=3");
+  if (equals == std::string_view::npos || !split_path(assignment.substr(0, equals)))
+    throw InputError(
+        Diagnostic{locate(place_at(source, 0)),
+                   "this does not name a value",
+                   "PATH=VALUE, such as system.friction.kinetic=3 N or excitation.harmonics[0].order=3",
+                   {},
+                   {}});
   Node value = parse(source, equals + 1);
-  if (value.kind == Node::Kind::null) refuse(equals, "a value is missing after '='", "PATH=VALUE");
+  if (value.kind == Node::Kind::null)
+    throw InputError(
+        Diagnostic{locate(place_at(source, equals)), "a value is missing after '='", "PATH=VALUE", {}, {}});
+  put(assignment.substr(0, equals), std::move(value),
+      [this, source](std::size_t offset) { return place_at(source, offset); });
+}
 
+void Document::put(std::string_view path, Place place, Node value) {
+  put(path, std::move(value), [place](std::size_t) { return place; });
+}
+
+void Document::put(std::string_view path, Node value, const std::function<Place(std::size_t)>& place_of) {
+  const auto refuse = [&](std::size_t offset, std::string message, std::string allowed) {
+    throw InputError(Diagnostic{locate(place_of(offset)), std::move(message), std::move(allowed), {}, {}});
+  };
+  const auto steps = split_path(path);
+  if (!steps)
+    refuse(0, "'" + shortened(path) + "' does not name a value",
+           "a path such as system.friction.kinetic or excitation.harmonics[0].order");
   Node* node = &root_;
   for (const Step& step : *steps) {
     if (step.index) {
@@ -138,7 +154,7 @@ void Document::set(std::string_view assignment, std::string origin) {
       node = &node->items[*step.index];
       continue;
     }
-    const Place place = place_at(source, step.offset);
+    const Place place = place_of(step.offset);
     if (node->kind == Node::Kind::null) {
       node->kind = Node::Kind::map;
       node->place = place;
@@ -146,13 +162,29 @@ void Document::set(std::string_view assignment, std::string origin) {
     if (node->kind != Node::Kind::map)
       refuse(step.offset, "'" + shortened(step.key) + "' is inside a value that has no keys", {});
     auto entry = std::ranges::find(node->entries, step.key, &Entry::key);
-    if (entry == node->entries.end()) entry = node->entries.insert(entry, Entry{step.key, place, Node{}});
-    entry->place = place;
-    entry->value.key_place = place;
+    const bool is_new = entry == node->entries.end();
+    if (is_new) entry = node->entries.insert(entry, Entry{step.key, place, Node{}});
+    // A section that stands in the file keeps its place there.
+    if (is_new || &step == &steps->back()) entry->place = entry->value.key_place = place;
     node = &entry->value;
   }
   value.key_place = node->key_place;
   *node = std::move(value);
+}
+
+std::optional<Entry> Document::take(std::string_view key) {
+  const auto found = std::ranges::find(root_.entries, key, &Entry::key);
+  if (found == root_.entries.end()) return std::nullopt;
+  Entry entry = std::move(*found);
+  root_.entries.erase(found);
+  return entry;
+}
+
+Document Document::part(Node root) const {
+  Document document = *this;
+  document.root_ = std::move(root);
+  document.problems_.clear();
+  return document;
 }
 
 }  // namespace dualdamp::scenarios

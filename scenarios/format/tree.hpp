@@ -9,6 +9,8 @@
 /// those of the keys can be told with them. Cost: linear in the length of the text.
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +67,13 @@ class Document {
   /// are created; list items must exist. `origin` stands for the file in messages.
   void set(std::string_view assignment, std::string origin);
 
+  /// The same with a value that is already there; `place` is that of PATH, for messages.
+  void put(std::string_view path, Place place, Node value);
+  /// Takes a key of the root out, with its value; nothing when it is not there.
+  std::optional<Entry> take(std::string_view key);
+  /// A part of this document, as one of its own that has no problems yet.
+  [[nodiscard]] Document part(Node root) const;
+
   [[nodiscard]] const Node& root() const { return root_; }
   [[nodiscard]] const std::vector<core::Diagnostic>& problems() const { return problems_; }
   [[nodiscard]] core::SourcePlace locate(Place place) const;
@@ -81,6 +90,8 @@ class Document {
   friend class TreeBuilder;
 
   [[nodiscard]] Place place_at(int source, std::size_t offset) const;
+  /// `place_of`: where the step stands that begins at this offset of the path.
+  void put(std::string_view path, Node value, const std::function<Place(std::size_t)>& place_of);
   /// Parses `sources_[source]` from `begin` on.
   [[nodiscard]] Node parse(int source, std::size_t begin);
 

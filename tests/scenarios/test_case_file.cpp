@@ -1,4 +1,4 @@
-#include "bench/case_file.hpp"
+#include "scenarios/results/case_file.hpp"
 
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/diagnostics.hpp"
 
-using dualdamp::bench::CaseFile;
+using dualdamp::scenarios::CaseFile;
 namespace fs = std::filesystem;
 
 namespace {
@@ -42,10 +42,10 @@ std::string whole(std::size_t cases) {
 
 TEST_CASE("case file: lines of any order and any process end up in order") {
   const Folder folder;
-  CaseFile first(folder.path, "abc", 5, 0);
+  CaseFile first(folder.path, "cases", "abc", 5, 0);
   first.begin();
   {
-    CaseFile second(folder.path, "abc", 5, 1);
+    CaseFile second(folder.path, "cases", "abc", 5, 1);
     second.begin();
     second.add(3, line(3));
     second.add(0, line(0));
@@ -66,7 +66,7 @@ TEST_CASE("case file: wherever it is cut, whole lines are kept and the rest is d
     fs::remove_all(folder.path);
     fs::create_directories(folder.path);
     std::ofstream(folder.path / "cases.jsonl") << all.substr(0, cut);
-    CaseFile file(folder.path, "abc", 4);
+    CaseFile file(folder.path, "cases", "abc", 4);
     file.resume();
     const std::string kept = all.substr(0, cut);
     const auto lines = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), '\n'));
@@ -82,7 +82,7 @@ TEST_CASE("case file: the cases of another campaign are refused and left alone")
   const Folder folder;
   fs::create_directories(folder.path);
   std::ofstream(folder.path / "cases.jsonl") << whole(4);
-  CaseFile file(folder.path, "abd", 4);
+  CaseFile file(folder.path, "cases", "abd", 4);
   CHECK_THROWS_AS(file.resume(), dualdamp::core::InputError);
   CHECK(text(folder.path / "cases.jsonl") == whole(4));
 }

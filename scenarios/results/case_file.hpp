@@ -1,11 +1,12 @@
 #pragma once
-/// The file of finished cases: one line of JSON each, written at once, so that whatever ends the program loses no
-/// more than the cases under way.
+/// The file of finished cases of a campaign or points of a sweep: one line of JSON each, written at once, so that
+/// whatever ends the program loses no more than the cases under way.
 ///
-/// The first line names the campaign by the fingerprint of its resolved scenario and program. `resume` reads which
+/// A line begins with `{"case":NUMBER,`. The first line names the campaign by the fingerprint of its resolved
+/// scenario and program. `resume` reads which
 /// cases are there, cuts off a last line that is torn, and refuses a file of another campaign. `finish` puts the
 /// lines into the order of the case numbers; memory is 8 bytes a case. Several processes write a part each
-/// (`cases.1.jsonl`, ...), which `finish` gathers.
+/// (`NAME.1.jsonl`, ...), which `finish` gathers.
 ///
 /// Errors: `core::InputError` for a file of another campaign, `scenarios::OutputError` for one that cannot be
 /// written.
@@ -16,12 +17,13 @@
 #include <string>
 #include <vector>
 
-namespace dualdamp::bench {
+namespace dualdamp::scenarios {
 
 class CaseFile {
  public:
-  /// `part`: number of the process; part 0 writes `cases.jsonl` itself.
-  CaseFile(std::string directory, const std::string& fingerprint, std::size_t cases, int part = 0);
+  /// `name`: of the file, without .jsonl; `part`: number of the process, of which 0 writes NAME.jsonl itself.
+  CaseFile(std::string directory, std::string name, const std::string& fingerprint, std::size_t cases,
+           int part = 0);
   ~CaseFile();
   CaseFile(const CaseFile&) = delete;
   CaseFile& operator=(const CaseFile&) = delete;
@@ -37,12 +39,12 @@ class CaseFile {
   /// Adds a line with one write; from any thread.
   void add(std::size_t number, const std::string& line);
 
-  /// Gathers all parts, in order, into `cases.jsonl`. Called by one process when the others have closed theirs.
+  /// Gathers all parts, in order, into NAME.jsonl. Called by one process when the others have closed theirs.
   void finish();
   void close();
 
   /// Reads the lines in order after `finish`.
-  [[nodiscard]] std::string path() const { return directory_ + "/cases.jsonl"; }
+  [[nodiscard]] std::string path() const { return part_path(0); }
 
  private:
   struct Place {
@@ -58,6 +60,7 @@ class CaseFile {
   long scan(int part, std::vector<Place>& places) const;
 
   std::string directory_;
+  std::string name_;
   std::string head_;  ///< first line of every part
   int part_;
   int descriptor_ = -1;
@@ -65,4 +68,4 @@ class CaseFile {
   std::vector<bool> finished_;
 };
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::scenarios

@@ -1,4 +1,4 @@
-#include "bench/case_file.hpp"
+#include "scenarios/results/case_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 #include "core/diagnostics.hpp"
 #include "scenarios/results/files.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::scenarios {
 
 namespace fs = std::filesystem;
 
@@ -39,8 +39,10 @@ std::optional<std::size_t> number_of(std::string_view line) {
 
 }  // namespace
 
-CaseFile::CaseFile(std::string directory, const std::string& fingerprint, std::size_t cases, int part)
+CaseFile::CaseFile(std::string directory, std::string name, const std::string& fingerprint, std::size_t cases,
+                   int part)
     : directory_(std::move(directory)),
+      name_(std::move(name)),
       head_("{\"campaign\":\"" + fingerprint + "\",\"cases\":" + std::to_string(cases) + "}"),
       part_(part),
       finished_(cases, false) {}
@@ -48,7 +50,7 @@ CaseFile::CaseFile(std::string directory, const std::string& fingerprint, std::s
 CaseFile::~CaseFile() { close(); }
 
 std::string CaseFile::part_path(int part) const {
-  return directory_ + "/cases" + (part == 0 ? "" : "." + std::to_string(part)) + ".jsonl";
+  return directory_ + "/" + name_ + (part == 0 ? "" : "." + std::to_string(part)) + ".jsonl";
 }
 
 /// Those that are there, in order.
@@ -56,10 +58,10 @@ std::vector<int> CaseFile::parts() const {
   std::vector<int> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory_)) {
     const std::string name = entry.path().filename().string();
-    if (name == "cases.jsonl") found.push_back(0);
-    if (!name.starts_with("cases.") || !name.ends_with(".jsonl")) continue;
+    if (name == name_ + ".jsonl") found.push_back(0);
+    if (!name.starts_with(name_ + ".") || !name.ends_with(".jsonl")) continue;
     int part = 0;
-    const char* begin = name.data() + std::strlen("cases.");
+    const char* begin = name.data() + name_.size() + 1;
     const auto [end, fault] = std::from_chars(begin, name.data() + name.size(), part);
     if (fault == std::errc() && std::string_view(end) == ".jsonl" && part > 0) found.push_back(part);
   }
@@ -76,7 +78,7 @@ long CaseFile::scan(int part, std::vector<Place>& places) const {
   // A head that is torn is that of a campaign killed before its first case.
   if (!std::getline(file, line) || file.eof()) return 0;
   if (line != head_)
-    refuse(path, "the cases are those of another campaign, or of another version of the program",
+    refuse(path, "the cases are those of another campaign or sweep, or of another version of the program",
            "the same scenario, options and program; or another --out", line.substr(0, 100));
   long end = file.tellg();
   while (std::getline(file, line) && !file.eof()) {
@@ -92,7 +94,7 @@ void CaseFile::open(bool fresh) {
   close();
   const std::string path = part_path(part_);
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (fresh ? O_TRUNC : 0), 0666);
-  if (descriptor_ < 0) throw scenarios::OutputError("cannot write " + path + ": " + std::strerror(errno));
+  if (descriptor_ < 0) throw OutputError("cannot write " + path + ": " + std::strerror(errno));
 }
 
 void CaseFile::begin() {
@@ -122,7 +124,7 @@ void CaseFile::write_line(const std::string& text) {
   while (written < line.size()) {
     const ssize_t count = ::write(descriptor_, line.data() + written, line.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw scenarios::OutputError("cannot write " + part_path(part_) + ": " + std::strerror(errno));
+    if (count <= 0) throw OutputError("cannot write " + part_path(part_) + ": " + std::strerror(errno));
     written += static_cast<std::size_t>(count);
   }
 }
@@ -138,21 +140,20 @@ void CaseFile::finish() {
   std::vector<Place> places(finished_.size());
   const std::vector<int> all = parts();
   for (const int part : all) scan(part, places);
-  scenarios::write_files(directory_, {{"cases.jsonl", [&](std::ostream& out) {
-                                         std::vector<std::ifstream> files(static_cast<std::size_t>(all.back()) + 1);
-                                         for (const int part : all)
-                                           files[static_cast<std::size_t>(part)].open(part_path(part),
-                                                                                      std::ios::binary);
-                                         out << head_ << "\n";
-                                         std::string line;
-                                         for (const Place& place : places) {
-                                           if (place.part < 0) continue;
-                                           std::ifstream& file = files[static_cast<std::size_t>(place.part)];
-                                           file.seekg(place.offset);
-                                           std::getline(file, line);
-                                           out << line << "\n";
-                                         }
-                                       }}});
+  write_files(directory_, {{name_ + ".jsonl", [&](std::ostream& out) {
+                              std::vector<std::ifstream> files(static_cast<std::size_t>(all.back()) + 1);
+                              for (const int part : all)
+                                files[static_cast<std::size_t>(part)].open(part_path(part), std::ios::binary);
+                              out << head_ << "\n";
+                              std::string line;
+                              for (const Place& place : places) {
+                                if (place.part < 0) continue;
+                                std::ifstream& file = files[static_cast<std::size_t>(place.part)];
+                                file.seekg(place.offset);
+                                std::getline(file, line);
+                                out << line << "\n";
+                              }
+                            }}});
   for (const int part : all)
     if (part != 0) fs::remove(part_path(part));
 }
@@ -162,4 +163,4 @@ void CaseFile::close() {
   descriptor_ = -1;
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,356 @@
+#include "scenarios/sweep.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "core/cancellation.hpp"
+#include "core/numbers.hpp"
+#include "core/provenance.hpp"
+#include "friction_models/registry.hpp"
+#include "scenarios/analyses/shared/long_run.hpp"
+#include "scenarios/check_expectations.hpp"
+#include "scenarios/format/checked_file.hpp"
+#include "scenarios/format/limits.hpp"
+#include "scenarios/format/swept_keys.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/run.hpp"
+#include "scenarios/scenario_format.hpp"
+#include "scenarios/scenario_reading.hpp"
+#include "scenarios/sweep_answer.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// The points of a sweep: the document without its sections `sweep` and `expect`, and what differs.
+class Points {
+ public:
+  Points(Document base, SweptKeys swept, std::string name, LoadOptions options)
+      : base_(std::move(base)),
+        swept_(std::move(swept)),
+        name_(std::move(name)),
+        options_(std::move(options)),
+        format_(scenario_format(options_.analyses)) {}
+
+  [[nodiscard]] std::size_t size() const {
+    std::size_t count = 1;
+    for (const SweptKey& key : swept_.keys) count *= key.values.size();
+    return count;
+  }
+  [[nodiscard]] const SweptKeys& swept() const { return swept_; }
+  [[nodiscard]] const Document& base() const { return base_; }
+  [[nodiscard]] const Section& format() const { return format_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// Which of the values of a key a point has: the last key varies fastest.
+  [[nodiscard]] std::size_t index(std::size_t point, std::size_t key) const {
+    for (std::size_t i = swept_.keys.size(); --i > key;) point /= swept_.keys[i].values.size();
+    return point % swept_.keys[key].values.size();
+  }
+
+  [[nodiscard]] Document document(std::size_t point) const {
+    Document document = base_;
+    for (std::size_t i = 0; i < swept_.keys.size(); ++i) {
+      const SweptKey& key = swept_.keys[i];
+      document.put(key.path, key.place, key.values[index(point, i)]);
+    }
+    return document;
+  }
+
+  [[nodiscard]] Scenario scenario(const Document& document, Reading reading) const {
+    return scenario_of(document, std::move(reading), name_, options_);
+  }
+  [[nodiscard]] Scenario scenario(std::size_t point) const {
+    const Document document = this->document(point);
+    return scenario(document, read(document, format_));
+  }
+
+  [[nodiscard]] std::vector<SweptColumn> columns() const {
+    std::vector<SweptColumn> columns;
+    for (std::size_t i = 0; i < swept_.keys.size(); ++i) {
+      const SweptKey& key = swept_.keys[i];
+      SweptColumn& column = columns.emplace_back(SweptColumn{key.path, key.unit, {}, {}});
+      for (std::size_t point = 0; point < size(); ++point) column.numbers.push_back(key.number(index(point, i)));
+    }
+    return columns;
+  }
+
+ private:
+  Document base_;
+  SweptKeys swept_;
+  std::string name_;
+  LoadOptions options_;
+  Section format_;
+};
+
+class SweepQuestion final : public Question, public Campaign {
+ public:
+  SweepQuestion(Points points, std::vector<SweptColumn> columns, std::vector<ResultField> fields,
+                std::vector<std::string_view> main, std::string inputs)
+      : points_(std::move(points)),
+        columns_(std::move(columns)),
+        fields_(std::move(fields)),
+        main_(std::move(main)),
+        inputs_(std::move(inputs)) {}
+
+  [[nodiscard]] std::string size(const RunContext& /*context*/) const override {
+    std::string text = std::to_string(points_.size()) + " points: ";
+    const char* separator = "";
+    for (const SweptKey& key : points_.swept().keys) {
+      text += separator + key.path + " (" + std::to_string(key.values.size()) + " values)";
+      separator = ", ";
+    }
+    return text;
+  }
+
+  [[nodiscard]] Answer run(const RunContext& context) const override {
+    const RunOptions& options = context.options;
+    std::vector<std::string> lines(points_.size());
+    if (options.directory.empty()) {
+      Meter meter(0, points_.size(), options);
+      share_out(points_.size(), options, [&](std::size_t point) {
+        lines[point] = line(point, options);
+        meter.add();
+      });
+    } else if (!run_with_file(context, lines)) {
+      return {};
+    }
+    return answer_of_sweep(lines, columns_, fields_, main_);
+  }
+
+ private:
+  [[nodiscard]] std::string line(std::size_t point, const RunOptions& options) const {
+    return line_of(point, columns_, scenarios::run(points_.scenario(point), {.threads = options.threads}));
+  }
+
+  /// False in all processes but the first.
+  [[nodiscard]] bool run_with_file(const RunContext& context, std::vector<std::string>& lines) const {
+    const RunOptions& options = context.options;
+    ProcessGroup& processes = *options.processes;
+    CaseFile file(options.directory, "points", fingerprint(context.resolved + "\n" + inputs_), points_.size(),
+                  processes.rank());
+    open_cases(file, options);
+    Meter meter(file.finished(), points_.size(), options);
+    share_out(points_.size(), options, [&](std::size_t point) {
+      if (file.is_finished(point)) return;
+      file.add(point, line(point, options));
+      meter.add();
+    });
+    file.close();
+    processes.wait();
+    if (processes.rank() != 0) return false;
+    file.finish();
+    std::ifstream finished(file.path());
+    std::string head;
+    std::getline(finished, head);
+    for (std::string& line : lines) std::getline(finished, line);
+    return true;
+  }
+
+  Points points_;
+  std::vector<SweptColumn> columns_;
+  std::vector<ResultField> fields_;
+  std::vector<std::string_view> main_;
+  std::string inputs_;  ///< digests of what the points read beside the scenario
+};
+
+/// Problems of points; one that several points have is told once.
+class Problems {
+ public:
+  void add(std::size_t point, const core::Diagnostic& problem) {
+    const auto [entry, is_new] = known_.emplace(
+        std::tuple(problem.place.file, problem.place.line, problem.place.column, problem.message), found_.size());
+    if (is_new) found_.push_back({problem, point, 0});
+    // Values of a grid have the place of the grid, and each is one problem.
+    ++found_[entry->second].points;
+  }
+
+  [[nodiscard]] bool empty() const { return found_.empty(); }
+
+  [[nodiscard]] std::vector<core::Diagnostic> take(std::size_t points, const std::vector<SweptColumn>& columns) {
+    std::vector<core::Diagnostic> result;
+    for (Found& one : found_) {
+      if (one.points < points) {
+        one.problem.message = "with " + describe_point(columns, one.first) + ": " + one.problem.message;
+        if (one.points > 1) one.problem.message += " (so at " + std::to_string(one.points) + " points)";
+      }
+      if (result.size() < max_reported) result.push_back(std::move(one.problem));
+    }
+    return result;
+  }
+
+ private:
+  struct Found {
+    core::Diagnostic problem;
+    std::size_t first = 0;
+    std::size_t points = 0;
+  };
+
+  std::map<std::tuple<std::string, int, int, std::string>, std::size_t> known_;
+  std::vector<Found> found_;
+};
+
+/// Reads and checks all points.
+class Sweep {
+ public:
+  Sweep(Points points, const LoadOptions& options)
+      : points_(std::move(points)), options_(options), columns_(points_.columns()) {}
+
+  /// The scenario of the whole; `expect`: what it says of the result.
+  Scenario scenario(std::optional<Entry> expect) {
+    for (std::size_t point = 0; point < points_.size(); ++point) {
+      core::stop_if_cancelled();
+      try {
+        check(point);
+      } catch (const core::InputError& error) {
+        for (const core::Diagnostic& problem : error.diagnostics()) problems_.add(point, problem);
+      }
+    }
+    if (!problems_.empty()) throw_sorted(problems_.take(points_.size(), columns_), points_.name());
+    check_size();
+    return whole(std::move(expect));
+  }
+
+ private:
+  void complain(std::size_t point, Place place, std::string message, std::string allowed = {},
+                std::string found = {}) {
+    problems_.add(point,
+                  {points_.base().locate(place), std::move(message), std::move(allowed), std::move(found), {}});
+  }
+
+  void check(std::size_t point) {
+    const Document document = points_.document(point);
+    Reading reading = read(document, points_.format());
+    const bool is_fine = reading.problems.empty();
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const SweptKey& key = points_.swept().keys[i];
+      const std::optional<double> value = number_at(reading, key.path);
+      if (value) columns_[i].si.push_back(*value);
+      if (!value && is_fine)
+        complain(point, key.place, "'" + key.path + "' is no number of this scenario",
+                 "a key whose value is a number");
+    }
+    Json values = reading.values;
+    Scenario scenario = points_.scenario(document, std::move(reading));
+    rows_ += scenario.result_rows;
+    if (dynamic_cast<const Campaign*>(scenario.question.get()) != nullptr)
+      complain(point, points_.swept().place,
+               "analysis '" + scenario.analysis_name + "' cannot be swept: it is a campaign with a grid of its own",
+               "any other analysis");
+    if (point == 0) {
+      first_ = std::move(scenario);
+      first_values_ = std::move(values);
+    }
+  }
+
+  /// The number that was read at a path; nothing where there is none.
+  static std::optional<double> number_at(const Reading& reading, const std::string& path) {
+    if (!reading.places.contains(path)) return std::nullopt;
+    std::string pointer = "/" + path;
+    for (char& c : pointer)
+      if (c == '.' || c == '[') c = '/';
+    std::erase(pointer, ']');
+    const Json::json_pointer place(pointer);
+    if (!reading.values.contains(place)) return std::nullopt;
+    const Json& value = reading.values.at(place);
+    const bool is_frequency = value.is_string() && value.get<std::string>().ends_with(" rad/s");
+    if (!value.is_number() && !is_frequency) return std::nullopt;
+    return number(value);
+  }
+
+  void check_size() const {
+    if (static_cast<double>(rows_) > max_points)
+      throw core::InputError(
+          core::Diagnostic{points_.base().locate(points_.swept().place),
+                           "the results of the sweep are too long",
+                           "lists of at most " + core::format_number(max_points, 7) + " items together",
+                           std::to_string(rows_),
+                           {}});
+  }
+
+  /// The file as it was read, the first point's values in it and the swept ones beside them: words such as
+  /// `natural` stay, because they mean another number at another point.
+  [[nodiscard]] Json resolved(const Json& expect) const {
+    Json values = first_values_;
+    const Json first = Json::parse(first_.resolved);
+    if (first.contains("system") && first.at("system").contains("coordinate"))
+      values["system"]["coordinate"] = first.at("system").at("coordinate");
+    for (const SweptKey& key : points_.swept().keys)
+      for (const Node& value : key.values) {
+        const bool is_bare = key.unit.empty();
+        values["sweep"][key.path].push_back(is_bare ? Json(*core::read_number(value.text).value)
+                                                    : Json(value.text));
+      }
+    if (!expect.is_null()) values["expect"] = expect;
+    if (values.contains("system"))
+      put_in_order(values["system"], points_.format().find("system")->choice->variants.front().section);
+    put_in_order(values, points_.format());
+    return values;
+  }
+
+  Scenario whole(std::optional<Entry> expect) {
+    const std::vector<ResultField> fields = first_.result_fields;
+    first_.result_fields = fields_of_sweep(fields);
+    first_.warnings.clear();  // each point has its own
+    first_.verify = false;    // each point is
+    Json expected;
+    if (expect) first_.expect = expectations_of(std::move(*expect), expected);
+    first_.resolved = resolved(expected).dump();
+    std::string inputs = first_.data_sha256;
+    for (const friction::LawEntry& law : friction::laws())
+      if (law.plugin) inputs += " " + law.plugin->sha256;
+    std::vector<std::string_view> main = find_analysis(options_.analyses, first_.analysis_name)->main;
+    first_.question = std::make_shared<SweepQuestion>(std::move(points_), std::move(columns_), fields,
+                                                      std::move(main), std::move(inputs));
+    return std::move(first_);
+  }
+
+  /// The section `expect` is about the result of the sweep.
+  std::vector<Expectation> expectations_of(Entry expect, Json& values) {
+    Node root = points_.base().root();
+    root.entries = {std::move(expect)};
+    const Document document = points_.base().part(std::move(root));
+    const Section format = {{*points_.format().find("expect")}};
+    Reading reading = read(document, format);
+    const std::vector<Needs> none_needed;
+    CheckedFile file(document, reading, format, none_needed);
+    check_expectations(file, {first_.result_fields, "a sweep of analysis '" + first_.analysis_name + "'",
+                              [&](std::string_view list) {
+                                return list == "sweep" ? std::optional(points_.size()) : std::nullopt;
+                              }});
+    if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), points_.name());
+    values = reading.values.at("expect");
+    return expectations(reading.values, document, reading);
+  }
+
+  Points points_;
+  const LoadOptions& options_;
+  std::vector<SweptColumn> columns_;
+  Problems problems_;
+  std::size_t rows_ = 0;
+  Scenario first_;
+  Json first_values_;
+};
+
+}  // namespace
+
+Scenario swept_scenario(Document document, const std::string& name, const LoadOptions& options) {
+  std::vector<core::Diagnostic> problems = document.problems();
+  std::optional<SweptKeys> swept = take_swept_keys(document, problems);
+  std::optional<Entry> expect = document.take("expect");
+  const Place place = swept->place;
+  if (!problems.empty()) throw_sorted(std::move(problems), name);
+  Points points(std::move(document), std::move(*swept), name, options);
+  if (static_cast<double>(points.size()) > max_swept)
+    throw core::InputError(core::Diagnostic{points.base().locate(place),
+                                            "the sweep has too many points",
+                                            "at most " + core::format_number(max_swept, 6),
+                                            std::to_string(points.size()),
+                                            {}});
+  return Sweep(std::move(points), options).scenario(std::move(expect));
+}
+
+}  // namespace dualdamp::scenarios
