@@ -40,8 +40,8 @@ void run_cases(const StressTest& question, const Grid& grid, const RunContext& c
   const sim::SteadyStateOptions steady = context.steady_states();
   scenarios::Meter meter(file.finished(), grid.cases(), options);
   const auto wanted = [&](std::size_t number) { return !file.is_finished(number); };
-  const auto take = [&](std::size_t number, const std::string& line) {
-    file.add(number, line);
+  const auto take = [&](const std::string& line) {
+    file.add(line);
     meter.add();
   };
   scenarios::share_out(grid.motions(), options,
@@ -139,8 +139,7 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   const Truth truth = truth_of(question, context);
   const auto try_motion = [&](const Grid& cases, std::size_t motion) {
     run_motion(
-        cases, truth, context.steady_states(), motion, [](std::size_t) { return true; },
-        [](std::size_t, const std::string&) {});
+        cases, truth, context.steady_states(), motion, [](std::size_t) { return true; }, [](const std::string&) {});
   };
   const Clock::time_point start = Clock::now();
   for (std::size_t motion = 0; motion < grid.motions(); ++motion) try_motion(grid, motion);
@@ -174,9 +173,9 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   scenarios::ProcessGroup& processes = *options.processes;
   scenarios::CaseFile file(options.directory, "cases", scenarios::fingerprint(context.resolved), grid.cases(),
                            processes.rank());
-  scenarios::open_cases(file, options);
+  const bool is_complete = scenarios::open_cases(file, grid.cases(), options);
   run_cases(question, grid, context, file);
-  file.close();
+  if (processes.rank() != 0) file.close();
   processes.wait();
   if (processes.rank() != 0) return {};
   file.finish();
@@ -184,6 +183,8 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   scenarios::Answer answer;
   answer.result = summary(scores, grid);
   answer.tables = {ranking_table(scores, grid), breakdown_table(scores, grid), score_table(scores, grid)};
+  if (is_complete && options.found == scenarios::FoundCases::refuse)
+    answer.warnings.push_back("all cases of this campaign were there already: they are scored anew, not computed");
   if (scores.failed_cases > 0) answer.status = core::ExitStatus::some_cases_failed;
   return answer;
 }

@@ -107,7 +107,7 @@ void run_motion(const Grid& grid, const Truth& truth, const sim::SteadyStateOpti
       line["estimates"] = Json::array();
       for (const identify::MethodEntry* method : question.methods)
         line["estimates"].push_back(estimate_json(method->run(record, constants, {})));
-      take(place, line.dump());
+      take(line.dump());
     }
   }
 }

@@ -11,8 +11,8 @@
 
 namespace dualdamp::bench {
 
-/// A finished case: its number in the grid, and its line without line end.
-using TakeLine = std::function<void(std::size_t number, const std::string& line)>;
+/// A finished case: its line without line end.
+using TakeLine = std::function<void(const std::string& line)>;
 
 /// Computes motion `number` once and those of its cases that are `wanted`. A case that cannot be measured is a line
 /// with a reason.

@@ -2,37 +2,30 @@
 
 #include <mpi.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <stop_token>
+#include <string>
 #include <thread>
+#include <vector>
+
+#include "bench/launcher.hpp"
+#include "core/diagnostics.hpp"
 
 namespace dualdamp::bench {
 
 namespace {
 
+constexpr std::chrono::milliseconds pause{1};
+
 void check(int outcome, const char* what) {
   if (outcome != MPI_SUCCESS) throw std::runtime_error(std::string("MPI failed: ") + what);
 }
 
-}  // namespace
-
-struct Processes::Shared {
-  std::atomic<std::size_t> alone{0};  ///< the counter of a process without others
-  std::mutex mutex;                   ///< MPI is called by one thread at a time
-  MPI_Win window = MPI_WIN_NULL;
-  long* counter = nullptr;
-  std::jthread attendant;  ///< of process 0
-};
-
-namespace {
-
-constexpr std::chrono::milliseconds pause{1};
-
-/// Over a network the counter answers only while its own process is inside MPI: without this the others would wait
+/// Over a network a counter answers only while its own process is inside MPI: without this the others would wait
 /// for as long as process 0 computes.
 void attend(std::mutex& mutex, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
@@ -45,9 +38,45 @@ void attend(std::mutex& mutex, const std::stop_token& stop) {
   }
 }
 
+/// A launcher and an MPI library that do not belong together leave every process believing that it is alone.
+void check_count(int count) {
+  const std::optional<Launch> started = launch();
+  if (!started || started->processes <= 1 || started->processes == count) return;
+  throw core::InputError(core::Diagnostic{
+      .message = std::string(started->launcher) + " started " + std::to_string(started->processes) +
+                 " processes, but the MPI library of this program joins " + std::to_string(count),
+      .allowed = "mpirun of Open MPI; or srun with the plugin of that library, such as srun --mpi=pmix",
+  });
+}
+
 }  // namespace
 
-bool Processes::several() { return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr; }
+struct Processes::Shared {
+  std::mutex mutex;              ///< MPI is called by one thread at a time
+  std::vector<MPI_Win> windows;  ///< of all counters: freed together at the end, not while a process fails
+  std::jthread attendant;        ///< of process 0
+};
+
+class Processes::SharedCounter final : public scenarios::ItemCounter {
+ public:
+  SharedCounter(std::mutex& mutex, MPI_Win window) : mutex_(mutex), window_(window) {}
+
+  std::size_t next() override {
+    const std::lock_guard lock(mutex_);
+    const long one = 1;
+    long item = 0;
+    check(MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, window_), "lock");
+    check(MPI_Fetch_and_op(&one, &item, MPI_LONG, 0, 0, MPI_SUM, window_), "next item");
+    check(MPI_Win_unlock(0, window_), "unlock");
+    return static_cast<std::size_t>(item);
+  }
+
+ private:
+  std::mutex& mutex_;
+  MPI_Win window_;
+};
+
+bool Processes::several() { return launch().has_value(); }
 
 Processes::Processes() : shared_(std::make_unique<Shared>()) {
   if (!several()) return;
@@ -55,36 +84,43 @@ Processes::Processes() : shared_(std::make_unique<Shared>()) {
   check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided), "start");
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
-  const MPI_Aint size = rank_ == 0 ? sizeof(long) : 0;
-  check(MPI_Win_allocate(size, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, static_cast<void*>(&shared_->counter),
-                         &shared_->window),
-        "shared counter");
-  if (rank_ == 0) *shared_->counter = 0;
-  wait();
+  try {
+    check_count(count_);
+  } catch (...) {
+    MPI_Finalize();
+    throw;
+  }
   if (rank_ == 0 && count_ > 1)
     shared_->attendant = std::jthread([this](const std::stop_token& stop) { attend(shared_->mutex, stop); });
 }
 
 Processes::~Processes() {
-  if (shared_->window == MPI_WIN_NULL) return;
   shared_->attendant = {};
-  MPI_Win_free(&shared_->window);
-  MPI_Finalize();
+  for (MPI_Win& window : shared_->windows) MPI_Win_free(&window);
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  if (initialised != 0) MPI_Finalize();
 }
 
-std::size_t Processes::next() {
-  if (shared_->window == MPI_WIN_NULL) return shared_->alone++;
-  const std::lock_guard lock(shared_->mutex);
-  const long one = 1;
-  long item = 0;
-  check(MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, shared_->window), "lock");
-  check(MPI_Fetch_and_op(&one, &item, MPI_LONG, 0, 0, MPI_SUM, shared_->window), "next item");
-  check(MPI_Win_unlock(0, shared_->window), "unlock");
-  return static_cast<std::size_t>(item);
+std::unique_ptr<scenarios::ItemCounter> Processes::share_items() {
+  if (count_ == 1) return ProcessGroup::share_items();
+  MPI_Win window = MPI_WIN_NULL;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    long* counter = nullptr;
+    const MPI_Aint size = rank_ == 0 ? sizeof(long) : 0;
+    check(
+        MPI_Win_allocate(size, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, static_cast<void*>(&counter), &window),
+        "shared counter");
+    if (rank_ == 0) *counter = 0;
+    shared_->windows.push_back(window);
+  }
+  wait();
+  return std::make_unique<SharedCounter>(shared_->mutex, window);
 }
 
 void Processes::wait() {
-  if (shared_->window == MPI_WIN_NULL) return;
+  if (count_ == 1) return;
   // A barrier of MPI's own would keep a core busy for as long as the slowest process works.
   MPI_Request request = MPI_REQUEST_NULL;
   const auto arrived = [&] {
@@ -95,6 +131,23 @@ void Processes::wait() {
     return all != 0;
   };
   while (!arrived()) std::this_thread::sleep_for(pause);
+}
+
+std::optional<Processes::Failure> Processes::first_failure(int status) {
+  constexpr int none = std::numeric_limits<int>::max();
+  if (count_ == 1) return status == 0 ? std::nullopt : std::optional(Failure{0, status});
+  constexpr int statuses = 256;  // of a process
+  const int mine = status == 0 ? none : rank_ * statuses + status;
+  int first = none;
+  const std::lock_guard lock(shared_->mutex);
+  check(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD), "agree");
+  if (first == none) return std::nullopt;
+  return Failure{first / statuses, first % statuses};
+}
+
+void Processes::abort(int status) {
+  if (count_ > 1) MPI_Abort(MPI_COMM_WORLD, status);
+  std::_Exit(status);
 }
 
 }  // namespace dualdamp::bench

@@ -1,13 +1,17 @@
 #pragma once
-/// The processes that share a campaign: one alone, or those that `mpirun -n N` has started.
+/// The processes that share a campaign: one alone, or those that a launcher (`launcher.hpp`) has started.
 ///
 /// Work is handed out one item at a time to whichever process asks, by a counter that process 0 keeps; which
 /// process does what is left to chance and must not matter. Source: the MPI standard, one-sided communication.
-/// Errors: `std::runtime_error` when MPI fails; `core::InputError` when `mpirun` starts a program that was built
-/// without MPI.
+///
+/// A process that fails while the others work would leave them waiting: it says why and calls `abort`. Failures
+/// that come before the work are agreed on by `first_failure`.
+///
+/// Errors: `std::runtime_error` when MPI fails; `core::InputError` when a launcher starts a program that was built
+/// without MPI, or several processes that do not know each other.
 
-#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "scenarios/analyses/run_options.hpp"
 
@@ -23,14 +27,25 @@ class Processes final : public scenarios::ProcessGroup {
 
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] std::size_t next() override;
+  [[nodiscard]] std::unique_ptr<scenarios::ItemCounter> share_items() override;
   void wait() override;
 
-  /// Whether mpirun started this process; without joining.
+  struct Failure {
+    int rank = 0;
+    int status = 0;
+  };
+  /// The process of lowest rank that has failed, that is, whose `status` is not 0; called by all.
+  [[nodiscard]] std::optional<Failure> first_failure(int status);
+
+  /// Ends all processes, this one with them.
+  [[noreturn]] void abort(int status);
+
+  /// Whether a launcher started several; without joining.
   [[nodiscard]] static bool several();
 
  private:
   struct Shared;
+  class SharedCounter;
 
   int rank_ = 0;
   int count_ = 1;

@@ -206,11 +206,16 @@ Scores score(const std::string& path, const Grid& grid, double zeta, double F0) 
       tallies[method] = {};
     }
   };
+  const auto refuse = [&](const std::string& message) {
+    throw core::InputError(core::Diagnostic{{path, static_cast<int>(expected) + 2, 0, {}}, message, {}, {}, {}});
+  };
   std::ifstream file(path);
+  if (!file) refuse("cannot be opened");
   std::string line;
   std::getline(file, line);  // the campaign
   while (std::getline(file, line)) {
     const Json json = Json::parse(line);
+    if (json.at("case") != expected) refuse("case " + std::to_string(expected) + " is missing");
     bool any = false;
     for (std::size_t method = 0; method < methods; ++method) {
       const Json& estimate = json.at("estimates").at(method);
@@ -220,6 +225,7 @@ Scores score(const std::string& path, const Grid& grid, double zeta, double F0) 
     if (!any) ++result.failed_cases;
     if (++expected % per_sensors == 0) close();
   }
+  if (expected != grid.cases()) refuse("case " + std::to_string(expected) + " is missing");
   result.breakdowns = breakdowns_of(result.scores, grid);
   result.ranking = ranking_of(result.scores, grid);
   return result;

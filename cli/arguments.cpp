@@ -97,7 +97,12 @@ class Parser {
         ->check(CLI::Range(1, max_jobs))
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
-    run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test or sweep");
+    CLI::Option* resume =
+        run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test or sweep");
+    run_command_
+        ->add_flag("--overwrite", run_.overwrite,
+                   "Discard the cases of an earlier stress test or sweep in the same directory")
+        ->excludes(resume);
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again by another engine and compare; the same as numerics.verify");
     add_plugins(*run_command_);

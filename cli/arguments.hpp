@@ -16,6 +16,7 @@ struct RunCommand {
   bool quiet = false;
   bool dry_run = false;
   bool resume = false;
+  bool overwrite = false;
   bool verify = false;  ///< compute every result again in another way
 };
 

@@ -173,20 +173,63 @@ std::string output_directory(const RunCommand& command, const std::string& file)
   return (base / fs::path(file).stem()).string();
 }
 
-Report run_file(const RunCommand& command, const std::string& file) {
-  return guarded([&] {
+scenarios::FoundCases found_cases(const RunCommand& command) {
+  if (command.resume) return scenarios::FoundCases::resume;
+  return command.overwrite ? scenarios::FoundCases::overwrite : scenarios::FoundCases::refuse;
+}
+
+/// The scenario, or what there is to say instead of a run: a refusal, or what a dry run tells.
+Report load(const RunCommand& command, const std::string& file, std::optional<Scenario>& scenario) {
+  return guarded([&]() -> Report {
     LoadOptions options{.analyses = bench::analyses()};
     for (const std::string& assignment : command.set) options.set.push_back({assignment});
     if (command.verify) options.set.push_back({"numerics.verify=true", "--verify"});
-    Scenario scenario = scenarios::load_scenario(file, options);
-    const std::string directory = output_directory(command, file);
-    if (command.resume && campaign_of(scenario) == nullptr)
-      return refused(ExitStatus::usage, file + ": --resume goes on with a stress test or a sweep, and this is none");
-    if (command.dry_run) return checked(scenario, directory);
-    return run_and_write(std::move(scenario),
-                         {.directory = directory, .threads = command.jobs, .resume = command.resume},
-                         command.quiet);
+    Scenario loaded = scenarios::load_scenario(file, options);
+    if ((command.resume || command.overwrite) && campaign_of(loaded) == nullptr)
+      return refused(ExitStatus::usage, file +
+                                            (command.resume ? ": --resume goes on with" : ": --overwrite begins") +
+                                            " a stress test or a sweep, and this is none");
+    if (command.dry_run) return checked(loaded, output_directory(command, file));
+    scenario.emplace(std::move(loaded));
+    return {};
   });
+}
+
+/// Several processes refuse a file together, and the first that has a reason tells it.
+Report agreed(Report report) {
+  if (!bench::Processes::several()) return report;
+  const auto failure = processes()->first_failure(static_cast<int>(report.status));
+  if (failure ? failure->rank == processes()->rank() : !is_silent()) return report;
+  Report silent;
+  if (failure) silent.status = static_cast<ExitStatus>(failure->status);
+  return silent;
+}
+
+void print(const Report& report, const Style& style) {
+  if (!style.json && !report.text.empty()) std::cout << report.text << std::flush;
+  std::cerr << report.errors;
+  if (!style.quiet) std::cerr << report.messages;
+}
+
+Report run_file(const RunCommand& command, const std::string& file) {
+  std::optional<Scenario> scenario;
+  Report report = agreed(load(command, file, scenario));
+  if (!scenario || report.status != ExitStatus::done) return report;
+  bool is_done = false;
+  report = guarded([&] {
+    Report result = run_and_write(
+        std::move(*scenario),
+        {.directory = output_directory(command, file), .threads = command.jobs, .found = found_cases(command)},
+        command.quiet);
+    is_done = true;
+    return result;
+  });
+  if (is_done || !bench::Processes::several()) return report;
+  // The others would wait for this process.
+  if (command.json) report.json(std::cout);
+  print(report, {command.json, command.quiet});
+  std::cout.flush();
+  processes()->abort(static_cast<int>(report.status));
 }
 
 /// stdout may be full or closed; a result that did not arrive is not a result.
@@ -195,12 +238,6 @@ int finish(ExitStatus status) {
   if (std::cout) return static_cast<int>(status);
   std::cerr << "error: cannot write to standard output\n";
   return static_cast<int>(ExitStatus::usage);
-}
-
-void print(const Report& report, const Style& style) {
-  if (!style.json && !report.text.empty()) std::cout << report.text << std::flush;
-  std::cerr << report.errors;
-  if (!style.quiet) std::cerr << report.messages;
 }
 
 int say(const Report& report, const Style& style) {
@@ -219,7 +256,7 @@ class InOrder {
     reports_[index] = std::move(report);
     ready_[index] = true;
     for (; next_ < reports_.size() && ready_[next_]; ++next_) {
-      if (next_ > 0 && !style_.json) std::cout << "\n";
+      if (next_ > 0 && !style_.json && !is_silent()) std::cout << "\n";
       print(reports_[next_], style_);
     }
   }
@@ -262,6 +299,11 @@ int execute(const RunCommand& command) {
       return say(refused(ExitStatus::usage, "--set needs PATH=VALUE, not '" + assignment + "'"), style);
   if (const std::string problem = clash(command); !problem.empty())
     return say(refused(ExitStatus::usage, problem), style);
+  const Report joined = guarded([] {
+    (void)is_silent();  // joins the others
+    return Report{};
+  });
+  if (joined.status != ExitStatus::done) return say(joined, style);
 
   InOrder reports(command.files.size(), style);
   std::atomic<std::size_t> next{0};

@@ -132,14 +132,14 @@ class SweepQuestion final : public Question, public Campaign {
     ProcessGroup& processes = *options.processes;
     CaseFile file(options.directory, "points", fingerprint(context.resolved + "\n" + inputs_), points_.size(),
                   processes.rank());
-    open_cases(file, options);
+    open_cases(file, points_.size(), options);
     Meter meter(file.finished(), points_.size(), options);
     share_out(points_.size(), options, [&](std::size_t point) {
       if (file.is_finished(point)) return;
-      file.add(point, line(point, options));
+      file.add(line(point, options));
       meter.add();
     });
-    file.close();
+    if (processes.rank() != 0) file.close();
     processes.wait();
     if (processes.rank() != 0) return false;
     file.finish();

@@ -78,13 +78,24 @@ void set_limits(const IsolationLimits& limits, std::size_t used) {
 /// Messages of the libraries and of the allocator about the damage are not the caller's.
 void drop_standard_error() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+  if (nowhere < 0 || nowhere == STDERR_FILENO) return;
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close(nowhere);
+}
+
+/// Children of other threads, started a moment ago, are told that a pipe is at its end when nobody can write to it
+/// any more: this child keeps nobody's but its own.
+void keep_only(int pipe) {
+  constexpr int first = STDERR_FILENO + 1;
+  if (pipe > first) ::close_range(first, static_cast<unsigned>(pipe) - 1, 0);
+  ::close_range(static_cast<unsigned>(std::max(first, pipe + 1)), ~0U, 0);
 }
 
 [[noreturn]] void run_child(const IsolationLimits& limits, pid_t parent, std::size_t used, int pipe,
                             const std::function<void(const ByteSink&)>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(status_of_exception);  // it ended before the line above
+  keep_only(pipe);
   reset_signals();
   drop_standard_error();
   set_limits(limits, used);

@@ -5,6 +5,8 @@
 /// what that writes over a pipe, and ends without the caller's exit handlers. Nothing else of what it does comes
 /// back, and what it prints on standard error is dropped. It ends with the caller.
 ///
+/// Files that the caller has open are closed in the child, but for the standard ones: `work` opens its own.
+///
 /// Other threads may be running: they do not exist in the child, so that `work` must not take a lock that one of
 /// them may hold. Those of the C library's allocator and streams are free in the child.
 ///

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "scenarios/results/found_cases.hpp"
+
 namespace dualdamp::scenarios {
 
 /// How far a long run is.
@@ -17,7 +19,21 @@ struct Progress {
   double remaining = 0.0;  ///< s
 };
 
-/// The processes that share the work of a run, handed out one item at a time. This one is alone.
+/// Hands out the items of one run, 0, 1, 2, ..., each once; from any thread.
+class ItemCounter {
+ public:
+  ItemCounter() = default;
+  virtual ~ItemCounter() = default;
+  ItemCounter(const ItemCounter&) = delete;
+  ItemCounter& operator=(const ItemCounter&) = delete;
+
+  [[nodiscard]] virtual std::size_t next() { return next_++; }
+
+ private:
+  std::atomic<std::size_t> next_{0};
+};
+
+/// The processes that share the work of a run. This one is alone.
 class ProcessGroup {
  public:
   ProcessGroup() = default;
@@ -26,20 +42,17 @@ class ProcessGroup {
   ProcessGroup& operator=(const ProcessGroup&) = delete;
 
   [[nodiscard]] virtual int rank() const { return 0; }
-  /// The next item, 0, 1, 2, ... over all processes; from any thread.
-  [[nodiscard]] virtual std::size_t next() { return next_++; }
+  /// A counter of its own for each run, shared by all processes; all of them call this.
+  [[nodiscard]] virtual std::unique_ptr<ItemCounter> share_items() { return std::make_unique<ItemCounter>(); }
   /// Waits for all processes.
   virtual void wait() {}
-
- private:
-  std::atomic<std::size_t> next_{0};
 };
 
 /// Where and how a question is run. A short one needs none of this.
 struct RunOptions {
   std::string directory = {};                          ///< of files that a campaign writes as it goes
   int threads = 0;                                     ///< of a campaign; 0: all cores
-  bool resume = false;                                 ///< a campaign goes on where an earlier run was interrupted
+  FoundCases found = FoundCases::refuse;               ///< of a campaign: cases of an earlier run
   std::function<void(const Progress&)> progress = {};  ///< may be absent; called by one thread at a time
   std::shared_ptr<ProcessGroup> processes = std::make_shared<ProcessGroup>();  ///< share a campaign
 };

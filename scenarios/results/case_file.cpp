@@ -1,6 +1,8 @@
 #include "scenarios/results/case_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,7 +11,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <ostream>
+#include <functional>
+#include <optional>
 
 #include "core/diagnostics.hpp"
 #include "scenarios/results/files.hpp"
@@ -21,6 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view number_key = "{\"case\":";
+constexpr const char* way_out = "--resume goes on with them, --overwrite begins anew, --out DIR keeps them apart";
 
 /// The number of the case a line holds; nothing for a line that is not whole.
 std::optional<std::size_t> number_of(std::string_view line) {
@@ -32,9 +36,57 @@ std::optional<std::size_t> number_of(std::string_view line) {
   return number;
 }
 
-[[noreturn]] void refuse(const std::string& path, std::string message, std::string allowed, std::string found) {
+[[noreturn]] void refuse(const std::string& path, std::string message, std::string allowed = {},
+                         std::string found = {}) {
   throw core::InputError(
       core::Diagnostic{{path, 1, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
+}
+
+[[noreturn]] void fail_to_write(const std::string& path, const std::string& reason) {
+  throw OutputError("cannot write " + path + ": " + reason);
+}
+
+/// The lines of a part that are whole, its head first. A file that cannot be opened is no empty one.
+class Lines {
+ public:
+  explicit Lines(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
+    if (!file_) refuse(path_, std::string("cannot be opened: ") + std::strerror(errno));
+  }
+
+  /// False at the end, or before a last line that is torn.
+  bool next(std::string& line) {
+    if (std::getline(file_, line) && !file_.eof()) {
+      end_ += line.size() + 1;
+      return true;
+    }
+    if (file_.bad()) refuse(path_, std::string("cannot be read: ") + std::strerror(errno));
+    return false;
+  }
+  /// Bytes up to the end of the last line.
+  [[nodiscard]] std::uintmax_t end() const { return end_; }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::uintmax_t end_ = 0;
+};
+
+void write_at(int descriptor, std::string_view text, std::uintmax_t place, const std::string& path) {
+  while (!text.empty()) {
+    const ssize_t count = ::pwrite(descriptor, text.data(), text.size(), static_cast<off_t>(place));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) fail_to_write(path, std::strerror(errno));
+    text.remove_prefix(static_cast<std::size_t>(count));
+    place += static_cast<std::uintmax_t>(count);
+  }
+}
+
+/// The file under this name is the one that is open: nobody has put another in its place since.
+bool is_at(const std::string& path, int descriptor) {
+  struct stat here{};
+  struct stat there{};
+  return ::fstat(descriptor, &here) == 0 && ::stat(path.c_str(), &there) == 0 && here.st_ino == there.st_ino &&
+         here.st_dev == there.st_dev;
 }
 
 }  // namespace
@@ -71,51 +123,81 @@ std::vector<int> CaseFile::parts() const {
 
 std::size_t CaseFile::finished() const { return static_cast<std::size_t>(std::ranges::count(finished_, true)); }
 
-long CaseFile::scan(int part, std::vector<Place>& places) const {
+std::uintmax_t CaseFile::scan(int part, Lengths& lengths) const {
   const std::string path = part_path(part);
-  std::ifstream file(path, std::ios::binary);
+  Lines lines(path);
   std::string line;
   // A head that is torn is that of a campaign killed before its first case.
-  if (!std::getline(file, line) || file.eof()) return 0;
+  if (!lines.next(line)) return 0;
   if (line != head_)
-    refuse(path, "the cases are those of another campaign or sweep, or of another version of the program",
+    refuse(path, "the cases are those of another campaign, or of another version of the program",
            "the same scenario, options and program; or another --out", line.substr(0, 100));
-  long end = file.tellg();
-  while (std::getline(file, line) && !file.eof()) {
+  std::uintmax_t end = lines.end();
+  while (lines.next(line)) {
     const std::optional<std::size_t> number = number_of(line);
-    if (!number || *number >= places.size()) break;
-    places[*number] = {part, end};
-    end = file.tellg();
+    if (!number || *number >= lengths.size()) break;
+    lengths[*number] = static_cast<std::uint32_t>(line.size() + 1);
+    end = lines.end();
   }
   return end;
 }
 
-void CaseFile::open(bool fresh) {
-  close();
-  const std::string path = part_path(part_);
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (fresh ? O_TRUNC : 0), 0666);
-  if (descriptor_ < 0) throw OutputError("cannot write " + path + ": " + std::strerror(errno));
-}
-
-void CaseFile::begin() {
-  fs::create_directories(directory_);
-  for (const int part : parts())
-    if (part_ == 0 && part != 0) fs::remove(part_path(part));
-  open(true);
-  finished_.assign(finished_.size(), false);
-  write_line(head_);
-}
-
-void CaseFile::resume() {
-  fs::create_directories(directory_);
-  std::vector<Place> places(finished_.size());
+void CaseFile::prepare(FoundCases found) {
+  std::error_code error;
+  fs::create_directories(directory_, error);
+  if (error) throw OutputError("cannot create the directory " + directory_ + ": " + error.message());
+  open_part();  // nobody else is writing
+  if (found == FoundCases::resume) return;
+  std::size_t cases = 0;
+  bool is_this = true;
   for (const int part : parts()) {
-    const long end = scan(part, places);
-    if (part == part_) fs::resize_file(part_path(part), static_cast<std::uintmax_t>(end));
+    Lines lines(part_path(part));
+    std::string line;
+    if (!lines.next(line)) continue;
+    const bool same = line == head_;
+    while (lines.next(line) && number_of(line)) {
+      ++cases;
+      is_this = is_this && same;
+    }
   }
-  open(false);
-  if (fs::file_size(part_path(part_)) == 0) write_line(head_);
-  for (std::size_t i = 0; i < places.size(); ++i) finished_[i] = places[i].part >= 0;
+  if (found == FoundCases::refuse && cases > 0) {
+    if (is_this && cases >= finished_.size()) return;
+    throw OutputError(directory_ + " holds " + std::to_string(cases) + " finished cases of " +
+                      (is_this ? "this" : "another") + " campaign: " + way_out);
+  }
+  for (const int part : parts())
+    if (part != 0) fs::remove(part_path(part));
+  if (::ftruncate(descriptor_, 0) != 0) fail_to_write(part_path(0), std::strerror(errno));
+}
+
+void CaseFile::open_part() {
+  const std::string path = part_path(part_);
+  while (descriptor_ < 0) {
+    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail_to_write(path, std::strerror(errno));
+    // A file system without locks cannot help.
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close();
+      fail_to_write(path,
+                    "another process is writing it; several that share a campaign are to be started by "
+                    "mpirun or srun");
+    }
+    if (!is_at(path, descriptor_)) close();
+  }
+}
+
+void CaseFile::open() {
+  open_part();
+  Lengths lengths(finished_.size(), 0);
+  std::uintmax_t end = 0;
+  for (const int part : parts()) {
+    const std::uintmax_t whole = scan(part, lengths);
+    if (part == part_) end = whole;
+  }
+  const std::string path = part_path(part_);
+  if (::ftruncate(descriptor_, static_cast<off_t>(end)) != 0) fail_to_write(path, std::strerror(errno));
+  if (end == 0) write_line(head_);
+  for (std::size_t i = 0; i < lengths.size(); ++i) finished_[i] = lengths[i] > 0;
 }
 
 void CaseFile::write_line(const std::string& text) {
@@ -124,38 +206,72 @@ void CaseFile::write_line(const std::string& text) {
   while (written < line.size()) {
     const ssize_t count = ::write(descriptor_, line.data() + written, line.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw OutputError("cannot write " + part_path(part_) + ": " + std::strerror(errno));
+    if (count <= 0) fail_to_write(part_path(part_), std::strerror(errno));
     written += static_cast<std::size_t>(count);
   }
 }
 
-void CaseFile::add(std::size_t number, const std::string& line) {
+void CaseFile::add(const std::string& line) {
   const std::lock_guard lock(mutex_);
   write_line(line);
-  finished_[number] = true;
+}
+
+/// Each line goes to its place, which follows from the lengths of those before it.
+void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int descriptor) const {
+  std::vector<std::uintmax_t> places;
+  places.reserve(lengths.size());
+  std::uintmax_t end = head_.size() + 1;
+  for (const std::uint32_t length : lengths) {
+    places.push_back(end);
+    end += length;
+  }
+  write_at(descriptor, head_ + "\n", 0, path());
+  constexpr std::size_t enough = 1U << 16U;
+  for (const int part : all) {
+    Lines lines(part_path(part));
+    std::string line;
+    std::string run;  // lines that follow each other in both files
+    std::uintmax_t begin = 0;
+    if (!lines.next(line)) continue;
+    while (lines.next(line)) {
+      const std::optional<std::size_t> number = number_of(line);
+      if (!number || *number >= lengths.size()) break;
+      if (lengths[*number] != line.size() + 1)
+        refuse(part_path(part), "case " + std::to_string(*number) + " is there twice and differs");
+      if (places[*number] != begin + run.size() || run.size() > enough) {
+        write_at(descriptor, run, begin, path());
+        run.clear();
+        begin = places[*number];
+      }
+      run += line + "\n";
+    }
+    write_at(descriptor, run, begin, path());
+  }
 }
 
 void CaseFile::finish() {
-  close();
-  std::vector<Place> places(finished_.size());
+  Lengths lengths(finished_.size(), 0);
   const std::vector<int> all = parts();
-  for (const int part : all) scan(part, places);
-  write_files(directory_, {{name_ + ".jsonl", [&](std::ostream& out) {
-                              std::vector<std::ifstream> files(static_cast<std::size_t>(all.back()) + 1);
-                              for (const int part : all)
-                                files[static_cast<std::size_t>(part)].open(part_path(part), std::ios::binary);
-                              out << head_ << "\n";
-                              std::string line;
-                              for (const Place& place : places) {
-                                if (place.part < 0) continue;
-                                std::ifstream& file = files[static_cast<std::size_t>(place.part)];
-                                file.seekg(place.offset);
-                                std::getline(file, line);
-                                out << line << "\n";
-                              }
-                            }}});
+  for (const int part : all) scan(part, lengths);
+  if (const auto missing = std::ranges::count(lengths, 0U); missing > 0) {
+    const auto first = std::ranges::find(lengths, 0U) - lengths.begin();
+    fail_to_write(path(), std::to_string(missing) + " cases are missing, first " + std::to_string(first));
+  }
+  const std::string partial = path() + "." + std::to_string(::getpid()) + ".partial";
+  const int whole = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (whole < 0) fail_to_write(partial, std::strerror(errno));
+  try {
+    gather(all, lengths, whole);
+  } catch (...) {
+    ::close(whole);
+    ::unlink(partial.c_str());
+    throw;
+  }
+  if (::close(whole) != 0 || ::rename(partial.c_str(), path().c_str()) != 0)
+    fail_to_write(path(), std::strerror(errno));
   for (const int part : all)
     if (part != 0) fs::remove(part_path(part));
+  close();
 }
 
 void CaseFile::close() {

@@ -2,44 +2,48 @@
 /// The file of finished cases of a campaign or points of a sweep: one line of JSON each, written at once, so that
 /// whatever ends the program loses no more than the cases under way.
 ///
-/// A line begins with `{"case":NUMBER,`. The first line names the campaign by the fingerprint of its resolved
-/// scenario and program. `resume` reads which
-/// cases are there, cuts off a last line that is torn, and refuses a file of another campaign. `finish` puts the
-/// lines into the order of the case numbers; memory is 8 bytes a case. Several processes write a part each
-/// (`NAME.1.jsonl`, ...), which `finish` gathers.
+/// The first line names the campaign by the fingerprint of its resolved scenario and program. Several processes
+/// write a part each (`NAME.1.jsonl`, ...), which `finish` gathers, in the order of the case numbers, into
+/// `NAME.jsonl`. A line begins with `{"case":NUMBER,`. Whoever writes a part holds a lock on it (flock), so that
+/// two runs never write to one file. Cases of an earlier run are lost only where the caller says so.
 ///
-/// Errors: `core::InputError` for a file of another campaign, `scenarios::OutputError` for one that cannot be
-/// written.
+/// Memory is 13 bytes a case. Errors: `core::InputError` for a file of another campaign or one that cannot be read,
+/// `OutputError` for one that cannot be written, that another process writes to, or whose cases would be
+/// lost.
 
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "scenarios/results/found_cases.hpp"
 
 namespace dualdamp::scenarios {
 
 class CaseFile {
  public:
-  /// `name`: of the file, without .jsonl; `part`: number of the process, of which 0 writes NAME.jsonl itself.
+  /// `name` of the file, without extension; `part`: number of the process; part 0 writes `NAME.jsonl` itself.
   CaseFile(std::string directory, std::string name, const std::string& fingerprint, std::size_t cases,
            int part = 0);
   ~CaseFile();
   CaseFile(const CaseFile&) = delete;
   CaseFile& operator=(const CaseFile&) = delete;
 
-  /// Begins anew: parts of an earlier run are removed.
-  void begin();
-  /// Goes on with what is there.
-  void resume();
+  /// Removes or refuses what earlier runs have left. Part 0 calls this before any part is opened.
+  void prepare(FoundCases found);
+  /// Goes on with the cases that are there, without a last line that is torn.
+  void open();
 
+  /// Of those that were there when the part was opened.
   [[nodiscard]] bool is_finished(std::size_t number) const { return finished_[number]; }
   [[nodiscard]] std::size_t finished() const;
 
   /// Adds a line with one write; from any thread.
-  void add(std::size_t number, const std::string& line);
+  void add(const std::string& line);
 
-  /// Gathers all parts, in order, into NAME.jsonl. Called by one process when the others have closed theirs.
+  /// Gathers all parts, in order, into `NAME.jsonl`, which must then be complete; with two files open at a time.
+  /// Called by one process when the others have closed theirs.
   void finish();
   void close();
 
@@ -47,17 +51,15 @@ class CaseFile {
   [[nodiscard]] std::string path() const { return part_path(0); }
 
  private:
-  struct Place {
-    int part = -1;
-    long offset = 0;
-  };
+  using Lengths = std::vector<std::uint32_t>;  ///< of the lines, by case number; 0: not there
 
   [[nodiscard]] std::string part_path(int part) const;
   [[nodiscard]] std::vector<int> parts() const;
-  void open(bool fresh);
+  void open_part();
   void write_line(const std::string& text);
   /// Notes the whole lines of a part; returns how many bytes they take.
-  long scan(int part, std::vector<Place>& places) const;
+  std::uintmax_t scan(int part, Lengths& lengths) const;
+  void gather(const std::vector<int>& all, const Lengths& lengths, int descriptor) const;
 
   std::string directory_;
   std::string name_;

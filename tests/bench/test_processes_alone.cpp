@@ -10,9 +10,13 @@ TEST_CASE("without MPI one process counts alone and waits for nobody") {
   Processes processes;
   CHECK(processes.rank() == 0);
   CHECK(processes.count() == 1);
-  CHECK(processes.next() == 0);
-  CHECK(processes.next() == 1);
+  const auto items = processes.share_items();
+  CHECK(items->next() == 0);
+  CHECK(items->next() == 1);
   processes.wait();
+  CHECK(processes.share_items()->next() == 0);  // each run counts from 0
+  CHECK_FALSE(processes.first_failure(0).has_value());
+  CHECK(processes.first_failure(3)->status == 3);
 }
 
 TEST_CASE("without MPI a process that mpirun started says what to install") {

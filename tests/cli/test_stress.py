@@ -76,6 +76,92 @@ class Stress(unittest.TestCase):
             self.assertEqual(result.stdout.count("stress_test: Three laws"), 1)
             self.check_same(out, reference)
 
+    def second_scenario(self):
+        """Another campaign, so short that a process may have nothing of it to do."""
+        path = self.folder / "second.yaml"
+        text = SCENARIO.read_text().replace("severities: [0.01, 0.1, 0.3]", "severities: [0.2]").replace("equals: 40", "equals: 16")
+        path.write_text(text)
+        return path
+
+    def check_two_campaigns(self, name, *options, **launch):
+        second = self.second_scenario()
+        alone = self.folder / "alone"
+        if not alone.exists():
+            self.run_program("run", second, "--out", alone, "--quiet", "--jobs", 1)
+        out = self.folder / name
+        self.run_program("run", SCENARIO, second, "--out", out, "--quiet", *options, **launch)
+        self.check_same(out / "small", self.reference())
+        self.check_same(out / "second", alone)
+
+    def test_two_campaigns_in_one_call_equal_two_calls(self):
+        self.check_two_campaigns("in_turn")
+        self.check_two_campaigns("together", "--jobs", 2)
+
+    @unittest.skipIf(shutil.which("mpirun") is None, "there is no mpirun on this machine")
+    def test_two_campaigns_of_several_processes(self):
+        for count in (2, 3):
+            self.check_two_campaigns(f"processes{count}", "--jobs", 1, launcher=["mpirun", "-n", str(count)], env=MPI)
+
+    @unittest.skipIf(shutil.which("mpirun") is None, "there is no mpirun on this machine")
+    def test_an_error_in_one_process_ends_all_with_its_message(self):
+        # One process stands where nothing can be written.
+        for rank in (0, 1, 2):
+            wrapper = f'if [ "$OMPI_COMM_WORLD_RANK" = {rank} ]; then cd /proc; fi; exec "$0" "$@"'
+            command = ["mpirun", "-n", "3", "bash", "-c", wrapper, PROGRAM, "run", str(SCENARIO), "--jobs", "1", "--quiet",
+                       "--out", f"failing{rank}"]
+            result = subprocess.run(command, capture_output=True, text=True, timeout=60, env=MPI, cwd=self.folder)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertRegex(result.stderr, rf"cannot (write|create the directory) failing{rank}")
+
+    @unittest.skipIf(shutil.which("mpirun") is None, "there is no mpirun on this machine")
+    def test_several_processes_refuse_a_file_once(self):
+        result = self.run_program("run", SCENARIO, "--set", "analysis.seeds=0", "--out", self.folder / "none", status=3,
+                                  launcher=["mpirun", "-n", "3"], env=MPI)
+        self.assertEqual(result.stderr.count("is out of range"), 1, result.stderr)
+
+    def test_processes_that_do_not_know_each_other_are_refused(self):
+        for variables in ({"PMI_SIZE": "2", "PMI_RANK": "0"}, {"MV2_COMM_WORLD_SIZE": "3"}, {"SLURM_STEP_NUM_TASKS": "2", "SLURM_PROCID": "0"}):
+            result = self.run_program("run", SCENARIO, "--out", self.folder / "none", status=3, env={**MPI, **variables})
+            self.assertRegex(result.stderr, "started [23] processes|started this process")
+            self.assertFalse((self.folder / "none").exists())
+
+    def test_two_runs_do_not_write_to_one_directory(self):
+        # As under a launcher that nobody knows: each process believes that it is alone.
+        out = self.folder / "shared"
+        command = [PROGRAM, "run", str(SCENARIO), "--set", "analysis.seeds=300", "--quiet", "--set", "expect=[{value: cases.failed, equals: 0}]", "--out", str(out)]
+        runs = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(3)]
+        errors = [run.communicate(timeout=120)[1] for run in runs]
+        self.assertEqual(sorted(run.returncode for run in runs), [0, 2, 2], errors)
+        for run, error in zip(runs, errors):
+            self.assertEqual("another process is writing it" in error, run.returncode == 2, error)
+        self.assertEqual(len((out / "cases.jsonl").read_text().splitlines()), 1 + 10 * 300)
+
+    def test_a_finished_campaign_is_not_lost(self):
+        out = self.folder / "finished"
+        shutil.copytree(self.reference(), out)
+        before = (out / "cases.jsonl").read_bytes()
+        # The same once more: nothing is computed.
+        result = self.run_program("run", SCENARIO, "--out", out)
+        self.assertIn("there already", result.stderr)
+        self.check_same(out, self.reference())
+        result = self.run_program("run", SCENARIO, "--set", "analysis.seeds=5", "--set", "expect=[{value: cases.failed, equals: 0}]", "--out", out, status=2)
+        self.assertIn("40 finished cases of another campaign", result.stderr)
+        self.assertEqual((out / "cases.jsonl").read_bytes(), before)
+        self.run_program("run", SCENARIO, "--set", "analysis.seeds=5", "--set", "expect=[{value: cases.failed, equals: 0}]", "--out", out, "--overwrite", "--quiet")
+        self.assertEqual(len(rows(out / "cases.jsonl")), 1 + 50)
+        result = self.run_program("run", SCENARIO, "--out", out, "--overwrite", "--resume", status=2)
+        self.assertIn("excludes", result.stderr)
+
+    def test_many_parts_are_gathered_with_few_files_open(self):
+        out = self.folder / "parts"
+        out.mkdir()
+        head, *lines = (self.reference() / "cases.jsonl").read_text().splitlines()
+        for part in range(39):
+            (out / f"cases.{part + 1}.jsonl").write_text(head + "\n" + lines[part] + "\n")
+        limited = ["bash", "-c", 'ulimit -n 24; exec "$0" "$@"']
+        self.run_program("run", SCENARIO, "--out", out, "--resume", "--quiet", launcher=limited)
+        self.check_same(out, self.reference())
+
     def estimates(self, name, *assignments):
         """Estimates of each case of a shipped campaign on one law and seed, by law, severity and method."""
         out = self.folder / name

@@ -1,15 +1,20 @@
 #include "scenarios/results/case_file.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
+#include <vector>
 
 #include "core/diagnostics.hpp"
+#include "scenarios/results/files.hpp"
 
 using dualdamp::scenarios::CaseFile;
+using dualdamp::scenarios::FoundCases;
 namespace fs = std::filesystem;
 
 namespace {
@@ -38,21 +43,29 @@ std::string whole(std::size_t cases) {
   return result;
 }
 
+void begin(CaseFile& file) {
+  file.prepare(FoundCases::refuse);
+  file.open();
+}
+
+void resume(CaseFile& file) {
+  file.prepare(FoundCases::resume);
+  file.open();
+}
+
 }  // namespace
 
 TEST_CASE("case file: lines of any order and any process end up in order") {
   const Folder folder;
   CaseFile first(folder.path, "cases", "abc", 5, 0);
-  first.begin();
+  begin(first);
   {
     CaseFile second(folder.path, "cases", "abc", 5, 1);
-    second.begin();
-    second.add(3, line(3));
-    second.add(0, line(0));
+    second.open();
+    second.add(line(3));
+    second.add(line(0));
   }
-  first.add(4, line(4));
-  first.add(1, line(1));
-  first.add(2, line(2));
+  for (const std::size_t number : {4, 1, 2}) first.add(line(number));
   first.finish();
   CHECK(text(first.path()) == whole(5));
   CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
@@ -67,12 +80,12 @@ TEST_CASE("case file: wherever it is cut, whole lines are kept and the rest is d
     fs::create_directories(folder.path);
     std::ofstream(folder.path / "cases.jsonl") << all.substr(0, cut);
     CaseFile file(folder.path, "cases", "abc", 4);
-    file.resume();
+    resume(file);
     const std::string kept = all.substr(0, cut);
     const auto lines = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), '\n'));
     CHECK(file.finished() == (lines == 0 ? 0 : lines - 1));
     for (std::size_t i = 0; i < 4; ++i)
-      if (!file.is_finished(i)) file.add(i, line(i));
+      if (!file.is_finished(i)) file.add(line(i));
     file.finish();
     CHECK(text(file.path()) == all);
   }
@@ -83,6 +96,105 @@ TEST_CASE("case file: the cases of another campaign are refused and left alone")
   fs::create_directories(folder.path);
   std::ofstream(folder.path / "cases.jsonl") << whole(4);
   CaseFile file(folder.path, "cases", "abd", 4);
-  CHECK_THROWS_AS(file.resume(), dualdamp::core::InputError);
+  CHECK_THROWS_AS(resume(file), dualdamp::core::InputError);
   CHECK(text(folder.path / "cases.jsonl") == whole(4));
+}
+
+TEST_CASE("case file: a thousand parts are gathered with few files open") {
+  const Folder folder;
+  constexpr int parts = 1000;
+  constexpr std::size_t cases = 3 * parts;
+  CaseFile first(folder.path, "cases", "abc", cases, 0);
+  begin(first);
+  for (int part = 1; part <= parts; ++part) {
+    CaseFile other(folder.path, "cases", "abc", cases, part);
+    other.open();
+    // Neighbours are in different parts.
+    for (std::size_t i = static_cast<std::size_t>(part) - 1; i < cases; i += parts) other.add(line(i));
+  }
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const rlimit few{24, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &few) == 0);
+  first.finish();
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  CHECK(text(first.path()) == whole(cases));
+  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("case file: missing cases, and files that cannot be opened, are errors") {
+  const Folder folder;
+  CaseFile file(folder.path, "cases", "abc", 3);
+  begin(file);
+  file.add(line(0));
+  file.add(line(2));
+  CHECK_THROWS_WITH(file.finish(), Catch::Contains("1 cases are missing, first 1"));
+  file.add(line(1));
+  fs::create_directory(folder.path / "cases.1.jsonl");  // nobody's lines
+  CHECK_THROWS_AS(file.finish(), dualdamp::core::InputError);
+  fs::remove(folder.path / "cases.1.jsonl");
+  file.finish();
+  CHECK(text(file.path()) == whole(3));
+}
+
+TEST_CASE("case file: finished cases are lost only on demand") {
+  const Folder folder;
+  fs::create_directories(folder.path);
+  std::ofstream(folder.path / "cases.jsonl") << whole(4);
+  {  // of another campaign
+    CaseFile file(folder.path, "cases", "abd", 4);
+    CHECK_THROWS_WITH(begin(file),
+                      Catch::Contains("4 finished cases of another campaign") && Catch::Contains("--overwrite"));
+    CHECK(text(file.path()) == whole(4));
+  }
+  {  // of this one, complete: nothing is left to do
+    CaseFile file(folder.path, "cases", "abc", 4);
+    begin(file);
+    CHECK(file.finished() == 4);
+    file.finish();
+    CHECK(text(file.path()) == whole(4));
+  }
+  {  // of this one, interrupted
+    std::ofstream(folder.path / "cases.jsonl") << "{\"campaign\":\"abc\",\"cases\":4}\n" << line(1) << "\n";
+    CaseFile file(folder.path, "cases", "abc", 4);
+    CHECK_THROWS_WITH(begin(file), Catch::Contains("1 finished cases of this campaign"));
+  }
+  CaseFile file(folder.path, "cases", "abd", 4);
+  file.prepare(FoundCases::overwrite);
+  file.open();
+  CHECK(file.finished() == 0);
+}
+
+TEST_CASE("case file: two runs never write to one file") {
+  const Folder folder;
+  CaseFile first(folder.path, "cases", "abc", 2);
+  begin(first);
+  first.add(line(1));
+  for (const FoundCases found : {FoundCases::refuse, FoundCases::resume, FoundCases::overwrite}) {
+    CaseFile second(folder.path, "cases", "abc", 2);
+    CHECK_THROWS_WITH(second.prepare(found), Catch::Contains("another process is writing it"));
+  }
+  first.add(line(0));
+  first.finish();
+  CHECK(text(first.path()) == whole(2));
+  CaseFile third(folder.path, "cases", "abc", 2);
+  resume(third);
+  CHECK(third.finished() == 2);
+}
+
+TEST_CASE("case file: what is finished does not change while lines are added") {
+  const Folder folder;
+  CaseFile file(folder.path, "cases", "abc", 64);
+  begin(file);
+  // Threads ask while others add: a thread checker sees a race if an answer depended on it.
+  std::vector<std::jthread> threads;
+  for (std::size_t thread = 0; thread < 4; ++thread)
+    threads.emplace_back([&file, thread] {
+      for (std::size_t i = thread; i < 64; i += 4)
+        if (!file.is_finished(i)) file.add(line(i));
+    });
+  threads.clear();
+  CHECK(file.finished() == 0);
+  file.finish();
+  CHECK(text(file.path()) == whole(64));
 }

@@ -1,6 +1,8 @@
 #include "scenarios/analyses/shared/long_run.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <thread>
 
 #include "core/build_info.hpp"
@@ -14,23 +16,32 @@ std::string fingerprint(const std::string& inputs) {
   return core::sha256(inputs + "\n" + std::string(build.version) + "\n" + std::string(build.commit));
 }
 
-void open_cases(CaseFile& file, const RunOptions& options) {
+bool open_cases(CaseFile& file, std::size_t cases, const RunOptions& options) {
   ProcessGroup& processes = *options.processes;
   // Parts of an earlier run are gone before anybody begins a new one.
-  if (processes.rank() == 0 && !options.resume) file.begin();
+  if (processes.rank() == 0) file.prepare(options.found);
   processes.wait();
-  if (options.resume)
-    file.resume();
-  else if (processes.rank() != 0)
-    file.begin();
+  file.open();
+  const bool is_complete = file.finished() == cases;
   processes.wait();
+  return is_complete;
 }
 
 void share_out(std::size_t count, const RunOptions& options, const std::function<void(std::size_t)>& work) {
+  const std::unique_ptr<ItemCounter> items = options.processes->share_items();
+  std::atomic<bool> failed{false};  // one thread: the others need not go on
+  const auto take_items = [&] {
+    for (std::size_t item = items->next(); item < count && !failed; item = items->next()) {
+      try {
+        work(item);
+      } catch (...) {
+        failed = true;
+        throw;
+      }
+    }
+  };
   const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
-  sim::in_parts(static_cast<std::size_t>(threads), 1, threads, [&](std::size_t, std::size_t) {
-    for (std::size_t item = options.processes->next(); item < count; item = options.processes->next()) work(item);
-  });
+  sim::in_parts(static_cast<std::size_t>(threads), 1, threads, [&](std::size_t, std::size_t) { take_items(); });
 }
 
 Meter::Meter(std::size_t done, std::size_t all, const RunOptions& options)

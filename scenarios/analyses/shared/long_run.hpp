@@ -17,8 +17,9 @@ namespace dualdamp::scenarios {
 /// scenario, and digests of what else the lines depend on.
 [[nodiscard]] std::string fingerprint(const std::string& inputs);
 
-/// Begins the file anew, or goes on with what is there where the options say so; for all processes together.
-void open_cases(CaseFile& file, const RunOptions& options);
+/// Opens the file for all processes together, after what the options say about earlier cases. True where all cases
+/// are there already.
+bool open_cases(CaseFile& file, std::size_t cases, const RunOptions& options);
 
 /// Calls work(0) to work(count - 1), on all threads of all processes.
 void share_out(std::size_t count, const RunOptions& options, const std::function<void(std::size_t)>& work);

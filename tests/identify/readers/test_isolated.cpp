@@ -1,8 +1,11 @@
 #include "identify/readers/isolated.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdlib>
@@ -64,6 +67,41 @@ TEST_CASE("A child that comes to no end is ended, busy or asleep") {
         IsolatedEnd::out_of_time);
   // A second of the processor's time, four of the wall clock at most; then one of the wall clock.
   CHECK(std::chrono::steady_clock::now() - begin < 10s);
+}
+
+TEST_CASE("Children of several threads do not wait for each other") {
+  // Each takes 40 ms and has a second. A child that held the pipes of others would make them wait for its end, and
+  // those of its neighbours for theirs.
+  constexpr int threads = 8;
+  constexpr int each = 12;
+  std::atomic<int> done{0};
+  {
+    std::vector<std::jthread> callers;
+    for (int i = 0; i < threads; ++i)
+      callers.emplace_back([&done, i] {
+        for (int j = 0; j < each; ++j) {
+          const auto pause = i == 0 && j == 0 ? 1500ms : 40ms;  // one is slow: it alone runs out of time
+          const IsolatedResult result = run_isolated({60s, 1s, limits.memory}, [pause](const ByteSink& sink) {
+            std::this_thread::sleep_for(pause);
+            sink({"end", 3});
+          });
+          if (result.end == IsolatedEnd::done) ++done;
+        }
+      });
+  }
+  CHECK(done == threads * each - 1);
+}
+
+TEST_CASE("A child keeps no file of the caller open") {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  const IsolatedResult result = run([&](const ByteSink& sink) {
+    const bool closed = ::fcntl(ends[0], F_GETFD) < 0 && ::fcntl(ends[1], F_GETFD) < 0;
+    sink({closed ? "closed" : "opened", 6});
+  });
+  CHECK(result.bytes == "closed");
+  ::close(ends[0]);
+  ::close(ends[1]);
 }
 
 #ifndef __SANITIZE_ADDRESS__
