@@ -76,7 +76,9 @@ struct Run {
 
 scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, CallbackError& error) {
   scenarios::RunOptions options{
-      .directory = settings.directory, .threads = settings.threads, .resume = settings.resume};
+      .directory = settings.directory,
+      .threads = settings.threads,
+      .found = settings.resume ? scenarios::FoundCases::resume : scenarios::FoundCases::refuse};
   if (settings.progress)
     options.progress = [&](const scenarios::Progress& progress) {
       const py::gil_scoped_acquire lock;
