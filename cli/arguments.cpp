@@ -54,6 +54,8 @@ class Parser {
     add_run();
     add_check();
     add_identify();
+    add_fit();
+    add_predict();
     add_report();
     add_lists();
   }
@@ -162,35 +164,96 @@ class Parser {
     command.add_flag(
         "--robust", identify_.robust,
         "Bounds the influence of readings that do not belong to the others (Huber), and replaces spikes");
-    add_file_options(command);
+    add_file_options(command, identify_);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }
 
   /// What a data file does not say of itself.
-  void add_file_options(CLI::App& command) {
+  static void add_file_options(CLI::App& command, FileOptions& options) {
     const auto add = [&command](const char* name, std::vector<std::string>& list, const char* text,
                                 const char* type) {
       command.add_option(name, list, text)->allow_extra_args(false)->type_name(type);
     };
-    add("--unit", identify_.units, "Unit of a column, if the file does not state it: --unit x=mm", "COLUMN=UNIT");
-    add("--column", identify_.columns,
+    add("--unit", options.units, "Unit of a column, if the file does not state it: --unit x=mm", "COLUMN=UNIT");
+    add("--column", options.columns,
         "Name or number of a column in the file: --column x='LVDT 2'; in a .mat file also a field (run.x) or a "
         "part of "
         "a matrix ('data(:,2)')",
         "COLUMN=NAME");
-    add("--scale", identify_.scales,
+    add("--scale", options.scales,
         "What the numbers of a column are multiplied by: --scale x='2.5 mm/V'; the sensitivity of a sensor, "
         "--scale "
         "a='100 mV/g'; or a plain factor, --scale force=35.15",
         "COLUMN=SCALE");
-    command.add_option("--decimal", identify_.decimal, "Decimal mark of a CSV file, . or , (default: .)")
+    command.add_option("--decimal", options.decimal, "Decimal mark of a CSV file, . or , (default: .)")
         ->type_name("MARK");
-    command.add_flag("--no-header", identify_.no_header,
+    command.add_flag("--no-header", options.no_header,
                      "The CSV file begins with numbers; --column t=1 --column x=2 say which column is which");
     command.footer(
         "Units are those of the file (x [mm], x (mm), x_mm, or a row of units below the names), else those of "
         "--unit, else\n"
         "SI with a warning. What files may look like, and what is refused: docs/data-files.md.");
+  }
+
+  /// What a fit and a prediction say of their records.
+  template <typename RecordCommand>
+  void add_record_options(CLI::App& command, RecordCommand& options) {
+    command.add_option("--frequency", options.frequency, "Forcing frequency of the base motion, such as '6.17 Hz'")
+        ->type_name("QUANTITY");
+    command.add_option("--amplitude", options.amplitude, "Its amplitude, of histories")->type_name("QUANTITY");
+    command
+        .add_option("--sigma", options.sigmas,
+                    "Known standard deviation of the noise of x, v, a, force or phase: --sigma x='2 um'")
+        ->allow_extra_args(false)
+        ->type_name("SIGNAL=QUANTITY");
+    command.add_flag("--loop", options.loop,
+                     "The column force is what leads the mass along the measured motion: a friction loop");
+    command.add_option("--set", options.set, "Set a value of the scenario: --set system.friction.sigma2='0 N.s/m'")
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUE");
+    add_file_options(command, options);
+    add_output_options(command, options.out, options.json, options.quiet);
+    add_plugins(command);
+  }
+
+  void add_fit() {
+    fit_command_ = app_.add_subcommand("fit", "Fit a friction law and constants of the rig to measured records");
+    CLI::App& command = *fit_command_;
+    command.add_option("LAW", fit_.law, "A law of 'dualdamp laws', or several with commas, which are compared")
+        ->required()
+        ->type_name("");
+    command.add_option("DATA", fit_.data, "Data files, fitted together (docs/data-files.md)")
+        ->required()
+        ->type_name("");
+    command
+        .add_option("--free", fit_.free,
+                    "Names of numbers to seek beside those that are not stated, with commas: --free mass,sigma2")
+        ->type_name("NAMES");
+    command.add_option("--mass", fit_.mass, "Mass, such as '1.042 kg'; sought where it is not stated")
+        ->type_name("QUANTITY");
+    command.add_option("--stiffness", fit_.stiffness, "Stiffness; sought where it is not stated")
+        ->type_name("QUANTITY");
+    command.add_option("--damping", fit_.damping, "Viscous damping; sought where it is not stated")
+        ->type_name("QUANTITY");
+    command.add_option("--validate", fit_.validate, "A data file that the fitted rig has to predict")
+        ->allow_extra_args(false)
+        ->type_name("DATA");
+    command.add_option("--starts", fit_.starts, "Starts of the search (default: 40, or 8 where all is stated)")
+        ->check(CLI::Range(1, 10'000))
+        ->type_name("N");
+    command.add_flag("--robust", fit_.robust, "Bounds the influence of readings that do not belong to the others");
+    command.add_flag("--no-profile", fit_.no_profile, "Leaves out the intervals by the profile of the likelihood");
+    add_record_options(command, fit_);
+  }
+
+  void add_predict() {
+    predict_command_ = app_.add_subcommand("predict", "Predict other records by a fitted rig");
+    CLI::App& command = *predict_command_;
+    command.add_option("RESULT", predict_.result, "result.json of a fit, or its directory")
+        ->required()
+        ->type_name("");
+    command.add_option("DATA", predict_.data, "Data files that were not fitted")->required()->type_name("");
+    add_record_options(command, predict_);
   }
 
   void add_report() {
@@ -244,6 +307,8 @@ class Parser {
     if (run_command_->parsed()) return run_;
     if (check_command_->parsed()) return check_;
     if (identify_command_->parsed()) return identify_;
+    if (fit_command_->parsed()) return fit_;
+    if (predict_command_->parsed()) return predict_;
     if (report_command_->parsed()) return report_;
     if (laws_command_->parsed()) return laws_;
     if (methods_command_->parsed()) return methods_;
@@ -256,6 +321,8 @@ class Parser {
   CLI::App* run_command_ = nullptr;
   CLI::App* check_command_ = nullptr;
   CLI::App* identify_command_ = nullptr;
+  CLI::App* fit_command_ = nullptr;
+  CLI::App* predict_command_ = nullptr;
   CLI::App* report_command_ = nullptr;
   CLI::App* laws_command_ = nullptr;
   CLI::App* methods_command_ = nullptr;
@@ -265,6 +332,8 @@ class Parser {
   RunCommand run_;
   CheckCommand check_;
   IdentifyCommand identify_;
+  FitCommand fit_;
+  PredictCommand predict_;
   ReportCommand report_;
   LawsCommand laws_;
   MethodsCommand methods_;

@@ -44,18 +44,51 @@ struct SchemaCommand {
   bool markdown = false;
 };
 
-struct IdentifyCommand {
+/// What data files do not say of themselves.
+struct FileOptions {
+  std::vector<std::string> units;    ///< x=mm
+  std::vector<std::string> columns;  ///< x=LVDT 2
+  std::vector<std::string> scales;   ///< x=2.5 mm/V
+  std::string decimal;
+  bool no_header = false;
+};
+
+struct IdentifyCommand : FileOptions {
   std::string data;
   std::string mass, stiffness, gravity_stiffness, coordinate, frequency;
   std::vector<std::string> methods;
-  std::vector<std::string> units;               ///< x=mm
-  std::vector<std::string> columns;             ///< x=LVDT 2
-  std::vector<std::string> scales;              ///< x=2.5 mm/V
   std::vector<std::string> gain_uncertainties;  ///< x=1 %
-  std::string decimal;
   std::string sigma_x, sigma_Y;
-  bool no_header = false;
   bool robust = false;
+  std::string out;
+  bool json = false;
+  bool quiet = false;
+};
+
+struct FitCommand : FileOptions {
+  std::string law;  ///< several with commas
+  std::vector<std::string> data;
+  std::vector<std::string> validate;
+  std::string free;
+  std::string mass, stiffness, damping, frequency, amplitude;
+  std::vector<std::string> sigmas;  ///< x=0.02 mm
+  std::vector<std::string> set;
+  int starts = 0;
+  bool loop = false;
+  bool robust = false;
+  bool no_profile = false;
+  std::string out;
+  bool json = false;
+  bool quiet = false;
+};
+
+struct PredictCommand : FileOptions {
+  std::string result;  ///< of a fit: result.json, or its directory
+  std::vector<std::string> data;
+  std::string frequency, amplitude;
+  std::vector<std::string> sigmas;
+  std::vector<std::string> set;
+  bool loop = false;
   std::string out;
   bool json = false;
   bool quiet = false;
@@ -73,7 +106,7 @@ struct Leave {
 };
 
 using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, AnalysesCommand, SchemaCommand,
-                             IdentifyCommand, ReportCommand, Leave>;
+                             IdentifyCommand, FitCommand, PredictCommand, ReportCommand, Leave>;
 
 /// A command line.
 struct Call {

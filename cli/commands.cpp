@@ -16,6 +16,7 @@
 #include "bench/analyses.hpp"
 #include "bench/processes.hpp"
 #include "cli/conformance.hpp"
+#include "cli/fit_scenario.hpp"
 #include "cli/identify_scenario.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
@@ -344,6 +345,23 @@ int execute(const IdentifyCommand& command) {
              }),
              style);
 }
+
+/// A fit or a prediction.
+template <typename RecordCommand>
+int execute_on_records(const RecordCommand& command) {
+  const Style style{command.json, command.quiet};
+  return say(guarded([&] {
+               const fs::path standard = fs::path("results") / fs::path(command.data.front()).stem();
+               return run_and_write(scenario_of(command),
+                                    {.directory = command.out.empty() ? standard.string() : command.out},
+                                    command.quiet);
+             }),
+             style);
+}
+
+int execute(const FitCommand& command) { return execute_on_records(command); }
+
+int execute(const PredictCommand& command) { return execute_on_records(command); }
 
 int execute(const ReportCommand& command) {
   ExitStatus worst = ExitStatus::done;

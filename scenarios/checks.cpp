@@ -216,7 +216,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
                               }});
   const std::size_t rows = result_rows(file, *analysis);
   resolve_coordinate(file);
-  return {analysis, std::move(file.data), rows};
+  return {analysis, std::move(file.data), rows, std::move(file.files)};
 }
 
 }  // namespace dualdamp::scenarios

@@ -14,6 +14,7 @@ struct Checked {
   const Analysis* analysis = nullptr;            ///< nullptr when the file is too faulty to know
   std::optional<identify::MeasuredRecord> data;  ///< of `analysis.data`, if it is there
   std::size_t result_rows = 0;                   ///< items of the result's lists, as far as they are known
+  std::vector<DataFile> files;                   ///< of an analysis that takes several
 };
 
 /// Adds problems to `reading`, which was read by `format`, and completes its values.

@@ -116,12 +116,12 @@ double tolerance_of(const Json& values, const sim::Model& model) {
   return values.contains("numerics") ? number_or(values.at("numerics"), "tolerance", usual) : usual;
 }
 
-sim::Model model(const Json& values) {
+sim::Model model(const Json& values, bool with_laws) {
   sim::Model result;
   const Json& system = values.at("system");
   result.oscillator = oscillator(system);
   if (values.contains("excitation")) result.excitation = excitation(values.at("excitation"));
-  if (system.contains("friction")) result.friction = friction_of(system.at("friction"));
+  if (with_laws && system.contains("friction")) result.friction = friction_of(system.at("friction"));
   if (values.contains("initial"))
     result.initial = {number(values.at("initial").at("position")), number(values.at("initial").at("velocity"))};
   if (values.contains("numerics")) result.solver = solver(values.at("numerics"));
@@ -171,13 +171,16 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), name);
 
   const Json& values = reading.values;
+  const bool sought = checked.analysis->seeks_laws;
   Scenario scenario;
   scenario.file = name;
   if (checked.data) scenario.data_sha256 = checked.data->sha256;
+  for (const DataFile& data : checked.files)
+    scenario.data_sha256 += (scenario.data_sha256.empty() ? "" : " ") + data.data.sha256;
   scenario.resolved = values.dump();
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
-  if (values.contains("system")) scenario.model = model(values);
-  if (values.contains("system") && values.at("system").contains("friction"))
+  if (values.contains("system")) scenario.model = model(values, !sought);
+  if (!sought && values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"), scenario.model.oscillator.coordinate);
   scenario.tolerance = tolerance_of(values, scenario.model);
   scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
@@ -187,9 +190,9 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   scenario.result_fields = result_fields(*checked.analysis, section);
   for (ResultField& field : scenario.result_fields)
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
-  scenario.question =
-      checked.analysis->ask({section, values.value("system", Json()), values.value("excitation", Json()),
-                             scenario.model, std::move(checked.data)});
+  scenario.question = checked.analysis->ask(
+      {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
+       std::move(checked.data), std::move(checked.files), values.contains("initial")});
   scenario.expect = expectations(values, document, reading);
   return scenario;
 }

@@ -49,7 +49,8 @@ Choice choice_of(const AnalysisList& analyses) {
     choice.variants.push_back({.name = std::string(analysis->name),
                                .summary = std::string(analysis->summary),
                                .section = analysis->keys,
-                               .results = analysis->results});
+                               .results = analysis->results,
+                               .seeks_laws = analysis->seeks_laws});
   return choice;
 }
 

@@ -152,6 +152,10 @@ Json field_form(const Field& field) {
   }
   Json one = choice_schema(*field.choice, field.name);
   if (field.only_listed) return list_schema(field, std::move(one));
+  if (!field.short_for.empty()) {
+    const Json item = {{"anyOf", {{{"type", "string"}}, std::move(one)}}};
+    return {{"anyOf", {{{"type", "string"}}, item.at("anyOf").at(1), list_schema(field, item)}}};
+  }
   if (!field.listed) return one;
   // Not anyOf: an editor should complain about the map or the list that is there.
   Json list = list_schema(field, one);

@@ -118,7 +118,7 @@ bool are_held(const LeastSquaresProblem& problem, const Eigen::VectorXd& paramet
 /// creep along it: a hundred instead of ten. So what the bounds should hold is held there, and let go if they do
 /// not.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
-  constexpr int most_iterations = 200;
+  const int most_iterations = problem.most_iterations;
   constexpr int first_iterations = 4;
   if (problem.low.size() == 0) return solve(problem, {}, most_iterations, parameters);
   ceres::Solver::Summary summary = solve(problem, {}, first_iterations, parameters);

@@ -21,6 +21,7 @@ struct LeastSquaresProblem {
   Eigen::VectorXd high;
   /// Relative decrease of the sum of squares at which the fit may end. 0: at rounding.
   double tolerance = 0.0;
+  int most_iterations = 200;
   /// Fills the residuals, and their derivatives (residuals x parameters) where `jacobian` is there. False: the
   /// model has no value at these parameters, and the step is shortened.
   std::function<bool(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)>

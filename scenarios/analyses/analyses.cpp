@@ -13,6 +13,8 @@
   ANALYSIS(frequency_branch)        \
   ANALYSIS(free_decay)              \
   ANALYSIS(identify)                \
+  ANALYSIS(fit)                     \
+  ANALYSIS(predict)                 \
   ANALYSIS(formula)
 
 namespace dualdamp::scenarios {

@@ -96,6 +96,8 @@ struct CheckedValues {
   const Json& excitation;  ///< null without one
   const sim::Model& model;
   std::optional<identify::MeasuredRecord> data;
+  std::vector<DataFile> files;
+  bool initial_is_stated = false;  ///< the scenario has a section `initial`
 };
 
 struct Analysis {
@@ -107,6 +109,7 @@ struct Analysis {
   /// Single numbers by which results are compared and drawn, the most telling first: paths of `results`.
   std::vector<std::string_view> main = {};
   bool uses_uncertainties = false;  ///< those of the system's constants and of the frequency
+  bool seeks_laws = false;          ///< what laws of the system lack is sought; the model has no friction
   bool verifiable = false;          ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.
   void (*check)(CheckedFile& file) = nullptr;

@@ -7,7 +7,7 @@
 
 #include "identify/ledger/outliers.hpp"
 #include "identify/records/pendulum.hpp"
-#include "scenarios/analyses/identify_options.hpp"
+#include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"

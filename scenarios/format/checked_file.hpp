@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "identify/readers/record_reader.hpp"
 #include "scenarios/format/keys.hpp"
@@ -24,6 +25,14 @@ struct DataPlace {
   const DataTexts& texts;  ///< looked through first
 };
 
+/// A data file of an analysis that takes several.
+struct DataFile {
+  std::string name;
+  std::string key;       ///< of `analysis` that names it
+  std::size_t item = 0;  ///< of the list there
+  identify::MeasuredRecord data;
+};
+
 class CheckedFile {
  public:
   /// `format`: the tables by which the document was read. `needs`: those of its analysis; empty when the file is
@@ -33,6 +42,8 @@ class CheckedFile {
 
   /// The record of `analysis.data`, once it has been read.
   std::optional<identify::MeasuredRecord> data;
+  /// The records of an analysis that takes several files.
+  std::vector<DataFile> files;
 
   [[nodiscard]] const DataPlace& data_place() const { return data_place_; }
 

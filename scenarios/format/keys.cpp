@@ -278,6 +278,8 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
       break;
   }
   const std::string map = field.choice->key.empty() ? "a map" : "a map with the key '" + field.choice->key + "'";
+  if (!field.short_for.empty())
+    return "a " + field.short_for + ", a map with the key '" + field.short_for + "', or a list of them";
   if (field.only_listed) return "a list of maps";
   return field.listed ? map + ", or a list of such maps" : map;
 }

@@ -58,6 +58,8 @@ struct Field {
   std::shared_ptr<const Choice> choice;
   bool listed = false;       ///< choice: a list of maps is accepted
   bool only_listed = false;  ///< choice: nothing but a list is accepted
+  /// choice: a text stands for a map of this key alone; empty: it does not.
+  std::string short_for = {};
   /// quantity: its text may state an uncertainty, which goes to the key `uncertainty_key(name)`.
   bool takes_uncertainty = false;
 
@@ -94,6 +96,8 @@ struct Variant {
   std::string amplitude_unit = {};
   std::string equation = {};              ///< of a closed form
   std::vector<ResultField> results = {};  ///< what this choice adds to the result
+  /// Of an analysis: a law of the system may lack numbers that it requires, and its defaults are not filled in.
+  bool seeks_laws = false;
 };
 
 /// A map whose key `key` (type, law, ...) tells which section holds; a plain map when `key` is empty.

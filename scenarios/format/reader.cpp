@@ -38,7 +38,8 @@ bool is_number_like(std::string_view text) {
 class Reader {
  public:
   /// `source`: what the coordinate is; nothing: not known, a displacement if need be.
-  Reader(const Document& document, const std::optional<CoordinateSource>& source) : document_(document) {
+  Reader(const Document& document, const std::optional<CoordinateSource>& source, bool laws_are_sought)
+      : document_(document), laws_are_sought_(laws_are_sought) {
     reading_.coordinate = source;
     if (source) coordinate_ = source->coordinate;
   }
@@ -53,7 +54,7 @@ class Reader {
         Json value = this->value(entry->value, field, field_path);
         if (!value.is_null()) values[field.name] = std::move(value);
         if (field.takes_uncertainty) uncertainty(node, *entry, field, field_path, values);
-      } else if (field.is_required) {
+      } else if (field.is_required && !(laws_are_sought_ && choice != nullptr && choice->key == "law")) {
         complain_about_missing(node, section, field, field_path);
       } else if (!field.fallback.is_null()) {
         values[field.name] = field.fallback;
@@ -325,6 +326,8 @@ class Reader {
 
   Json map_or_list(const Node& node, const Field& field, const std::string& path) {
     if (node.kind == Node::Kind::map && !field.only_listed) return one_map(node, field, path);
+    if (node.kind == Node::Kind::scalar && !field.short_for.empty())
+      return one_map(in_full(node, field), field, path);
     if (node.kind != Node::Kind::sequence || !field.listed) return wrong_kind(node, field, path);
     if (!has_allowed_size(node, field, path)) return nullptr;
     Json values = Json::array();
@@ -332,12 +335,25 @@ class Reader {
       const Node& item = node.items[i];
       const std::string item_path = path + "[" + std::to_string(i) + "]";
       reading_.places.emplace(item_path, item.place);
+      if (item.kind == Node::Kind::scalar && !field.short_for.empty()) {
+        values.push_back(one_map(in_full(item, field), field, item_path));
+        continue;
+      }
       if (item.kind == Node::Kind::scalar || item.kind == Node::Kind::sequence)
         complain(item.place, "'" + item_path + "' is of the wrong kind", "a map", shown(item));
       // A faulty item keeps its place: the others must not change their numbers.
       values.push_back(item.kind == Node::Kind::map ? one_map(item, field, item_path) : Json(nullptr));
     }
     return values;
+  }
+
+  /// The map that a text is short for.
+  static Node in_full(const Node& node, const Field& field) {
+    Node map;
+    map.kind = Node::Kind::map;
+    map.place = node.place;
+    map.entries.push_back({field.short_for, node.place, node});
+    return map;
   }
 
   Json one_map(const Node& node, const Field& field, const std::string& path) {
@@ -386,15 +402,26 @@ class Reader {
                "'" + path + "." + fault.name + "' is not possible: " + fault.message, std::move(fault.allowed),
                std::move(fault.found));
     }
-    section = law_json(law.parameters, values);
+    if (!laws_are_sought_) section = law_json(law.parameters, values);
   }
 
   const Document& document_;
+  bool laws_are_sought_;
   std::string amplitude_unit_ = "m";
   core::Coordinate coordinate_ = core::Coordinate::displacement;
   ToldCoordinate told_;
   Reading reading_;
 };
+
+/// Whether the analysis that the file asks for is one that does.
+bool seeks_laws(const Document& document, const Section& format) {
+  const Entry* section = document.root().find("analysis");
+  const Entry* type = section == nullptr ? nullptr : section->value.find("type");
+  const Field* field = format.find("analysis");
+  const Variant* analysis =
+      type == nullptr || field == nullptr || !field->choice ? nullptr : field->choice->find(type->value.text);
+  return analysis != nullptr && analysis->seeks_laws;
+}
 
 }  // namespace
 
@@ -406,13 +433,14 @@ void Reading::complain(const Document& document, Place place, std::string messag
 }
 
 Reading read(const Document& document, const Section& format) {
+  const bool laws_are_sought = seeks_laws(document, format);
   const auto reading_of = [](Reader& reader, Json values) {
     Reading reading = reader.take();
     reading.values = std::move(values);
     return reading;
   };
   const std::optional<CoordinateSource> stated = stated_coordinate(document);
-  Reader first(document, stated);
+  Reader first(document, stated, laws_are_sought);
   Json values = first.section(document.root(), format, "", nullptr);
   const std::optional<CoordinateSource> told = first.told().first();
   if (stated || !told || (told->coordinate == core::Coordinate::displacement && !first.told().is_mixed())) {
@@ -421,7 +449,7 @@ Reading read(const Document& document, const Section& format) {
     return reading;
   }
   // Now that the units have told, all quantities are read in it.
-  Reader second(document, told);
+  Reader second(document, told, laws_are_sought);
   values = second.section(document.root(), format, "", nullptr);
   return reading_of(second, std::move(values));
 }

@@ -16,13 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The path of a data file, unless it leads out of the scenario's directory.
-std::optional<fs::path> safe_path(CheckedFile& file, const std::string& name) {
+std::optional<fs::path> safe_path(CheckedFile& file, const std::string& key, const std::string& name) {
   fs::path path(name);
   const std::string allowed = "a relative path inside the scenario's directory";
-  const Place place = file.place_of("analysis.data");
+  const Place place = file.place_of(key);
   if (file.data_place().anywhere || file.data_place().texts.contains(name)) return path;
   if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) {
-    file.complain(place, "'analysis.data' must stay inside the scenario's directory", allowed, name);
+    file.complain(place, "'" + key + "' must stay inside the scenario's directory", allowed, name);
     return std::nullopt;
   }
   std::error_code error;
@@ -30,33 +30,32 @@ std::optional<fs::path> safe_path(CheckedFile& file, const std::string& name) {
   const fs::path root = fs::canonical(directory.empty() ? "." : directory, error);
   fs::path target = fs::canonical(root / path, error);
   if (error) {
-    file.complain(place, "'analysis.data': " + name + " cannot be opened: " + error.message(), allowed);
+    file.complain(place, "'" + key + "': " + name + " cannot be opened: " + error.message(), allowed);
     return std::nullopt;
   }
   if (std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end()) {
-    file.complain(place, "'analysis.data' leads out of the scenario's directory through a link", allowed,
+    file.complain(place, "'" + key + "' leads out of the scenario's directory through a link", allowed,
                   target.string());
     return std::nullopt;
   }
   if (!fs::is_regular_file(target, error)) {
-    file.complain(place, "'analysis.data': " + name + " is not a file", allowed);
+    file.complain(place, "'" + key + "': " + name + " is not a file", allowed);
     return std::nullopt;
   }
   return target;
 }
 
 /// What the scenario says of columns that the file does not say.
-identify::ReadOptions read_options(const CheckedFile& file, const std::string& name) {
+identify::ReadOptions read_options(const Json& section, core::Coordinate coordinate, const std::string& name) {
   identify::ReadOptions options;
   options.name = name;
-  options.coordinate = file.coordinate();
+  options.coordinate = coordinate;
   for (const auto& [key, map] :
        {std::pair{"units", &options.units}, {"columns", &options.columns}, {"scale", &options.scales}})
-    if (file.has("analysis", key))
-      for (const auto& [column, text] : file.values().at("analysis").at(key).items())
-        map->emplace(column, text.get<std::string>());
-  if (file.has("analysis", "decimal")) options.decimal = file.text_at("analysis", "decimal").front();
-  options.no_header = file.has("analysis", "no_header") && file.values().at("analysis").at("no_header").get<bool>();
+    if (section.contains(key))
+      for (const auto& [column, text] : section.at(key).items()) map->emplace(column, text.get<std::string>());
+  if (section.contains("decimal")) options.decimal = section.at("decimal").get<std::string>().front();
+  options.no_header = section.value("no_header", false);
   return options;
 }
 
@@ -76,8 +75,9 @@ identify::MeasuredRecord read(const DataTexts& texts, const std::string& path,
 }
 
 /// Where nothing in the scenario tells what the coordinate is, the units of the columns do.
-identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name) {
-  identify::ReadOptions options = read_options(file, name);
+identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name,
+                                       const Json& section) {
+  identify::ReadOptions options = read_options(section, file.coordinate(), name);
   try {
     return read(file.data_place().texts, path, options);
   } catch (const core::InputError& fault) {
@@ -135,10 +135,11 @@ void take_gain_uncertainties(CheckedFile& file) {
 
 }  // namespace
 
-std::vector<Field> data_fields() {
+namespace {
+
+/// What a data file does not say of itself.
+std::vector<Field> reading_fields() {
   return {
-      text("data",
-           "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"),
       for_columns("units", "units of columns for which the data file states none: {x: mm}", true),
       for_columns("columns", "names or numbers of the columns in the data file: {x: LVDT 2}", false),
       for_columns("scale",
@@ -147,6 +148,55 @@ std::vector<Field> data_fields() {
                   true),
       words("decimal", {".", ","}, "decimal mark of a CSV file"),
       boolean("no_header", "the CSV file begins with numbers; 'columns' holds the numbers of the columns")};
+}
+
+}  // namespace
+
+std::vector<Field> data_fields() {
+  std::vector<Field> fields = reading_fields();
+  fields.insert(
+      fields.begin(),
+      text("data",
+           "file with the measured data (CSV, MATLAB, universal file), in the scenario's directory or below"));
+  return fields;
+}
+
+Field data_list(const std::string& name, std::string meaning) {
+  std::vector<Field> fields = reading_fields();
+  fields.insert(fields.begin(),
+                text("file", "CSV, MATLAB or universal file, in the scenario's directory or below").required());
+  fields.push_back(boolean("loop",
+                           "force is what leads the mass along the measured motion: a friction loop; without it, "
+                           "force is one on the oscillator"));
+  for (const auto& [signal, unit] :
+       {std::pair{"x", "m"}, {"v", "m/s"}, {"a", "m/s^2"}, {"force", "N"}, {"phase", "rad"}})
+    fields.push_back(quantity(std::string("sigma_") + signal, {unit},
+                              std::string("known standard deviation of the noise of ") + signal)
+                         .above(0));
+  Field field = section(name, {std::move(fields)}, std::move(meaning));
+  field.listed = true;
+  field.max_items = 64;
+  field.short_for = "file";
+  return field;
+}
+
+void read_data_list(CheckedFile& file, const std::string& name) {
+  if (!file.has("analysis", name)) return;
+  Json list = file.values().at("analysis").at(name);
+  const bool is_list = list.is_array();
+  if (!is_list) list = Json::array({list});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].contains("file")) continue;
+    const std::string key = "analysis." + name + (is_list ? "[" + std::to_string(i) + "]" : "");
+    const std::string data_name = list[i].at("file").get<std::string>();
+    const auto path = safe_path(file, key, data_name);
+    if (!path) continue;
+    try {
+      file.files.push_back({data_name, name, i, read_by_units(file, path->string(), data_name, list[i])});
+    } catch (const core::InputError& error) {
+      file.take_over(error.diagnostics());
+    }
+  }
 }
 
 void read_data(CheckedFile& file) {
@@ -158,11 +208,11 @@ void read_data(CheckedFile& file) {
     return;
   }
   const std::string name = file.text_at("analysis", "data");
-  const auto path = safe_path(file, name);
+  const auto path = safe_path(file, "analysis.data", name);
   if (!path) return;
   take_gain_uncertainties(file);
   try {
-    identify::MeasuredRecord data = read_by_units(file, path->string(), name);
+    identify::MeasuredRecord data = read_by_units(file, path->string(), name, file.values().at("analysis"));
     const Json& analysis = file.values().at("analysis");
     for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
       data.warnings.push_back(std::move(sentence));

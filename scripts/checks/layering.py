@@ -50,6 +50,7 @@ ROOMS = {
         "models": [".", "statistics"],
         "uncertainty": [".", "statistics", "records", "models"],
         "methods": [".", "statistics", "records", "models", "uncertainty"],
+        "fit": [".", "statistics", "records"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
         "any_law": [".", "statistics", "records", "models", "methods"],
     },

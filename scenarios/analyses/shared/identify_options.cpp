@@ -1,4 +1,4 @@
-#include "scenarios/analyses/identify_options.hpp"
+#include "scenarios/analyses/shared/identify_options.hpp"
 
 #include <algorithm>
 

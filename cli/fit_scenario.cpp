@@ -1,0 +1,150 @@
+#include "cli/fit_scenario.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
+
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+#include "scenarios/results/files.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A text as YAML, whatever characters a file name holds.
+std::string in_quotes(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  return result + "'";
+}
+
+/// Options like `x=mm` as a map.
+std::string map_of(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& item : list) {
+    const std::size_t sign = std::min(item.find('='), item.size());
+    text += (text.empty() ? "" : ", ") + item.substr(0, sign) + ": " +
+            in_quotes(sign < item.size() ? item.substr(sign + 1) : std::string());
+  }
+  return "{" + text + "}";
+}
+
+/// Data files with what the options say of them.
+template <typename RecordCommand>
+std::string data_of(const std::vector<std::string>& files, const RecordCommand& command) {
+  std::string list;
+  for (const std::string& file : files) {
+    std::string item = "file: " + in_quotes(file);
+    for (const auto& [key, values] :
+         {std::pair{"units", &command.units}, {"columns", &command.columns}, {"scale", &command.scales}})
+      if (!values->empty()) item += std::string(", ") + key + ": " + map_of(*values);
+    if (!command.decimal.empty()) item += ", decimal: " + in_quotes(command.decimal);
+    if (command.no_header) item += ", no_header: true";
+    if (command.loop) item += ", loop: true";
+    for (const std::string& sigma : command.sigmas) {
+      const std::size_t sign = std::min(sigma.find('='), sigma.size());
+      item += ", sigma_" + sigma.substr(0, sign) + ": " + (sign < sigma.size() ? sigma.substr(sign + 1) : "");
+    }
+    list += (list.empty() ? "{" : ", {") + item + "}";
+  }
+  return "[" + list + "]";
+}
+
+template <typename RecordCommand>
+void add_drive(const RecordCommand& command, scenarios::LoadOptions& options) {
+  if (!command.frequency.empty()) {
+    options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
+    options.set.push_back({"excitation.frequency=" + command.frequency, "--frequency"});
+  }
+  if (!command.amplitude.empty())
+    options.set.push_back({"excitation.amplitude=" + command.amplitude, "--amplitude"});
+  for (const std::string& assignment : command.set) options.set.push_back({assignment});
+}
+
+[[noreturn]] void refuse(const std::string& file, std::string message) {
+  throw core::InputError(core::Diagnostic{.place = {.file = file}, .message = std::move(message)});
+}
+
+/// The document of a fit.
+Json fitted_document(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path file = fs::is_directory(path) ? fs::path(path) / "result.json" : fs::path(path);
+  constexpr std::size_t largest = std::size_t{1} << 30U;
+  Json document = Json::parse(scenarios::read_file(file.string(), largest), nullptr, false);
+  if (!document.is_object() || document.value("analysis", Json()) != "fit" || !document.contains("result"))
+    refuse(file.string(), "this is not the result of a fit");
+  if (!document.at("result").is_object()) refuse(file.string(), "the fit has no result");
+  return document;
+}
+
+/// "analysis={...}" of a prediction by this fit.
+std::string prediction_of(const Json& result, const PredictCommand& command) {
+  std::string names;
+  std::vector<std::size_t> shared;
+  const Json& parameters = result.at("parameters");
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto name = parameters.at(i).at("name").get<std::string>();
+    const std::string own = name.substr(0, name.find('['));
+    if (own == "position" || own == "velocity" || own == "offset" || own == "release") continue;
+    names += (names.empty() ? "" : ", ") + name;
+    shared.push_back(i);
+  }
+  std::string numbers;
+  for (const std::size_t i : shared)
+    for (const std::size_t j : shared)
+      numbers +=
+          (numbers.empty() ? "" : ", ") + core::format_number(result.at("covariance").at(i).at(j).get<double>());
+  std::string text = "{type: predict, data: " + data_of(command.data, command);
+  if (!shared.empty()) text += ", free: " + in_quotes(names) + ", covariance: [" + numbers + "]";
+  return text + "}";
+}
+
+}  // namespace
+
+scenarios::Scenario scenario_of(const FitCommand& command) {
+  scenarios::LoadOptions options;
+  options.data_anywhere = true;
+  options.set = {{"analysis.data=" + data_of(command.data, command), "DATA"}};
+  if (command.law.find(',') == std::string::npos)
+    options.set.push_back({"system.friction.law=" + command.law, "LAW"});
+  else
+    options.set.push_back({"analysis.laws=[" + command.law + "]", "LAW"});
+  for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},
+                                            {"system.stiffness", &command.stiffness, "--stiffness"},
+                                            {"system.damping", &command.damping, "--damping"}})
+    if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
+  if (!command.free.empty()) options.set.push_back({"analysis.free=" + in_quotes(command.free), "--free"});
+  if (!command.validate.empty())
+    options.set.push_back({"analysis.validate=" + data_of(command.validate, command), "--validate"});
+  if (command.starts > 0) options.set.push_back({"analysis.starts=" + std::to_string(command.starts), "--starts"});
+  if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
+  if (command.no_profile) options.set.push_back({"analysis.profile=false", "--no-profile"});
+  add_drive(command, options);
+  scenarios::Scenario scenario =
+      scenarios::parse_scenario("schema: dualdamp/1\nsystem: {}\nanalysis: {type: fit}\n", "command line", options);
+  scenario.file = command.data.front();
+  return scenario;
+}
+
+scenarios::Scenario scenario_of(const PredictCommand& command) {
+  const Json document = fitted_document(command.result);
+  const Json& result = document.at("result");
+  scenarios::LoadOptions options;
+  options.data_anywhere = true;
+  options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
+  const Json& scenario = document.at("scenario");
+  if (scenario.contains("excitation"))
+    options.set.push_back({"excitation=" + scenario.at("excitation").dump(), "RESULT"});
+  add_drive(command, options);
+  scenarios::Scenario prediction =
+      scenarios::parse_scenario(result.at("scenario").get<std::string>(), command.result, options);
+  prediction.file = command.data.front();
+  return prediction;
+}
+
+}  // namespace dualdamp::cli

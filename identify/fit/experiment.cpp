@@ -1,0 +1,69 @@
+#include "identify/fit/experiment.hpp"
+
+#include "identify/fit/experiments.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+class Alike final : public Neighbours {
+ public:
+  explicit Alike(const Experiment& experiment) : experiment_(experiment) {}
+  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,
+                             Eigen::VectorXd& outputs) const override {
+    return experiment_.predict(model, own, outputs);
+  }
+
+ private:
+  const Experiment& experiment_;
+};
+
+}  // namespace
+
+Eigen::Index Experiment::size() const {
+  Eigen::Index count = 0;
+  for (const Signal& signal : signals) count += static_cast<Eigen::Index>(signal.measured.size());
+  return count;
+}
+
+std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) const {
+  return std::make_unique<Alike>(*this);
+}
+
+FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone) {
+  struct Naming {
+    const char* name;
+    const char* unit;
+  };
+  static constexpr std::array<Naming, own_count> namings = {
+      {{"position", "m"}, {"velocity", "m/s"}, {"offset", "m"}, {"release", "s"}}};
+  const auto at = static_cast<std::size_t>(own);
+  return {.name = namings[at].name + (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
+          .unit = namings[at].unit,
+          .owner = Owner::record,
+          .index = index,
+          .own = own,
+          .stated = experiment.own_start[at]};
+}
+
+std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record, const ExperimentOptions& options,
+                                                        std::string& fault) {
+  std::vector<std::unique_ptr<Experiment>> found;
+  const auto add = [&](std::unique_ptr<Experiment> experiment, const std::string& part) {
+    if (experiment == nullptr) return;
+    experiment->label = options.name + (part.empty() ? "" : ", " + part);
+    found.push_back(std::move(experiment));
+  };
+  if (options.loop && record.histories.empty()) {
+    fault = "a loop needs the columns t, force, and x or v";
+    return found;
+  }
+  if (record.pairs) add(steady_states(*record.pairs, options, fault), "");
+  if (record.decay) add(free_vibration(*record.decay, options, fault), "");
+  for (const History& history : record.histories)
+    add(options.loop ? friction_loop(history, options, fault) : motion(history, options, fault), history.sweep);
+  if (found.empty() && fault.empty()) fault = "the record is empty";
+  return found;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,74 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "identify/fit/experiments.hpp"
+#include "sim/motion/simulate.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+class FreeVibration final : public Experiment {
+ public:
+  FreeVibration(const DecayRecord& record, const ExperimentOptions& options) {
+    kind = ExperimentKind::decay;
+    const bool timed = !record.times.empty();
+    Signal x{.name = "x",
+             .unit = "m",
+             .measured = record.extremes,
+             .at = record.times,
+             .at_name = timed ? "t" : "number",
+             .at_unit = timed ? "s" : "",
+             .noise = options.sigma_x,
+             .is_stated = options.sigma_x > 0.0};
+    for (std::size_t i = 0; !timed && i < record.extremes.size(); ++i) x.at.push_back(static_cast<double>(i));
+    // Between the last three extremes: what a decay leaves of them is the offset, roughly.
+    const std::size_t n = record.extremes.size();
+    const double offset = 0.25 * (record.extremes[n - 3] + 2.0 * record.extremes[n - 2] + record.extremes[n - 1]);
+    own_start[static_cast<std::size_t>(Own::position)] = record.extremes.front() - offset;
+    own_start[static_cast<std::size_t>(Own::offset)] = offset;
+    own_free = {Own::position, Own::offset};
+    signals.push_back(std::move(x));
+    if (!timed) return;
+    Signal t{.name = "t", .unit = "s", .measured = record.times, .at_name = "number"};
+    for (std::size_t i = 0; i < n; ++i) t.at.push_back(static_cast<double>(i));
+    own_start[static_cast<std::size_t>(Own::release)] = record.times.front();
+    own_free.push_back(Own::release);
+    signals.push_back(std::move(t));
+  }
+
+  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,
+                             Eigen::VectorXd& outputs) const override {
+    sim::Model free = model;
+    free.excitation = {};
+    free.initial = {own[static_cast<std::size_t>(Own::position)], 0.0};
+    const std::size_t wanted = signals.front().measured.size();
+    const sim::FreeDecay decay = sim::free_decay(free, static_cast<int>(wanted));
+    if (!decay.outcome.ok()) return false;
+    outputs.resize(size());
+    const double swing = std::numbers::pi / sim::natural_frequency(model.oscillator);
+    const double offset = own[static_cast<std::size_t>(Own::offset)];
+    sim::Extreme last{0.0, free.initial.position};
+    for (std::size_t i = 0; i < wanted; ++i) {
+      // A mass that has come to rest goes on resting where it is, so that the prediction stays continuous.
+      last = i < decay.peaks.size() ? decay.peaks[i] : sim::Extreme{last.t + swing, last.x};
+      outputs[static_cast<Eigen::Index>(i)] = last.x + offset;
+      if (signals.size() > 1)
+        outputs[static_cast<Eigen::Index>(wanted + i)] = last.t + own[static_cast<std::size_t>(Own::release)];
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Experiment> free_vibration(const DecayRecord& record, const ExperimentOptions& options,
+                                           std::string& fault) {
+  constexpr std::size_t least = 4;
+  if (record.extremes.size() >= least) return std::make_unique<FreeVibration>(record, options);
+  fault = "a decay needs four extremes, and the record has " + std::to_string(record.extremes.size());
+  return nullptr;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,203 @@
+#include "identify/fit/prediction.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+std::vector<FitParameter> own_parameters(const Experiments& experiments) {
+  std::vector<FitParameter> list;
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    for (const Own own : experiments[e]->own_free)
+      list.push_back(own_parameter(*experiments[e], e, own, experiments.size() == 1));
+  return list;
+}
+
+/// rms over the signals of residuals over the signals' own size.
+double error_of(const Fit& fit) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const FittedSignal& signal : fit.signals) {
+    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    const double share = signal.rms / signal.range;
+    sum += size * share * share;
+    count += size;
+  }
+  return std::sqrt(sum / count);
+}
+
+/// What the covariance of the rig's parameters makes of the outputs.
+double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitParameter>& parameters,
+                      const Eigen::MatrixXd& covariance, const Experiments& experiments) {
+  std::vector<FitParameter> all;
+  for (const FitParameter& parameter : parameters)
+    if (parameter.owner != Owner::record) all.push_back(parameter);
+  const auto shared = static_cast<Eigen::Index>(all.size());
+  if (shared == 0 || covariance.rows() != shared) return 0.0;
+  Eigen::VectorXd values(shared);
+  std::vector<double> sizes;
+  const std::vector<FitParameter> now = parameters_of(rig);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::string fault;
+    const std::vector<FitParameter> found = named(now, all[i].name, fault);
+    all[i].stated = found.empty() ? all[i].stated : found.front().stated;
+    values[static_cast<Eigen::Index>(i)] = all[i].stated;
+    sizes.push_back(all[i].stated == 0.0 ? 1.0 : std::abs(all[i].stated));
+  }
+  for (const FittedParameter& fitted : held.parameters) {
+    all.push_back(fitted.parameter);
+    values.conservativeResize(values.size() + 1);
+    values[values.size() - 1] = fitted.value;
+    sizes.push_back(fitted.value == 0.0 ? 1.0 : std::abs(fitted.value));
+  }
+  const FitProblem problem(rig, all, experiments, sizes);
+  const Eigen::VectorXd q = problem.coordinates(values);
+  Eigen::VectorXd outputs;
+  Eigen::MatrixXd jacobian;
+  if (!problem.derivatives(q, outputs, jacobian)) return 0.0;
+  jacobian = (jacobian * problem.slope(q).inverse()).eval();
+  // The record's own state follows the rig's parameters: what it can follow is no error.
+  Eigen::MatrixXd by_rig = jacobian.leftCols(shared);
+  const Eigen::MatrixXd by_own = jacobian.rightCols(jacobian.cols() - shared);
+  double sum = 0.0;
+  for (const FittedSignal& signal : held.signals) {
+    by_rig.middleRows(signal.rows.begin, signal.rows.end - signal.rows.begin) /= signal.range;
+  }
+  Eigen::MatrixXd own = by_own;
+  for (const FittedSignal& signal : held.signals)
+    own.middleRows(signal.rows.begin, signal.rows.end - signal.rows.begin) /= signal.range;
+  if (own.cols() > 0) by_rig -= own * own.colPivHouseholderQr().solve(by_rig);
+  for (Eigen::Index i = 0; i < by_rig.rows(); ++i) sum += by_rig.row(i) * covariance * by_rig.row(i).transpose();
+  return std::sqrt(std::max(sum, 0.0) / static_cast<double>(by_rig.rows()));
+}
+
+/// Errors in octaves.
+std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experiments) {
+  const auto sampled = std::ranges::find_if(held.signals, [&](const FittedSignal& signal) {
+    return experiments[signal.rows.experiment]->signals[signal.rows.signal].is_sampled;
+  });
+  if (sampled == held.signals.end()) return {};
+  const Signal& signal = experiments[sampled->rows.experiment]->signals[sampled->rows.signal];
+  const Eigen::Index count = sampled->rows.end - sampled->rows.begin;
+  constexpr Eigen::Index least = 64;
+  if (count < least) return {};
+  const double rate = static_cast<double>(count - 1) / (signal.at.back() - signal.at.front());
+  Eigen::VectorXd residual(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    residual[i] = held.outputs[sampled->rows.begin + i] - signal.measured[static_cast<std::size_t>(i)];
+  // Halving the band by pairs: means of neighbours carry the lower half, differences the upper one (Haar), so that
+  // squares add up to those of the residual.
+  std::vector<PredictionBand> bands;
+  double upper = 0.5 * rate;
+  const double total = residual.squaredNorm();
+  const double whole = sampled->range * std::sqrt(static_cast<double>(count));
+  const auto add = [&](double from, double to, double squares) {
+    bands.push_back({from, to, std::sqrt(squares) / whole,
+                     sampled->noise > 0.0 ? std::sqrt(squares / static_cast<double>(count)) / sampled->noise /
+                                                std::sqrt((to - from) / (0.5 * rate))
+                                          : unknown});
+  };
+  double left = total;
+  constexpr std::size_t most = 6;
+  while (residual.size() >= least && bands.size() + 1 < most) {
+    const Eigen::Index half = residual.size() / 2;
+    Eigen::VectorXd sums(half);
+    double squares = 0.0;
+    for (Eigen::Index i = 0; i < half; ++i) {
+      sums[i] = (residual[2 * i] + residual[2 * i + 1]) / std::numbers::sqrt2;
+      const double difference = (residual[2 * i] - residual[2 * i + 1]) / std::numbers::sqrt2;
+      squares += difference * difference;
+    }
+    add(0.5 * upper, upper, squares);
+    left -= squares;
+    upper *= 0.5;
+    residual = sums;
+  }
+  add(0.0, upper, std::max(left, 0.0));
+  std::ranges::reverse(bands);
+  return bands;
+}
+
+std::string percent(double share) { return core::format_number(100.0 * share, 3) + " %"; }
+
+/// Residuals that are alike from sample to sample.
+bool lasts(const Fit& fit) {
+  constexpr double share = 0.5;
+  return std::ranges::any_of(fit.signals, [](const FittedSignal& signal) {
+    const auto readings = static_cast<double>(signal.rows.end - signal.rows.begin);
+    return signal.noise_units > 1.0 && signal.independent < share * readings;
+  });
+}
+
+void judge(Prediction& found, const Fit& attainable) {
+  const double excess = std::sqrt(std::max(found.error * found.error - found.attainable * found.attainable, 0.0));
+  // Three deviations of the parameters' own uncertainty, and a tenth of what the class can reach.
+  constexpr double deviations = 3.0;
+  constexpr double share = 0.45;  // beside the attainable error: 10 % more of it
+  const bool does_not_carry_over = excess > std::max(deviations * found.uncertainty, share * found.attainable);
+  // Noise is not alike from sample to sample; what the law leaves is.
+  constexpr double units = 1.2;
+  const bool cannot = attainable.noise_units > units && lasts(attainable);
+  found.is_wrong = does_not_carry_over || cannot;
+  found.text = "the prediction misses by " + percent(found.error) + " of the motion";
+  if (!std::isnan(found.noise_units))
+    found.text += ", " + core::format_number(found.noise_units, 3) + " times the noise";
+  found.text += "; fitted to this record itself the same laws reach " + percent(found.attainable);
+  if (cannot)
+    found.text += ": the law is wrong here, for even its own fit leaves " +
+                  core::format_number(attainable.noise_units, 3) + " times the noise";
+  else if (does_not_carry_over)
+    found.text += ": the law is wrong, or the rig has changed, for the uncertainty of its parameters explains " +
+                  percent(found.uncertainty) + " only";
+  else
+    found.text += ": the law carries over to this record";
+}
+
+}  // namespace
+
+Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
+                           const Eigen::MatrixXd& covariance, const Experiments& experiments,
+                           const FitOptions& options) {
+  Prediction found;
+  FitOptions quick = options;
+  quick.profile = false;
+  found.fit = fit_rig(rig, own_parameters(experiments), experiments, quick);
+  if (!found.fit.outcome.ok()) {
+    found.outcome = found.fit.outcome;
+    found.text = found.outcome.reason;
+    return found;
+  }
+  found.error = error_of(found.fit);
+  found.noise_units = found.fit.noise_units;
+  found.bands = bands_of(found.fit, experiments);
+  found.uncertainty = uncertainty_of(found.fit, rig, parameters, covariance, experiments);
+  std::vector<FitParameter> all;
+  const std::vector<FitParameter> now = parameters_of(rig);
+  for (const FitParameter& parameter : parameters) {
+    if (parameter.owner == Owner::record) continue;
+    std::string fault;
+    const std::vector<FitParameter> same = named(now, parameter.name, fault);
+    all.push_back(parameter);
+    if (same.size() == 1) all.back().stated = same.front().stated;
+  }
+  std::ranges::move(own_parameters(experiments), std::back_inserter(all));
+  const Fit attainable = fit_rig(rig, all, experiments, quick);
+  if (!attainable.outcome.ok()) {
+    found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
+    return found;
+  }
+  found.attainable = std::min(error_of(attainable), found.error);
+  found.attainable_noise_units = attainable.noise_units;
+  judge(found, attainable);
+  return found;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,200 @@
+#include "identify/fit/problem.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/diagnostics.hpp"
+#include "friction_models/law_fault.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// A logarithm is sought this far from the size of the parameter: a contact a thousand times stiffer than any that
+/// the data could show costs a thousand times the steps.
+constexpr double reach = 1e4;
+/// Of a parameter in units of its size: no value in sight lies beyond.
+constexpr double far = 1e6;
+/// Of a central difference, in coordinates. The errors of the smooth engine, 1e-9 of the motion, and of the third
+/// derivative are then of the same order.
+constexpr double step = 1e-4;
+
+Coordinate coordinate_of(const FitParameter& parameter, double size) {
+  const auto& [low, high, low_open, high_open] = parameter.range;
+  if (!parameter.above && low >= 0.0 && (low_open || low > 0.0))
+    return {true, size, std::log(std::max(low, size / reach) / size),
+            std::log(std::min(high, size * reach) / size)};
+  if (parameter.above) return {false, size, 0.0, far};
+  return {false, size, std::max(low / size, -far), std::min(high / size, far)};
+}
+
+/// What a law or an engine refuses is no value of the model.
+template <typename Work>
+bool guarded(Work work) {
+  try {
+    return work();
+  } catch (const friction::LawFault&) {
+    return false;
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+/// One side of a difference.
+struct FitProblem::Column {
+  Eigen::Index parameter = 0;
+  double q = 0.0;
+  Eigen::VectorXd outputs;
+  bool ok = true;
+};
+
+FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
+                       const std::vector<double>& sizes)
+    : rig_(rig), parameters_(parameters), experiments_(experiments) {
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    coordinates_.push_back(coordinate_of(parameters[i], sizes[i]));
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    begins_.push_back(rows_);
+    for (std::size_t s = 0; s < experiments[e]->signals.size(); ++s) {
+      const auto count = static_cast<Eigen::Index>(experiments[e]->signals[s].measured.size());
+      signals_.push_back({e, s, rows_, rows_ + count});
+      rows_ += count;
+    }
+  }
+  measured_.resize(rows_);
+  for (const SignalRows& rows : signals_)
+    measured_.segment(rows.begin, rows.end - rows.begin) =
+        Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.end - rows.begin);
+}
+
+const Signal& FitProblem::signal(const SignalRows& rows) const {
+  return experiments_[rows.experiment]->signals[rows.signal];
+}
+
+Eigen::VectorXd FitProblem::values(const Eigen::VectorXd& q) const {
+  Eigen::VectorXd result(q.size());
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    const Coordinate& c = coordinates_[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    result[at] = c.size * (c.logarithmic ? std::exp(q[at]) : q[at]);
+  }
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (parameters_[i].above)
+      result[static_cast<Eigen::Index>(i)] += result[static_cast<Eigen::Index>(*parameters_[i].above)];
+  return result;
+}
+
+Eigen::VectorXd FitProblem::coordinates(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd result(values.size());
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    const Coordinate& c = coordinates_[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    double value = values[at];
+    if (parameters_[i].above) value -= values[static_cast<Eigen::Index>(*parameters_[i].above)];
+    const double q = c.logarithmic ? std::log(std::max(value, 0.0) / c.size) : value / c.size;
+    result[at] = std::clamp(q, c.low, c.high);
+  }
+  return result;
+}
+
+Eigen::MatrixXd FitProblem::slope(const Eigen::VectorXd& q) const {
+  const Eigen::Index count = q.size();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
+    result(i, i) = c.size * (c.logarithmic ? std::exp(q[i]) : 1.0);
+  }
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (const auto& above = parameters_[static_cast<std::size_t>(i)].above)
+      result(i, static_cast<Eigen::Index>(*above)) =
+          result(static_cast<Eigen::Index>(*above), static_cast<Eigen::Index>(*above));
+  return result;
+}
+
+std::vector<OwnValues> FitProblem::own(const Eigen::VectorXd& values) const {
+  std::vector<OwnValues> result;
+  result.reserve(experiments_.size());
+  for (const auto& experiment : experiments_) result.push_back(experiment->own_start);
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (parameters_[i].owner == Owner::record)
+      result[parameters_[i].index][static_cast<std::size_t>(parameters_[i].own)] =
+          values[static_cast<Eigen::Index>(i)];
+  return result;
+}
+
+bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const {
+  const Eigen::VectorXd p = values(q);
+  return guarded([&] {
+    const std::optional<Rig> rig = with_values(rig_, parameters_, p);
+    const std::optional<sim::Model> model = rig ? model_of(*rig) : std::nullopt;
+    if (!model) return false;
+    const std::vector<OwnValues> owned = own(p);
+    result.resize(rows_);
+    std::atomic<bool> ok = true;
+    sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
+      Eigen::VectorXd part;
+      if (!guarded([&] { return experiments_[e]->predict(*model, owned[e], part); }))
+        ok = false;
+      else
+        result.segment(begins_[e], part.size()) = part;
+    });
+    return ok.load();
+  });
+}
+
+bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian) const {
+  if (!outputs(q, result)) return false;
+  const std::optional<Rig> middle_rig = with_values(rig_, parameters_, values(q));
+  const std::optional<sim::Model> middle = middle_rig ? model_of(*middle_rig) : std::nullopt;
+  if (!middle) return false;
+  std::vector<std::unique_ptr<Neighbours>> neighbours(experiments_.size());
+  if (!guarded([&] {
+        for (std::size_t e = 0; e < experiments_.size(); ++e) neighbours[e] = experiments_[e]->neighbours(*middle);
+        return true;
+      }))
+    return false;
+  std::vector<Column> columns;
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
+    const double h = c.logarithmic ? step : step * std::max(1.0, std::abs(q[i]));
+    columns.push_back({i, std::max(q[i] - h, c.low), result});
+    columns.push_back({i, std::min(q[i] + h, c.high), result});
+  }
+  sim::in_parts(columns.size(), 1, 0, [&](std::size_t number, std::size_t) {
+    Column& column = columns[number];
+    Eigen::VectorXd there = q;
+    there[column.parameter] = column.q;
+    const Eigen::VectorXd p = values(there);
+    const FitParameter& parameter = parameters_[static_cast<std::size_t>(column.parameter)];
+    column.ok = guarded([&] {
+      const std::optional<Rig> rig = with_values(rig_, parameters_, p);
+      const std::optional<sim::Model> model = rig ? model_of(*rig) : std::nullopt;
+      if (!model) return false;
+      const std::vector<OwnValues> owned = own(p);
+      Eigen::VectorXd part;
+      for (std::size_t e = 0; e < experiments_.size(); ++e) {
+        if (parameter.owner == Owner::record && parameter.index != e) continue;
+        if (!neighbours[e]->predict(*model, owned[e], part)) return false;
+        column.outputs.segment(begins_[e], part.size()) = part;
+      }
+      return true;
+    });
+  });
+  jacobian.resize(rows_, q.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    // Where the model ends on one side, the difference is taken on the other.
+    Column& below = columns[static_cast<std::size_t>(2 * i)];
+    Column& above = columns[static_cast<std::size_t>(2 * i + 1)];
+    if (!below.ok) below.outputs = result, below.q = q[i];
+    if (!above.ok) above.outputs = result, above.q = q[i];
+    if (!(above.q > below.q)) return false;
+    jacobian.col(i) = (above.outputs - below.outputs) / (above.q - below.q);
+  }
+  return jacobian.allFinite();
+}
+
+}  // namespace dualdamp::identify

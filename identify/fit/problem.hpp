@@ -1,0 +1,79 @@
+#pragma once
+/// A fit as a problem of least squares: the outputs of all experiments over one set of parameters.
+///
+///   r_i = (output_i(p) - measured_i)/s_i,   s_i: noise of the signal
+///
+/// A parameter whose range has zero as an open end is sought by its logarithm; one that is at least another by how
+/// far it is above; the others in units of their size. Derivatives are central differences of the motion, which the
+/// engines compute through its events: of steady states by Newton's method from the orbit in the middle.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "identify/fit/experiment.hpp"
+#include "identify/fit/rig.hpp"
+
+namespace dualdamp::identify {
+
+/// How a parameter is sought.
+struct Coordinate {
+  bool logarithmic = false;
+  double size = 1.0;  ///< one unit of it; of a logarithm a factor e is one unit
+  double low = 0.0;   ///< in coordinates
+  double high = 0.0;
+};
+
+/// Rows [begin, end) of one signal of one experiment.
+struct SignalRows {
+  std::size_t experiment = 0;
+  std::size_t signal = 0;
+  Eigen::Index begin = 0;
+  Eigen::Index end = 0;
+};
+
+class FitProblem {
+ public:
+  using Experiments = std::vector<std::unique_ptr<Experiment>>;
+
+  /// `sizes`: of each parameter, > 0, in its unit. All outlive this.
+  FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
+             const std::vector<double>& sizes);
+
+  [[nodiscard]] Eigen::Index rows() const { return rows_; }
+  [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
+  [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+  [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
+
+  /// Values of the parameters from coordinates, and back; values beyond a bound are taken to it.
+  [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& q) const;
+  [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& values) const;
+  /// d(values)/d(coordinates).
+  [[nodiscard]] Eigen::MatrixXd slope(const Eigen::VectorXd& q) const;
+
+  /// Outputs, unscaled. False: the rig has no such motion, or a law refuses the values.
+  [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const;
+  /// Outputs and their derivatives by the coordinates.
+  [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result,
+                                 Eigen::MatrixXd& jacobian) const;
+
+  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
+  /// What each experiment has of its own at these values.
+  [[nodiscard]] std::vector<OwnValues> own(const Eigen::VectorXd& values) const;
+
+ private:
+  struct Column;
+
+  [[nodiscard]] Eigen::Index begin_of(std::size_t experiment) const { return begins_[experiment]; }
+
+  const Rig& rig_;
+  const std::vector<FitParameter>& parameters_;
+  const Experiments& experiments_;
+  std::vector<Coordinate> coordinates_;
+  std::vector<SignalRows> signals_;
+  std::vector<Eigen::Index> begins_;  ///< of each experiment
+  Eigen::VectorXd measured_;
+  Eigen::Index rows_ = 0;
+};
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,44 @@
+#pragma once
+/// Intervals by profile likelihood: a parameter is held off its estimate, and the others take their best values.
+///
+/// These follow by Gauss and Newton's steps with the derivatives at the estimate, two or three of them: cheap, for
+/// nothing is differentiated anew. The ends lie where the sum of squares has grown by the square of a limit.
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "identify/fit/fit.hpp"
+
+namespace dualdamp::identify {
+
+class Profiler {
+ public:
+  /// `rows`, `residuals`: weighted, at the estimate `q`. All outlive this.
+  Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& q,
+           const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals);
+
+  /// Calls `work` for 0 ... count - 1, on all cores.
+  static void for_each(Eigen::Index count, const std::function<void(Eigen::Index)>& work);
+
+  /// Values of parameter `i` at both ends; `unknown` where the sum of squares does not grow that far. The end of
+  /// its range ends the interval too. `limit`: of the root of the growth.
+  [[nodiscard]] std::array<double, 2> interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
+
+ private:
+  /// The root of the growth of the sum of squares where parameter `i` is `value`; nothing where there is no motion.
+  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value) const;
+  [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
+
+  const FitProblem& problem_;
+  const Eigen::VectorXd& weights_;
+  const Eigen::VectorXd& q_;
+  const Eigen::MatrixXd& rows_;
+  const Eigen::VectorXd& residuals_;
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd unit_;  ///< of each coordinate, which makes the diagonal of the normal matrix one
+  double squares_ = 0.0;
+};
+
+}  // namespace dualdamp::identify

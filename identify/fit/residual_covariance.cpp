@@ -1,0 +1,39 @@
+#include "identify/fit/residual_covariance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dualdamp::identify {
+
+std::vector<double> autocorrelation(const Eigen::VectorXd& residuals, bool is_sampled) {
+  std::vector<double> rho{1.0};
+  const double variance = residuals.squaredNorm();
+  constexpr Eigen::Index least = 50;
+  if (!is_sampled || residuals.size() < least || !(variance > 0.0)) return rho;
+  const double chance = 2.0 / std::sqrt(static_cast<double>(residuals.size()));
+  constexpr Eigen::Index most = 2000;
+  const Eigen::Index longest = std::min(most, residuals.size() / 10);
+  Eigen::Index last = longest;
+  for (Eigen::Index lag = 1; lag <= last; ++lag) {
+    const Eigen::Index count = residuals.size() - lag;
+    rho.push_back(residuals.head(count).dot(residuals.tail(count)) / variance);
+    if (last == longest && rho.back() < chance) last = std::min(longest, 2 * lag);
+  }
+  return rho;
+}
+
+Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals, double variance,
+                                 bool is_sampled, bool scores) {
+  const Eigen::MatrixXd factors = scores ? Eigen::MatrixXd(residuals.asDiagonal() * rows) : rows;
+  const std::vector<double> rho = autocorrelation(residuals, is_sampled);
+  const double unit = scores ? 1.0 : variance;
+  Eigen::MatrixXd sum = unit * (factors.transpose() * factors);
+  for (std::size_t l = 1; l < rho.size(); ++l) {
+    const Eigen::Index count = rows.rows() - static_cast<Eigen::Index>(l);
+    const Eigen::MatrixXd part = factors.bottomRows(count).transpose() * factors.topRows(count);
+    sum += (scores ? 1.0 : variance * rho[l]) * bartlett(l, rho.size()) * (part + part.transpose());
+  }
+  return sum;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,325 @@
+#include "identify/fit/rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "friction_models/registry.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using friction::Parameter;
+using friction::ParameterKind;
+using friction::ParameterValues;
+
+constexpr friction::Range positive{.low = 0.0, .low_open = true};
+
+/// The number at `path` of the values; nullptr where a record or an item on the way is not there. A number on the
+/// top level that is not there is created.
+double* number_at(ParameterValues& values, std::string_view path) {
+  const std::size_t cut = path.find('.');
+  std::string_view head = path.substr(0, cut);
+  if (cut == std::string_view::npos) {
+    if (!values.has(head)) values.set(head, 0.0);
+    return std::get_if<double>(values.find(head));
+  }
+  std::size_t item = 0;
+  if (const std::size_t bracket = head.find('['); bracket != std::string_view::npos) {
+    item = static_cast<std::size_t>(std::stoul(std::string(head.substr(bracket + 1))));
+    head = head.substr(0, bracket);
+  }
+  ParameterValues::Value* value = values.find(head);
+  auto* list = value == nullptr ? nullptr : std::get_if<std::vector<ParameterValues>>(value);
+  if (list == nullptr || item >= list->size()) return nullptr;
+  return number_at((*list)[item], path.substr(cut + 1));
+}
+
+double stated_number(ParameterValues values, const std::string& path) {
+  const bool top = path.find('.') == std::string::npos;
+  if (top && !values.has(path)) return unknown;
+  const double* number = number_at(values, path);
+  return number == nullptr ? unknown : *number;
+}
+
+class LawNumbers {
+ public:
+  LawNumbers(const RigLaw& law, std::size_t index) : law_(law), index_(index) {}
+
+  [[nodiscard]] std::vector<FitParameter> all() {
+    walk(law_.entry->parameters, law_.values, "");
+    return std::move(found_);
+  }
+
+ private:
+  void walk(const std::vector<Parameter>& table, const ParameterValues& values, const std::string& prefix) {
+    for (const Parameter& parameter : table) {
+      const std::string path = prefix + std::string(parameter.name);
+      if (parameter.kind == ParameterKind::number) {
+        // Of the other form of the law.
+        if (!parameter.instead_of.empty() && values.has(parameter.instead_of)) continue;
+        found_.push_back({.name = path,
+                          .unit = std::string(parameter.unit.empty() ? "1" : parameter.unit),
+                          .owner = Owner::law,
+                          .index = index_,
+                          .path = path,
+                          .range = parameter.range,
+                          .stated = stated_number(law_.values, path),
+                          .at_least = parameter.at_least.empty() ? "" : prefix + std::string(parameter.at_least)});
+      } else if (values.has(parameter.name) &&
+                 (parameter.kind == ParameterKind::record || parameter.kind == ParameterKind::list)) {
+        const std::vector<ParameterValues>& items = values.list(parameter.name);
+        for (std::size_t i = 0; i < items.size(); ++i)
+          walk(parameter.fields, items[i],
+               path + (parameter.kind == ParameterKind::list ? "[" + std::to_string(i) + "]." : "."));
+      }
+    }
+  }
+
+  const RigLaw& law_;
+  std::size_t index_;
+  std::vector<FitParameter> found_;
+};
+
+struct SystemNumber {
+  const char* name;
+  const char* unit;
+  Owner owner;
+  friction::Range range;
+};
+
+const std::vector<SystemNumber>& system_numbers() {
+  static const std::vector<SystemNumber> list = {{"mass", "kg", Owner::mass, positive},
+                                                 {"stiffness", "N/m", Owner::stiffness, positive},
+                                                 {"cubic_stiffness", "N/m^3", Owner::cubic_stiffness, {}},
+                                                 {"damping", "N.s/m", Owner::damping, {.low = 0.0}},
+                                                 {"damping_ratio", "1", Owner::damping_ratio, {.low = 0.0}},
+                                                 {"phase", "rad", Owner::phase, {}},
+                                                 {"force_offset", "N", Owner::force_offset, {}}};
+  return list;
+}
+
+double stated_number(const sim::Model& model, Owner owner) {
+  const sim::Oscillator& o = model.oscillator;
+  switch (owner) {
+    case Owner::mass:
+      return o.mass;
+    case Owner::stiffness:
+      return o.stiffness;
+    case Owner::cubic_stiffness:
+      return o.cubic_stiffness;
+    case Owner::damping:
+      return o.damping;
+    case Owner::damping_ratio:
+      return 0.5 * o.damping / std::sqrt(o.mass * o.stiffness);
+    case Owner::phase:
+      return model.excitation.phase;
+    case Owner::force_offset:
+      return model.excitation.offset;
+    default:
+      return unknown;
+  }
+}
+
+std::string qualified(const FitParameter& parameter, std::size_t laws) {
+  if (parameter.owner == Owner::record) return parameter.name;
+  if (parameter.owner != Owner::law) return "system." + parameter.name;
+  return (laws > 1 ? "friction[" + std::to_string(parameter.index) + "]." : "friction.") + parameter.path;
+}
+
+/// Where the static level is that of the kinetic one by default, a speed over which it falls would have no meaning.
+bool is_level_of_rest(const friction::LawEntry& law, const Parameter& parameter) {
+  return !parameter.same_as.empty() && parameter.name == "static" &&
+         std::ranges::find(law.parameters, "stribeck_velocity", &Parameter::name) != law.parameters.end();
+}
+
+void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitParameter>& all,
+                 std::vector<FitParameter>& missing, std::vector<std::string>& faults) {
+  ParameterValues completed = law.values;
+  std::vector<std::string> names;
+  for (const friction::ParameterFault& fault : friction::complete(*law.entry, completed)) {
+    if (!fault.is_missing) continue;
+    std::vector<std::string> instead = names_instead_of(law.entry->parameters, fault.name);
+    const auto own = std::ranges::find(law.entry->parameters, fault.name, &Parameter::name);
+    if (own != law.entry->parameters.end() && own->kind == ParameterKind::number) {
+      names.push_back(fault.name);
+    } else if (!instead.empty()) {
+      for (const Parameter& parameter : law.entry->parameters)
+        if (std::ranges::find(instead, parameter.name) != instead.end() && parameter.required())
+          names.emplace_back(parameter.name);
+    } else {
+      faults.push_back("'" + fault.name + "' of " + std::string(law.entry->name) +
+                       " is missing: state how many there are, with values to begin with");
+    }
+  }
+  for (const Parameter& parameter : law.entry->parameters)
+    if (is_level_of_rest(*law.entry, parameter) && !law.values.has(parameter.name))
+      names.emplace_back(parameter.name);
+  for (const FitParameter& parameter : all)
+    if (parameter.owner == Owner::law && parameter.index == index &&
+        std::ranges::find(names, parameter.path) != names.end())
+      missing.push_back(parameter);
+}
+
+/// The list that a share belongs to: "elements[2].share" gives "elements".
+std::string list_of_share(const std::string& path) {
+  return path.ends_with("].share") ? path.substr(0, path.find('[')) : std::string();
+}
+
+/// The last share of each list is what the others leave of 1.
+bool complete_shares(ParameterValues& values) {
+  for (const auto& [name, value] : values.values()) {
+    const auto* items = std::get_if<std::vector<ParameterValues>>(&value);
+    if (items == nullptr || items->size() < 2 || !items->front().has("share")) continue;
+    double left = 1.0;
+    for (std::size_t i = 0; i + 1 < items->size(); ++i) left -= (*items)[i].number("share");
+    if (!(left > 0.0)) return false;
+    *number_at(values, name + "[" + std::to_string(items->size() - 1) + "].share") = left;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<FitParameter> parameters_of(const Rig& rig) {
+  std::vector<FitParameter> all;
+  for (const auto& [name, unit, owner, range] : system_numbers()) {
+    if (owner == Owner::phase && !rig.known.excitation.is_harmonic()) continue;
+    if (owner == Owner::force_offset && rig.known.excitation.type != sim::ExcitationType::force_harmonic) continue;
+    all.push_back(
+        {.name = name, .unit = unit, .owner = owner, .range = range, .stated = stated_number(rig.known, owner)});
+  }
+  for (std::size_t i = 0; i < rig.laws.size(); ++i)
+    for (FitParameter& parameter : LawNumbers(rig.laws[i], i).all()) all.push_back(std::move(parameter));
+  return all;
+}
+
+std::vector<FitParameter> unstated_parameters(const Rig& rig, std::vector<std::string>& faults) {
+  const std::vector<FitParameter> all = parameters_of(rig);
+  std::vector<FitParameter> missing;
+  for (const FitParameter& parameter : all)
+    if ((parameter.owner == Owner::mass || parameter.owner == Owner::stiffness ||
+         parameter.owner == Owner::damping) &&
+        std::isnan(parameter.stated))
+      missing.push_back(parameter);
+  for (std::size_t i = 0; i < rig.laws.size(); ++i) add_missing(rig.laws[i], i, all, missing, faults);
+  return missing;
+}
+
+std::vector<FitParameter> named(const std::vector<FitParameter>& all, const std::string& name, std::string& fault) {
+  std::size_t laws = 0;
+  for (const FitParameter& parameter : all)
+    if (parameter.owner == Owner::law) laws = std::max(laws, parameter.index + 1);
+  const auto is_below = [&](const std::string& path) {
+    return path == name || path.starts_with(name + "[") || path.starts_with(name + ".");
+  };
+  std::vector<FitParameter> found;
+  for (const FitParameter& parameter : all)
+    if (is_below(parameter.name) || is_below(qualified(parameter, laws))) found.push_back(parameter);
+  if (found.empty()) {
+    fault = "there is no number '" + name + "' to fit";
+    return {};
+  }
+  const auto different = [&](const FitParameter& other) {
+    return other.owner != found.front().owner || other.index != found.front().index;
+  };
+  if (std::ranges::any_of(found, different)) {
+    fault = "'" + name + "' may be ";
+    for (std::size_t i = 0; i < found.size(); ++i) fault += (i == 0 ? "" : " or ") + qualified(found[i], laws);
+    return {};
+  }
+  return found;
+}
+
+void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
+  std::map<std::pair<std::size_t, std::string>, std::pair<std::size_t, std::size_t>> shares;  // last, count
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (const std::string list = list_of_share(parameters[i].path); !list.empty()) {
+      auto& [last, count] = shares[{parameters[i].index, list}];
+      last = i;
+      ++count;
+    }
+  std::vector<std::size_t> left_out;
+  for (const auto& [key, share] : shares)
+    if (share.second == rig.laws[key.first].values.list(key.second).size()) left_out.push_back(share.first);
+  std::ranges::sort(left_out, std::greater<>());
+  for (const std::size_t i : left_out) parameters.erase(parameters.begin() + static_cast<std::ptrdiff_t>(i));
+
+  const std::vector<FitParameter> all = parameters_of(rig);
+  for (FitParameter& parameter : parameters) {
+    if (parameter.owner == Owner::record) continue;
+    const auto same = std::ranges::count(all, parameter.name, &FitParameter::name);
+    if (same > 1) parameter.name = qualified(parameter, rig.laws.size());
+    if (parameter.at_least.empty()) continue;
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      if (parameters[j].owner == Owner::law && parameters[j].index == parameter.index &&
+          parameters[j].path == parameter.at_least)
+        parameter.above = j;
+    if (parameter.above) continue;
+    const double other = stated_number(rig.laws[parameter.index].values, parameter.at_least);
+    if (!std::isnan(other)) parameter.range.low = std::max(parameter.range.low, other);
+  }
+}
+
+std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& parameters,
+                               const Eigen::VectorXd& values) {
+  Rig result = rig;
+  sim::Oscillator& o = result.known.oscillator;
+  std::optional<double> ratio;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& parameter = parameters[i];
+    const double value = values[static_cast<Eigen::Index>(i)];
+    switch (parameter.owner) {
+      case Owner::mass:
+        o.mass = value;
+        break;
+      case Owner::stiffness:
+        o.stiffness = value;
+        break;
+      case Owner::cubic_stiffness:
+        o.cubic_stiffness = value;
+        break;
+      case Owner::damping:
+        o.damping = value;
+        break;
+      case Owner::damping_ratio:
+        ratio = value;
+        break;
+      case Owner::phase:
+        result.known.excitation.phase = value;
+        break;
+      case Owner::force_offset:
+        result.known.excitation.offset = value;
+        break;
+      case Owner::law: {
+        double* number = number_at(result.laws[parameter.index].values, parameter.path);
+        if (number == nullptr) return std::nullopt;
+        *number = value;
+        break;
+      }
+      case Owner::record:
+        break;
+    }
+  }
+  if (ratio) o.damping = 2.0 * *ratio * std::sqrt(o.mass * o.stiffness);
+  for (RigLaw& law : result.laws) {
+    const bool sought = std::ranges::any_of(
+        parameters, [](const FitParameter& parameter) { return !list_of_share(parameter.path).empty(); });
+    if (sought && !complete_shares(law.values)) return std::nullopt;
+    if (!friction::complete(*law.entry, law.values).empty()) return std::nullopt;
+  }
+  return result;
+}
+
+std::optional<sim::Model> model_of(Rig rig) {
+  sim::Model model = std::move(rig.known);
+  for (RigLaw& law : rig.laws) {
+    if (!friction::complete(*law.entry, law.values).empty()) return std::nullopt;
+    for (friction::Law& made : law.entry->make(law.values)) model.friction.push_back(std::move(made));
+  }
+  return model;
+}
+
+}  // namespace dualdamp::identify

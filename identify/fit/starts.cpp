@@ -1,0 +1,161 @@
+#include "identify/fit/starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace dualdamp::identify {
+
+namespace {
+
+double largest(const std::vector<double>& values) {
+  double mean = 0.0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  double result = 0.0;
+  for (const double value : values) result = std::max(result, std::abs(value - mean));
+  return result;
+}
+
+/// Angular frequency of a sampled signal by its crossings of the mean.
+double crossing_frequency(const Signal& signal) {
+  double mean = 0.0;
+  for (const double value : signal.measured) mean += value / static_cast<double>(signal.measured.size());
+  const double margin = 0.1 * largest(signal.measured);
+  int crossings = 0;
+  int side = 0;
+  for (const double value : signal.measured) {
+    const int now = value > mean + margin ? 1 : value < mean - margin ? -1 : side;
+    if (side != 0 && now != side) ++crossings;
+    side = now;
+  }
+  const double duration = signal.at.back() - signal.at.front();
+  return std::numbers::pi * std::max(crossings, 1) / duration;
+}
+
+double frequency_of(const Experiment& experiment) {
+  for (const Signal& signal : experiment.signals) {
+    if (signal.at_name == "omega") return signal.at[signal.at.size() / 2];
+    if (signal.name == "t")
+      return std::numbers::pi * static_cast<double>(signal.measured.size() - 1) /
+             (signal.measured.back() - signal.measured.front());
+  }
+  const Signal& signal = experiment.signals.front();
+  return signal.is_sampled && signal.name != "force" ? crossing_frequency(signal) : unknown;
+}
+
+bool is_known(double value) { return value > 0.0 && std::isfinite(value); }
+
+/// In units of the data, a plain number, and how far a start may lie from it.
+struct Guess {
+  double size = 1.0;
+  double spread = 10.0;
+};
+
+Guess guess_of(const FitParameter& parameter, const DataScale& s) {
+  const double time = s.length / s.speed;
+  const std::map<std::string, Guess, std::less<>> by_unit = {
+      {"N", {0.15 * s.force, 15.0}},
+      {"N/m", {10.0 * s.force / s.length, 100.0}},
+      {"N.s/m", {0.1 * s.force / s.speed, 30.0}},
+      {"N.s^2/m^2", {0.1 * s.force / (s.speed * s.speed), 30.0}},
+      {"N/m^3", {0.1 * s.force / (s.length * s.length * s.length), 10.0}},
+      {"m", {0.03 * s.length, 30.0}},
+      {"m/s", {0.2 * s.speed, 15.0}},
+      {"s", {0.05 * time, 30.0}},
+      {"1/s", {1.0 / time, 30.0}},
+      {"N/s", {3.0 * s.force / time, 30.0}},
+      {"W", {s.force * s.speed, 30.0}},
+      {"kg", {s.mass, 10.0}},
+      {"rad", {1.0, 3.0}},
+      {"1", {0.5, 5.0}}};
+  switch (parameter.owner) {
+    case Owner::mass:
+      return {s.mass, 3.0};
+    case Owner::stiffness:
+      return {s.stiffness, 3.0};
+    case Owner::damping:
+      return {0.1 * std::sqrt(s.mass * s.stiffness), 10.0};
+    case Owner::damping_ratio:
+      return {0.05, 10.0};
+    case Owner::record:
+      return {parameter.unit == "s" ? time : parameter.unit == "m/s" ? s.speed : s.length, 1.0};
+    default:
+      break;
+  }
+  const auto found = by_unit.find(parameter.unit);
+  return found == by_unit.end() ? Guess{} : found->second;
+}
+
+/// Roots of x^(d+1) = x + 1: their powers fill a cube of d dimensions evenly (Roberts' sequence).
+double share_of(int number, std::size_t dimension, std::size_t dimensions) {
+  double root = 2.0;
+  for (int i = 0; i < 40; ++i) root = std::pow(1.0 + root, 1.0 / (static_cast<double>(dimensions) + 1.0));
+  const double step = std::pow(1.0 / root, static_cast<double>(dimension) + 1.0);
+  return std::fmod(0.5 + step * number, 1.0);
+}
+
+}  // namespace
+
+DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments) {
+  DataScale scale;
+  double length = 0.0;
+  double speed = 0.0;
+  double force = 0.0;
+  double omega = rig.known.excitation.frequency;
+  for (const auto& experiment : experiments) {
+    if (!is_known(omega)) omega = frequency_of(*experiment);
+    for (const Signal& signal : experiment->signals) {
+      if (signal.unit == "m")
+        length = std::max(length, experiment->kind == ExperimentKind::steady_states
+                                      ? *std::ranges::max_element(signal.measured)
+                                      : largest(signal.measured));
+      if (signal.unit == "m/s") speed = std::max(speed, largest(signal.measured));
+      if (signal.unit == "N") force = std::max(force, largest(signal.measured));
+    }
+  }
+  const sim::Oscillator& o = rig.known.oscillator;
+  if (!is_known(omega)) omega = is_known(o.mass) && is_known(o.stiffness) ? std::sqrt(o.stiffness / o.mass) : 1.0;
+  scale.mass = is_known(o.mass) ? o.mass : is_known(o.stiffness) ? o.stiffness / (omega * omega) : 1.0;
+  scale.stiffness = is_known(o.stiffness) ? o.stiffness : scale.mass * omega * omega;
+  const double natural = std::sqrt(scale.stiffness / scale.mass);
+  if (length == 0.0) length = speed > 0.0 ? speed / natural : 1.0;
+  scale.length = length;
+  scale.speed = speed > 0.0 ? speed : length * (is_known(omega) ? omega : natural);
+  scale.force = force > 0.0 ? force : scale.stiffness * length;
+  return scale;
+}
+
+double size_of(const FitParameter& parameter, const DataScale& scale) {
+  const double stated = std::abs(parameter.stated);
+  return is_known(stated) && parameter.owner != Owner::record ? stated : guess_of(parameter, scale).size;
+}
+
+Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,
+                         int number) {
+  const DataScale unit;
+  // Beside numbers that nobody stated the stated ones keep their values.
+  const bool all_stated =
+      std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
+  Eigen::VectorXd start(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& parameter = parameters[i];
+    const bool is_stated = !std::isnan(parameter.stated);
+    const double share = number == 0 ? 0.5 : share_of(number, i, parameters.size());
+    const double about_stated = all_stated ? 1.5 : 1.0;
+    const double spread = is_stated ? about_stated : guess_of(parameter, unit).spread;
+    double value = sizes[i] * std::pow(spread, 2.0 * share - 1.0);
+    if (parameter.owner == Owner::record)
+      value = parameter.stated;
+    else if (is_stated && (number == 0 || !(parameter.stated > 0.0)))
+      value = parameter.stated;
+    else if (parameter.range.low < 0.0)
+      value = is_stated ? value : sizes[i] * (2.0 * share - 1.0);
+    if (parameter.above && !(is_stated && number == 0))
+      value = start[static_cast<Eigen::Index>(*parameter.above)] * (1.0 + share);
+    start[static_cast<Eigen::Index>(i)] = value;
+  }
+  return start;
+}
+
+}  // namespace dualdamp::identify

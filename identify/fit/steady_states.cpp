@@ -1,0 +1,141 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "friction_models/law_fault.hpp"
+#include "identify/fit/experiments.hpp"
+#include "sim/orbits/steady_state_near.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+struct Level {
+  double Y = 0.0;
+  double omega = 0.0;
+};
+
+sim::Model driven(const sim::Model& model, const Level& level, bool by_force) {
+  sim::Model result = model;
+  result.excitation.type = by_force ? sim::ExcitationType::force_harmonic : sim::ExcitationType::base_harmonic;
+  result.excitation.amplitude = level.Y;
+  result.excitation.frequency = level.omega;
+  return result;
+}
+
+class SteadyStates final : public Experiment {
+ public:
+  SteadyStates(const PairRecord& record, const ExperimentOptions& options) : by_force_(options.force_driven) {
+    kind = ExperimentKind::steady_states;
+    Signal x{.name = "x", .unit = "m", .noise = options.sigma_x, .is_stated = options.sigma_x > 0.0};
+    Signal phase{
+        .name = "phase", .unit = "rad", .noise = options.sigma_phase, .is_stated = options.sigma_phase > 0.0};
+    for (const Pair& pair : record.pairs)
+      levels_.push_back({pair.Y, std::isnan(pair.omega) ? options.frequency : pair.omega});
+    const bool over_frequency = levels_.back().omega != levels_.front().omega;
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const double at = over_frequency ? levels_[i].omega : levels_[i].Y;
+      x.measured.push_back(record.pairs[i].x);
+      x.at.push_back(at);
+      if (std::isnan(record.pairs[i].phase)) continue;
+      phase.measured.push_back(record.pairs[i].phase);
+      phase.at.push_back(at);
+      with_phase_.push_back(i);
+    }
+    for (Signal* signal : {&x, &phase}) {
+      signal->at_name = over_frequency ? "omega" : "Y";
+      signal->at_unit = over_frequency ? "rad/s" : by_force_ ? "N" : "m";
+    }
+    signals.push_back(std::move(x));
+    if (!with_phase_.empty()) signals.push_back(std::move(phase));
+  }
+
+  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
+    return fill(outputs, [&](std::size_t i) {
+      return sim::steady_state(driven(model, levels_[i], by_force_), options(model));
+    });
+  }
+
+  [[nodiscard]] std::vector<std::pair<double, double>> levels() const override {
+    std::vector<std::pair<double, double>> list;
+    for (const Level& level : levels_) list.emplace_back(level.Y, level.omega);
+    return list;
+  }
+
+  [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const override {
+    return std::make_unique<Near>(*this, model);
+  }
+
+ private:
+  /// Newton's method from the known orbits.
+  class Near final : public Neighbours {
+   public:
+    Near(const SteadyStates& states, const sim::Model& model) : states_(states) {
+      for (const Level& level : states.levels_) {
+        const sim::Model there = driven(model, level, states.by_force_);
+        orbits_.push_back(sim::known_orbit(there, sim::steady_state(there, states.options(model))));
+      }
+    }
+    [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
+      return states_.fill(outputs, [&](std::size_t i) {
+        return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
+                                      states_.options(model));
+      });
+    }
+
+   private:
+    const SteadyStates& states_;
+    std::vector<sim::KnownOrbit> orbits_;
+  };
+
+  [[nodiscard]] sim::SteadyStateOptions options(const sim::Model& model) const {
+    sim::SteadyStateOptions options;
+    options.tolerance = std::max(options.tolerance, 1e-2 * model.solver.tolerance);
+    options.max_periods = 2000;
+    options.full_account = !with_phase_.empty();
+    return options;
+  }
+
+  template <typename Find>
+  bool fill(Eigen::VectorXd& outputs, Find find) const {
+    outputs.resize(size());
+    std::size_t phases = 0;
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const sim::SteadyState state = find(i);
+      if (!state.outcome.ok()) return false;
+      outputs[static_cast<Eigen::Index>(i)] = state.amplitude;
+      if (phases == with_phase_.size() || with_phase_[phases] != i) continue;
+      // Of all that differ by whole turns the one next to the measured one.
+      const double measured = signals[1].measured[phases];
+      outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
+          measured + std::remainder(state.phase - measured, 2.0 * std::numbers::pi);
+      ++phases;
+    }
+    return true;
+  }
+
+  std::vector<Level> levels_;
+  std::vector<std::size_t> with_phase_;  ///< levels
+  bool by_force_;
+};
+
+}  // namespace
+
+std::unique_ptr<Experiment> steady_states(const PairRecord& record, const ExperimentOptions& options,
+                                          std::string& fault) {
+  PairRecord usable;
+  for (const Pair& pair : record.pairs) {
+    if (std::isnan(pair.omega) && std::isnan(options.frequency)) {
+      fault = "x-Y pairs need the forcing frequency at which they were measured";
+      return nullptr;
+    }
+    if (pair.Y > 0.0) usable.pairs.push_back(pair);
+  }
+  if (usable.pairs.empty()) {
+    fault = "the record holds no pair with a positive input amplitude";
+    return nullptr;
+  }
+  return std::make_unique<SteadyStates>(usable, options);
+}
+
+}  // namespace dualdamp::identify

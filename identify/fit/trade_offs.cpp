@@ -1,0 +1,71 @@
+#include "identify/fit/trade_offs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  return text;
+}
+
+std::string percent(double share) { return core::format_number(100.0 * std::abs(share), 2) + " %"; }
+
+/// "sigma1 and damping trade off one to one".
+std::string pair_text(const WeakDirection& direction, const std::vector<FitParameter>& parameters, Eigen::Index a,
+                      Eigen::Index b) {
+  const FitParameter& first = parameters[static_cast<std::size_t>(a)];
+  const FitParameter& second = parameters[static_cast<std::size_t>(b)];
+  const double ratio = direction.change[a] / direction.change[b];
+  const std::string both = first.name + " and " + second.name + (ratio < 0.0 ? " trade off" : " go together");
+  constexpr double equal = 0.1;
+  if (first.unit == second.unit && std::abs(std::abs(ratio) - 1.0) < equal) return both + " one to one";
+  constexpr double small = 0.1;
+  const double shares = direction.share[b] / direction.share[a];
+  return both + ": 10 % more of " + first.name + " with " + percent(small * shares) +
+         (shares < 0.0 ? " less of " : " more of ") + second.name;
+}
+
+}  // namespace
+
+TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters) {
+  std::vector<Eigen::Index> order(parameters.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::sort(order, std::greater<>(), [&](Eigen::Index i) { return std::abs(direction.share[i]); });
+  constexpr double part = 0.3;
+  const Eigen::Index first = order.front();
+  const double largest = std::abs(direction.share[first]);
+  // What changes by as much belongs to it, be it a small part of a large number.
+  const auto changes_alike = [&](Eigen::Index i) {
+    return parameters[static_cast<std::size_t>(i)].unit == parameters[static_cast<std::size_t>(first)].unit &&
+           std::abs(direction.change[i]) > part * std::abs(direction.change[first]);
+  };
+  std::erase_if(order,
+                [&](Eigen::Index i) { return std::abs(direction.share[i]) < part * largest && !changes_alike(i); });
+  TradeOff found;
+  for (const Eigen::Index i : order) found.parameters.push_back(parameters[static_cast<std::size_t>(i)].name);
+  const std::string known = std::isfinite(direction.deviation)
+                                ? "; the data leave " + percent(2.0 * direction.deviation * largest) + " of " +
+                                      found.parameters.front() + " open"
+                                : "; nothing in the data holds them";
+  if (order.size() == 1)
+    found.text = std::isfinite(direction.deviation)
+                     ? "the data hardly show " + found.parameters.front() + ": it is known to " +
+                           percent(2.0 * direction.deviation * largest) + " of its value"
+                     : "the data do not show " + found.parameters.front() + " at all";
+  else if (order.size() == 2)
+    found.text = pair_text(direction, parameters, order[0], order[1]) + known;
+  else
+    found.text = joined(found.parameters) + " trade off among each other" + known;
+  return found;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,240 @@
+#include "identify/fit/uncertainty.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "identify/fit/profile.hpp"
+#include "identify/fit/residual_covariance.hpp"
+#include "identify/fit/trade_offs.hpp"
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class Uncertainty {
+ public:
+  Uncertainty(const FitEnd& end, Fit& fit) : end_(end), fit_(fit), size_(end.q.size()) {
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      const Coordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
+      constexpr double near = 1e-6;
+      const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low) * near);
+      const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high) * near);
+      fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
+      if (!low && !high) free_.push_back(i);
+    }
+    rows_ = end.weights.asDiagonal() * end.jacobian;
+    residuals_ = end.weights.cwiseProduct(end.misses);
+    measure_variance();
+    decompose();
+  }
+
+  void run() {
+    const Eigen::MatrixXd slope = end_.problem.slope(end_.q);
+    fit_.covariance = slope * covariance_ * slope.transpose();
+    fit_.slopes = end_.jacobian * slope.inverse();
+    // The bound of a robust fit leaves less freedom than this; with histories there is plenty.
+    const double freedom =
+        all_stated_ ? infinity : std::max(1.0, fit_.log_likelihood_count - static_cast<double>(size_));
+    quantile_ = quantile95(freedom);
+    for (Eigen::Index i = 0; i < size_; ++i) add_interval(i);
+    if (end_.profile) add_profiles(slope);
+    add_trade_offs(slope);
+  }
+
+ private:
+  /// 100 % of a parameter, in coordinates.
+  [[nodiscard]] double whole(Eigen::Index i) const {
+    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    if (c.logarithmic) return 1.0;
+    constexpr double least = 0.1;
+    return std::max(std::abs(end_.q[i]), least);
+  }
+
+  void measure_variance() {
+    all_stated_ = true;
+    const double spent = static_cast<double>(size_) / static_cast<double>(end_.misses.size());
+    for (const SignalRows& rows : end_.problem.signals()) {
+      const Eigen::Index count = rows.end - rows.begin;
+      const double own =
+          residuals_.segment(rows.begin, count).squaredNorm() / (static_cast<double>(count) * (1.0 - spent));
+      // Of stated noise only what chance does not explain is added.
+      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / static_cast<double>(count));
+      const bool as_stated = end_.problem.signal(rows).is_stated && own < chance;
+      all_stated_ = all_stated_ && as_stated;
+      variances_.push_back(as_stated ? 1.0 : own);
+    }
+  }
+
+  void decompose() {
+    const auto free = static_cast<Eigen::Index>(free_.size());
+    covariance_ = Eigen::MatrixXd::Zero(size_, size_);
+    classical_ = covariance_;
+    if (free == 0) return;
+    Eigen::MatrixXd scaled(rows_.rows(), free);
+    for (Eigen::Index j = 0; j < free; ++j)
+      scaled.col(j) = rows_.col(free_[static_cast<std::size_t>(j)]) * whole(free_[static_cast<std::size_t>(j)]);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
+    const double largest = normal.eigenvalues()[free - 1];
+    constexpr double singular = 1e-12;  // of squares
+    Eigen::VectorXd inverse(free);
+    for (Eigen::Index j = 0; j < free; ++j) {
+      const double value = normal.eigenvalues()[j];
+      inverse[j] = value > singular * largest ? 1.0 / value : 0.0;
+      if (inverse[j] == 0.0) lost_.push_back(expand(normal.eigenvectors().col(j)));
+    }
+    const Eigen::MatrixXd bread = normal.eigenvectors() * inverse.asDiagonal() * normal.eigenvectors().transpose();
+    Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(free, free);
+    Eigen::MatrixXd plain = inner;
+    for (std::size_t s = 0; s < variances_.size(); ++s) {
+      const SignalRows& rows = end_.problem.signals()[s];
+      const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.end - rows.begin);
+      inner += score_covariance(part, residuals_.segment(rows.begin, rows.end - rows.begin), variances_[s],
+                                end_.problem.signal(rows).is_sampled, end_.robust);
+      plain += variances_[s] * (part.transpose() * part);
+    }
+    scaled_covariance_ = lift(bread * inner * bread);
+    const Eigen::VectorXd all = whole_all();
+    covariance_ = all.asDiagonal() * scaled_covariance_ * all.asDiagonal();
+    classical_ = all.asDiagonal() * lift(bread * plain * bread) * all.asDiagonal();
+    if (end_.robust) covariance_ *= robust_factor();
+  }
+
+  /// The bound of Huber's residuals makes the curvature of the sum smaller than its weights say.
+  [[nodiscard]] double robust_factor() const {
+    constexpr double huber = 1.345;
+    double weight = 0.0;
+    double inside = 0.0;
+    for (Eigen::Index i = 0; i < residuals_.size(); ++i) {
+      // A bounded residual r has the weighted size sqrt(huber |r|).
+      const double size = std::abs(residuals_[i]);
+      weight += size > huber ? huber * huber / (size * size) : 1.0;
+      inside += size > huber ? 0.0 : 1.0;
+    }
+    return inside > 0.0 ? weight * weight / (inside * inside) : 1.0;
+  }
+
+  [[nodiscard]] Eigen::VectorXd whole_all() const {
+    Eigen::VectorXd all(size_);
+    for (Eigen::Index i = 0; i < size_; ++i) all[i] = whole(i);
+    return all;
+  }
+
+  [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(size_);
+    for (Eigen::Index j = 0; j < part.size(); ++j) all[free_[static_cast<std::size_t>(j)]] = part[j];
+    return all;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd lift(const Eigen::MatrixXd& part) const {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size_, size_);
+    for (Eigen::Index a = 0; a < part.rows(); ++a)
+      for (Eigen::Index b = 0; b < part.cols(); ++b)
+        all(free_[static_cast<std::size_t>(a)], free_[static_cast<std::size_t>(b)]) = part(a, b);
+    return all;
+  }
+
+  [[nodiscard]] bool is_lost(Eigen::Index i) const {
+    constexpr double part = 0.01;
+    const auto& above = fit_.parameters[static_cast<std::size_t>(i)].parameter.above;
+    return std::ranges::any_of(lost_, [&](const Eigen::VectorXd& direction) {
+      return std::abs(direction[i]) > part ||
+             (above && std::abs(direction[static_cast<Eigen::Index>(*above)]) > part);
+    });
+  }
+
+  void add_interval(Eigen::Index i) {
+    FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
+    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    if (fitted.at_bound) {
+      fitted.reason = "it lies at the end of its range";
+      return;
+    }
+    if (is_lost(i)) {
+      fitted.reason = "the data do not determine it";
+      return;
+    }
+    fitted.std = std::sqrt(std::max(fit_.covariance(i, i), 0.0));
+    const double width = quantile_ * fitted.std;
+    if (c.logarithmic) {
+      const double factor = std::exp(std::min(width / fitted.value, 100.0));
+      fitted.interval95 = {fitted.value / factor, fitted.value * factor};
+    } else {
+      fitted.interval95 = {fitted.value - width, fitted.value + width};
+    }
+    const friction::Range& range = fitted.parameter.range;
+    fitted.interval95[0] = std::max(fitted.interval95[0], range.low);
+    fitted.interval95[1] = std::min(fitted.interval95[1], range.high);
+  }
+
+  void add_profiles(const Eigen::MatrixXd& slope) {
+    const Profiler profiler(end_.problem, end_.weights, end_.q, rows_, residuals_);
+    Profiler::for_each(size_, [&](Eigen::Index i) {
+      FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
+      if (is_lost(i) || (fitted.at_bound && free_.empty())) return;
+      // In units of the deviation that residuals alike from sample to sample leave.
+      const double variance = slope.row(i) * classical_ * slope.row(i).transpose();
+      const double widening = fitted.at_bound || !(variance > 0.0)
+                                  ? mean_variance()
+                                  : fit_.covariance(i, i) / variance * mean_variance();
+      fitted.profile95 = profiler.interval(i, fitted, quantile_ * std::sqrt(widening));
+      if (fitted.at_bound && !std::isnan(fitted.profile95[0]) && !std::isnan(fitted.profile95[1]))
+        fitted.interval95 = fitted.profile95;
+    });
+  }
+
+  [[nodiscard]] double mean_variance() const {
+    return std::accumulate(variances_.begin(), variances_.end(), 0.0) / static_cast<double>(variances_.size());
+  }
+
+  void add_trade_offs(const Eigen::MatrixXd& slope) {
+    std::vector<FitParameter> parameters;
+    for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
+    const Eigen::VectorXd all = whole_all();
+    const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
+      fit_.not_identifiable.push_back(
+          trade_off({slope * all.asDiagonal() * direction, direction, deviation}, parameters));
+    };
+    for (const Eigen::VectorXd& direction : lost_) add(direction, infinity);
+    if (free_.empty()) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(scaled_covariance_);
+    for (Eigen::Index j = size_ - 1; j >= 0; --j) {
+      const double deviation = std::sqrt(std::max(spectrum.eigenvalues()[j], 0.0));
+      if (quantile_ * deviation > 1.0) add(spectrum.eigenvectors().col(j), deviation);
+    }
+  }
+
+  const FitEnd& end_;
+  Fit& fit_;
+  Eigen::Index size_;
+  std::vector<Eigen::Index> free_;  ///< parameters that lie at no bound
+  Eigen::MatrixXd rows_;            ///< weighted jacobian
+  Eigen::VectorXd residuals_;       ///< weighted
+  std::vector<double> variances_;   ///< of the weighted residuals of each signal
+  bool all_stated_ = true;
+  Eigen::MatrixXd covariance_;         ///< of coordinates
+  Eigen::MatrixXd classical_;          ///< the same of independent residuals
+  Eigen::MatrixXd scaled_covariance_;  ///< in parts of the parameters' sizes
+  std::vector<Eigen::VectorXd> lost_;  ///< directions that change nothing, in parts of the sizes
+  double quantile_ = 0.0;
+};
+
+}  // namespace
+
+double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled) {
+  const std::vector<double> rho = autocorrelation(residuals, is_sampled);
+  double inflation = 1.0;
+  for (std::size_t l = 1; l < rho.size(); ++l) inflation += 2.0 * bartlett(l, rho.size()) * rho[l];
+  return static_cast<double>(residuals.size()) / std::max(1.0, inflation);
+}
+
+void add_uncertainty(const FitEnd& end, Fit& fit) { Uncertainty(end, fit).run(); }
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,209 @@
+#include "scenarios/analyses/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "friction_models/registry.hpp"
+#include "scenarios/format/excitations.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/measurements/measured_data.hpp"
+#include "scenarios/results/cells.hpp"
+#include "scenarios/results/fits.hpp"
+#include "scenarios/results/fitted_rig.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Field law_list() {
+  std::vector<std::string> names;
+  for (const friction::LawEntry& law : friction::laws()) names.emplace_back(law.name);
+  return word_list("laws", std::move(names), "laws to compare, each by itself, in place of system.friction")
+      .items(1, 32);
+}
+
+Section keys() {
+  return {{data_list("data", "data files of the rig: pairs, responses, decays, histories, loops").required(),
+           data_list("validate", "further data files, which the fitted rig has to predict"), law_list(),
+           text("free",
+                "names of numbers to seek beside those that the system leaves out, with commas: \"kinetic, mass\"; "
+                "what the system states of them is where the search begins"),
+           section_list("bounds",
+                        {{text("name", "a number that is sought").required(), text("low", "its least value"),
+                          text("high", "its largest value")}},
+                        "limits of numbers that are sought")
+               .items(1, 100),
+           boolean("robust", "bounds the influence of readings that do not belong to the others (Huber)"),
+           boolean("profile", "intervals by the profile of the likelihood too").with_fallback(true),
+           integer("starts", "starts of the search; default: 40, or 8 where every number is stated")
+               .at_least(1)
+               .at_most(10'000)}};
+}
+
+struct Setup {
+  std::vector<FitQuestion::Candidate> candidates;
+  identify::Experiments data;
+  identify::Experiments validation;
+};
+
+Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model, bool initial_is_known,
+               const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
+  Setup setup;
+  setup.data = experiments_from(items_of(analysis, files, "data"), "data", model, initial_is_known, faults);
+  setup.validation = experiments_from(items_of(analysis, files, "validate"), "validate", model, false, faults);
+  if (setup.data.empty()) return setup;
+  const Sought sought = sought_of(analysis, initial_is_known);
+  std::vector<std::string> laws = {""};
+  if (analysis.contains("laws")) laws = analysis.at("laws").get<std::vector<std::string>>();
+  for (const std::string& law : laws) {
+    identify::Rig rig = rig_of(system, model, law);
+    std::vector<identify::FitParameter> parameters = parameters_for(rig, setup.data, sought, faults);
+    setup.candidates.push_back({std::move(rig), std::move(parameters)});
+  }
+  return setup;
+}
+
+/// What naming parameters needs of the drive.
+sim::Model outlined_model(const CheckedFile& file) {
+  sim::Model model;
+  model.oscillator.mass = file.number_at("system", "mass").value_or(identify::unknown);
+  model.oscillator.stiffness = file.number_at("system", "stiffness").value_or(identify::unknown);
+  model.oscillator.coordinate = file.coordinate();
+  const std::string type = file.text_at("excitation", "type");
+  if (type == "base_harmonic") model.excitation.type = sim::ExcitationType::base_harmonic;
+  if (type == "force_harmonic") model.excitation.type = sim::ExcitationType::force_harmonic;
+  model.excitation.amplitude = file.number_at("excitation", "amplitude").value_or(0.0);
+  if (file.text_at("excitation", "frequency").ends_with("rad/s"))
+    model.excitation.frequency = *file.number_at("excitation", "frequency");
+  return model;
+}
+
+void check(CheckedFile& file) {
+  read_data_list(file, "data");
+  read_data_list(file, "validate");
+  const bool laws = file.has("analysis", "laws");
+  if (laws && file.stands_in_file("system", "friction"))
+    file.complain("analysis.laws", "'analysis.laws' stands beside 'system.friction', which it replaces",
+                  "one of the two");
+  if (file.has("system", "damping_ratio"))
+    file.complain("system.damping_ratio", "a damping ratio needs the mass and the stiffness",
+                  "damping, or both constants");
+  const bool faulty = file.files.empty() || (laws && file.stands_in_file("system", "friction")) ||
+                      (file.stands_in_file("system", "friction") && !file.has("system", "friction"));
+  if (faulty) return;
+  if (file.has("system", "friction")) {
+    const Json& friction = file.values().at("system").at("friction");
+    for (const Json& law : friction.is_array() ? friction : Json::array({friction}))
+      if (!law.is_object() || !law.contains("law")) return;
+  }
+  std::vector<SetupFault> faults;
+  const Json& values = file.values();
+  static_cast<void>(setup_of(values.at("analysis"), values.value("system", Json::object()), outlined_model(file),
+                             values.contains("initial"), file.files, faults));
+  for (SetupFault& fault : faults) file.complain("analysis." + fault.path, std::move(fault.message));
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  std::vector<SetupFault> faults;
+  Setup setup =
+      setup_of(values.analysis, values.system, values.model, values.initial_is_stated, values.files, faults);
+  std::vector<std::string> warnings;
+  for (const DataFile& file : values.files)
+    for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
+  return std::make_unique<FitQuestion>(std::move(setup.candidates), std::move(setup.data),
+                                       std::move(setup.validation),
+                                       identify::FitOptions{.robust = values.analysis.value("robust", false),
+                                                            .profile = values.analysis.value("profile", true),
+                                                            .starts = values.analysis.value("starts", 0)},
+                                       values.excitation, std::move(warnings));
+}
+
+Table law_table(const std::vector<identify::Fit>& fits, const std::vector<std::size_t>& order) {
+  Table table{.name = "laws", .key = "laws"};
+  Column law{.name = "law", .kind = CellKind::text};
+  Column count{.name = "parameters", .kind = CellKind::count};
+  Column criterion{.name = "AICc"};
+  Column weight{.name = "weight"};
+  Column rms{.name = "rms"};
+  Column units{.name = "noise_units"};
+  Column reason{.name = "reason", .kind = CellKind::text};
+  double sum = 0.0;
+  const auto weight_of = [&](const identify::Fit& fit) {
+    return std::isnan(fit.AICc) ? 0.0 : std::exp(-0.5 * (fit.AICc - fits[order.front()].AICc));
+  };
+  for (const identify::Fit& fit : fits) sum += weight_of(fit);
+  for (const std::size_t i : order) {
+    const identify::Fit& fit = fits[i];
+    law.texts.push_back(laws_text(fit.rig));
+    count.numbers.push_back(static_cast<double>(fit.parameters.size()));
+    criterion.numbers.push_back(fit.AICc);
+    weight.numbers.push_back(std::isnan(fit.AICc) ? none : weight_of(fit) / sum);
+    rms.numbers.push_back(fit.outcome.ok() ? fit.signals.front().rms : none);
+    units.numbers.push_back(fit.noise_units);
+    reason.texts.push_back(fit.outcome.reason);
+  }
+  table.columns = {law, count, criterion, weight, rms, units, reason};
+  return table;
+}
+
+/// Best first: by AICc, those without one behind, those without a fit last.
+std::vector<std::size_t> ranked(const std::vector<identify::Fit>& fits) {
+  std::vector<std::size_t> order(fits.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    return std::tuple(!fits[i].outcome.ok(), std::isnan(fits[i].AICc),
+                      std::isnan(fits[i].AICc) ? 0.0 : fits[i].AICc);
+  });
+  return order;
+}
+
+}  // namespace
+
+Answer FitQuestion::run(const RunContext& /*context*/) const {
+  std::vector<identify::Fit> fits;
+  for (const Candidate& candidate : candidates_)
+    fits.push_back(identify::fit_rig(candidate.rig, candidate.parameters, data_, options_));
+  identify::compare_fits(fits);
+  const std::vector<std::size_t> order = ranked(fits);
+  const identify::Fit& best = fits[order.front()];
+  if (!best.outcome.ok()) return failed(best.outcome.reason);
+  Answer answer;
+  answer.warnings = warnings_;
+  answer.result["law"] = laws_text(best.rig);
+  add_fit(best, data_, answer);
+  answer.result["laws"] = nullptr;
+  answer.tables.push_back(law_table(fits, order));
+  add_curves(best, data_, "fit", answer);
+  if (!validation_.empty()) {
+    const identify::Prediction prediction = identify::predict_records(
+        best.rig, candidates_[order.front()].parameters, shared_covariance(best), validation_, options_);
+    answer.result["validation"] = validation_json(prediction);
+    if (prediction.outcome.ok()) add_curves(prediction.fit, validation_, "prediction", answer);
+    answer.result["verdict"] = prediction.text;
+  }
+  answer.result["scenarios"] = Json::array();
+  for (std::size_t e = 0; e < data_.size(); ++e)
+    answer.result["scenarios"].push_back(
+        scenario_text(best, data_, e, {laws_text(best.rig) + " fitted to " + data_[e]->label, excitation_}));
+  answer.result["scenario"] = answer.result["scenarios"].front();
+  return answer;
+}
+
+const Analysis& fit_analysis() {
+  static const Analysis analysis = {
+      .name = "fit",
+      .summary = "laws and constants of the rig fitted to measured records, and what they predict",
+      .keys = keys(),
+      .needs = {{"", excitations().names(), {}, false, ""}},
+      .results =
+          joined(joined(fit_fields(), validation_fields("validation.")), {{"verdict", "", "of the validation"}}),
+      .seeks_laws = true,
+      .check = check,
+      .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

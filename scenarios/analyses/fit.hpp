@@ -1,0 +1,40 @@
+#pragma once
+/// `fit`: laws and constants of a rig fitted to measured records.
+
+#include <vector>
+
+#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analyses/shared/fit_setup.hpp"
+
+namespace dualdamp::scenarios {
+
+class FitQuestion final : public Question {
+ public:
+  struct Candidate {
+    identify::Rig rig;
+    std::vector<identify::FitParameter> parameters;
+  };
+
+  FitQuestion(std::vector<Candidate> candidates, identify::Experiments data, identify::Experiments validation,
+              identify::FitOptions options, Json excitation, std::vector<std::string> warnings)
+      : candidates_(std::move(candidates)),
+        data_(std::move(data)),
+        validation_(std::move(validation)),
+        options_(options),
+        excitation_(std::move(excitation)),
+        warnings_(std::move(warnings)) {}
+
+  [[nodiscard]] Answer run(const RunContext& context) const override;
+
+ private:
+  std::vector<Candidate> candidates_;  ///< one for each law that is compared
+  identify::Experiments data_;
+  identify::Experiments validation_;
+  identify::FitOptions options_;
+  Json excitation_;
+  std::vector<std::string> warnings_;
+};
+
+[[nodiscard]] const Analysis& fit_analysis();
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,27 @@
+// Measured and fitted curves over each other, and what is left between them.
+
+/** Of the tables PREFIX_RECORD_SIGNAL. */
+function overlays(prefix, word) {
+  return Object.keys(tables).filter((name) => name.startsWith(`${prefix}_`)).flatMap((name) => {
+    const [, record, signal] = name.match(/_(\d+)_(\w+)$/);
+    const at = tables[name].columns[0].name;
+    const sampled = (values(name, at)?.length ?? 0) > 60;
+    const title = `${signal}, record ${Number(record) + 1}`;
+    return [
+      chart({ title: `Measured and ${word}: ${title}`, wide: true, x: axis(name, at), y: axis(name, "measured", signal),
+        series: [series(name, at, "measured", sampled ? { label: "measured", colour: 6 } : { label: "measured", kind: "points" }),
+          series(name, at, word, { label: word, colour: 1, width: 1 })] }),
+      chart({ title: `Left between them: ${title}`, wide: true, x: axis(name, at), y: axis(name, "residual", "measured - " + word),
+        series: [series(name, at, "residual", sampled ? { width: 1 } : { kind: "points" })] }),
+    ];
+  });
+}
+
+/** The fitted rig as a scenario, to copy. */
+function scenarioBox({ scenario }) {
+  return make("section", {}, make("h2", {}, "The fitted rig as a scenario"), make("pre", { "data-path": "scenario" }, scenario));
+}
+
+views.fit = { charts: () => [...overlays("fit", "fitted"), ...overlays("prediction", "predicted")], after: (result) => [scenarioBox(result)] };
+
+views.predict = { charts: () => overlays("prediction", "predicted") };

@@ -1,0 +1,109 @@
+#include "scenarios/analyses/predict.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "identify/fit/prediction.hpp"
+#include "scenarios/format/excitations.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/measurements/measured_data.hpp"
+#include "scenarios/results/fits.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+constexpr std::size_t most_parameters = 100;
+
+Section keys() {
+  return {{data_list("data", "data files that the rig has to predict").required(),
+           text("free",
+                "names of the numbers that were fitted, with commas: what the same laws can attain is found by "
+                "fitting these to the data"),
+           quantities("covariance", {"1"}, "of these, row by row, SI: what their uncertainty explains")
+               .items(1, most_parameters * most_parameters)}};
+}
+
+std::vector<identify::FitParameter> fitted_parameters(const identify::Rig& rig, const Json& analysis,
+                                                      std::vector<SetupFault>& faults) {
+  const std::vector<identify::FitParameter> all = identify::parameters_of(rig);
+  std::vector<identify::FitParameter> parameters;
+  for (const std::string& name : sought_of(analysis, false).free) {
+    std::string fault;
+    std::vector<identify::FitParameter> found = identify::named(all, name, fault);
+    if (!fault.empty()) faults.push_back({"free", fault});
+    for (identify::FitParameter& parameter : found) parameters.push_back(std::move(parameter));
+  }
+  identify::arrange(rig, parameters);
+  const std::size_t size = parameters.size();
+  if (analysis.contains("covariance") && analysis.at("covariance").size() != size * size)
+    faults.push_back({"covariance", "'analysis.covariance' has " +
+                                        std::to_string(analysis.at("covariance").size()) + " numbers, and " +
+                                        std::to_string(size) + " parameters need " + std::to_string(size * size)});
+  return parameters;
+}
+
+Eigen::MatrixXd covariance_of(const Json& analysis, std::size_t count) {
+  if (!analysis.contains("covariance")) return {};
+  const auto size = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index j = 0; j < size; ++j)
+      covariance(i, j) = number(analysis.at("covariance").at(static_cast<std::size_t>(i * size + j)));
+  return covariance;
+}
+
+void check(CheckedFile& file) {
+  read_data_list(file, "data");
+  const bool whole = file.has("system", "mass") && file.has("system", "stiffness") && file.has("system", "damping");
+  if (!whole)
+    file.complain("system",
+                  "a prediction needs the whole rig: mass, stiffness, damping and the friction's numbers");
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  std::vector<SetupFault> faults;
+  identify::Rig rig = rig_of(values.system, values.model);
+  std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
+  identify::Experiments data =
+      experiments_from(items_of(values.analysis, values.files, "data"), "data", values.model, false, faults);
+  if (!faults.empty()) {
+    std::vector<core::Diagnostic> problems;
+    for (const SetupFault& fault : faults)
+      problems.push_back({.message = "'analysis." + fault.path + "': " + fault.message});
+    throw core::InputError(std::move(problems));
+  }
+  std::vector<std::string> warnings;
+  for (const DataFile& file : values.files)
+    for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
+  Eigen::MatrixXd covariance = covariance_of(values.analysis, parameters.size());
+  return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(covariance),
+                                           std::move(data), std::move(warnings));
+}
+
+}  // namespace
+
+Answer PredictQuestion::run(const RunContext& /*context*/) const {
+  const identify::Prediction prediction = identify::predict_records(rig_, parameters_, covariance_, data_);
+  if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
+  Answer answer;
+  answer.warnings = warnings_;
+  answer.result["validation"] = validation_json(prediction);
+  answer.result["verdict"] = prediction.text;
+  add_curves(prediction.fit, data_, "prediction", answer);
+  return answer;
+}
+
+const Analysis& predict_analysis() {
+  static const Analysis analysis = {
+      .name = "predict",
+      .summary = "a fitted rig against records that were not fitted",
+      .keys = keys(),
+      .needs = {{"", excitations().names(), {}, false, ""}},
+      .results = joined(validation_fields("validation."), {{"verdict", "", "what that means"}}),
+      .check = check,
+      .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

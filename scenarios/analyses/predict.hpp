@@ -1,0 +1,34 @@
+#pragma once
+/// `predict`: a fitted rig against a record that was not fitted.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analyses/shared/fit_setup.hpp"
+
+namespace dualdamp::scenarios {
+
+class PredictQuestion final : public Question {
+ public:
+  PredictQuestion(identify::Rig rig, std::vector<identify::FitParameter> parameters, Eigen::MatrixXd covariance,
+                  identify::Experiments data, std::vector<std::string> warnings)
+      : rig_(std::move(rig)),
+        parameters_(std::move(parameters)),
+        covariance_(std::move(covariance)),
+        data_(std::move(data)),
+        warnings_(std::move(warnings)) {}
+
+  [[nodiscard]] Answer run(const RunContext& context) const override;
+
+ private:
+  identify::Rig rig_;
+  std::vector<identify::FitParameter> parameters_;  ///< those that were fitted
+  Eigen::MatrixXd covariance_;                      ///< of these; empty: not known
+  identify::Experiments data_;
+  std::vector<std::string> warnings_;
+};
+
+[[nodiscard]] const Analysis& predict_analysis();
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,225 @@
+#include "scenarios/analyses/shared/fit_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "core/units.hpp"
+#include "friction_models/registry.hpp"
+#include "scenarios/format/law_values.hpp"
+#include "scenarios/format/values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+using identify::FitParameter;
+using identify::Own;
+using identify::Owner;
+
+std::vector<std::string> names_in(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream in(text);
+  for (std::string name; std::getline(in, name, ',');) {
+    const std::size_t first = name.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    names.push_back(name.substr(first, name.find_last_not_of(" \t") - first + 1));
+  }
+  return names;
+}
+
+identify::RigLaw law_from(const Json& section, core::Coordinate coordinate) {
+  const friction::LawEntry* entry = friction::find_law(section.at("law").get<std::string>());
+  return {entry, law_values(entry->parameters, section, coordinate)};
+}
+
+bool is_loop_alone(const identify::Experiments& experiments) {
+  return std::ranges::all_of(
+      experiments, [](const auto& experiment) { return experiment->kind == identify::ExperimentKind::loop; });
+}
+
+/// "position" stands for that of all records, "position[1]" for one.
+bool take_own(const std::string& name, const identify::Experiments& experiments,
+              std::vector<FitParameter>& parameters) {
+  bool found = false;
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    for (const auto* list : {&experiments[e]->own_free, &experiments[e]->own_others})
+      for (const Own own : *list) {
+        FitParameter parameter = identify::own_parameter(*experiments[e], e, own, experiments.size() == 1);
+        if (name != parameter.name && name != parameter.name.substr(0, parameter.name.find('['))) continue;
+        found = true;
+        if (std::ranges::find(parameters, parameter.name, &FitParameter::name) == parameters.end())
+          parameters.push_back(std::move(parameter));
+      }
+  return found;
+}
+
+void take_bound(const Bound& bound, std::vector<FitParameter>& parameters, std::vector<SetupFault>& faults) {
+  const auto parameter = std::ranges::find(parameters, bound.name, &FitParameter::name);
+  if (parameter == parameters.end()) {
+    faults.push_back({"bounds", "'" + bound.name + "' has bounds and is not sought"});
+    return;
+  }
+  for (const auto& [text, end] :
+       {std::pair{&bound.low, &parameter->range.low}, {&bound.high, &parameter->range.high}}) {
+    if (text->empty()) continue;
+    const core::QuantityText quantity = core::parse_quantity(*text, parameter->unit);
+    if (!quantity.value) {
+      faults.push_back({"bounds", "the bound '" + *text + "' of " + bound.name + ": " + quantity.fault});
+    } else if (!parameter->range.contains(*quantity.value)) {
+      faults.push_back({"bounds", "the bound '" + *text + "' of " + bound.name + " is out of its range, " +
+                                      parameter->range.describe(parameter->unit)});
+    } else {
+      *end = *quantity.value;
+      (end == &parameter->range.low ? parameter->range.low_open : parameter->range.high_open) = false;
+    }
+  }
+  if (!(parameter->range.low < parameter->range.high))
+    faults.push_back({"bounds", "the bounds of " + bound.name + " leave nothing between them"});
+}
+
+void add_new(FitParameter parameter, std::vector<FitParameter>& parameters) {
+  const auto same = [&](const FitParameter& other) {
+    return other.owner == parameter.owner && other.index == parameter.index && other.path == parameter.path;
+  };
+  if (std::ranges::none_of(parameters, same)) parameters.push_back(std::move(parameter));
+}
+
+/// Motions alone tell forces in units of the mass or the stiffness.
+void refuse_without_scale(const identify::Rig& rig, const std::vector<FitParameter>& parameters,
+                          const identify::Experiments& experiments, std::vector<SetupFault>& faults) {
+  const auto seeks = [&](Owner owner) {
+    return std::ranges::find(parameters, owner, &FitParameter::owner) != parameters.end();
+  };
+  const bool forced = rig.known.excitation.type != sim::ExcitationType::none && !rig.known.excitation.moves_base();
+  if (seeks(Owner::mass) && seeks(Owner::stiffness) && !forced && !is_loop_alone(experiments))
+    faults.push_back({"data",
+                      "neither the mass nor the stiffness is known, and no force was measured: a motion "
+                      "alone tells no force; state one of the two"});
+}
+
+}  // namespace
+
+std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files, const std::string& key) {
+  std::vector<DataItem> items;
+  for (const DataFile& file : files) {
+    if (file.key != key) continue;
+    const Json& list = analysis.at(key);
+    items.push_back({file.name, list.is_array() ? list.at(file.item) : list, file.data});
+  }
+  return items;
+}
+
+Sought sought_of(const Json& analysis, bool initial_is_known) {
+  Sought sought{.initial_is_known = initial_is_known};
+  if (analysis.contains("free")) sought.free = names_in(analysis.at("free").get<std::string>());
+  if (analysis.contains("bounds"))
+    for (const Json& bound : analysis.at("bounds"))
+      sought.bounds.push_back({bound.value("name", ""), bound.value("low", ""), bound.value("high", "")});
+  return sought;
+}
+
+identify::Rig rig_of(const Json& system, const sim::Model& model, const std::string& law) {
+  identify::Rig rig{.known = model};
+  rig.known.friction.clear();
+  if (!system.contains("damping")) rig.known.oscillator.damping = identify::unknown;
+  // The derivatives are differences of motions: beyond this accuracy they gain nothing.
+  constexpr double accurate = 1e-9;
+  if (rig.known.solver.tolerance == sim::Solver{}.tolerance) rig.known.solver.tolerance = accurate;
+  const core::Coordinate coordinate = model.oscillator.coordinate;
+  if (!law.empty()) {
+    rig.laws.push_back({friction::find_law(law), {}});
+    rig.laws.back().values.measure(coordinate);
+  } else if (system.contains("friction")) {
+    const Json& friction = system.at("friction");
+    for (const Json& section : friction.is_array() ? friction : Json::array({friction}))
+      rig.laws.push_back(law_from(section, coordinate));
+  }
+  return rig;
+}
+
+std::string laws_text(const identify::Rig& rig) {
+  std::string text;
+  for (const identify::RigLaw& law : rig.laws) text += (text.empty() ? "" : " + ") + std::string(law.entry->name);
+  return text.empty() ? "no friction" : text;
+}
+
+identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
+                                       const sim::Model& model, bool initial_is_known,
+                                       std::vector<SetupFault>& faults) {
+  identify::Experiments all;
+  const sim::Excitation& drive = model.excitation;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Json& keys = items[i].keys;
+    identify::ExperimentOptions options{
+        .name = items[i].file,
+        .loop = keys.value("loop", false),
+        .frequency = drive.is_harmonic() && drive.frequency > 0.0 ? drive.frequency : identify::unknown,
+        .force_driven = drive.type == sim::ExcitationType::force_harmonic};
+    for (const auto& [name, value] : {std::pair{"sigma_x", &options.sigma_x},
+                                      {"sigma_v", &options.sigma_v},
+                                      {"sigma_a", &options.sigma_a},
+                                      {"sigma_force", &options.sigma_force},
+                                      {"sigma_phase", &options.sigma_phase}})
+      *value = number_or(keys, name, 0.0);
+    std::string fault;
+    identify::Experiments found = identify::experiments_of(items[i].data.record, options, fault);
+    const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
+    if (!fault.empty()) faults.push_back({place, items[i].file + ": " + fault});
+    for (auto& experiment : found) {
+      if (experiment->kind == identify::ExperimentKind::history && drive.is_harmonic() && !(drive.amplitude > 0.0))
+        faults.push_back(
+            {place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'"});
+      if (initial_is_known && experiment->kind == identify::ExperimentKind::history) {
+        experiment->own_start[static_cast<std::size_t>(Own::position)] = model.initial.position;
+        experiment->own_start[static_cast<std::size_t>(Own::velocity)] = model.initial.velocity;
+      }
+      all.push_back(std::move(experiment));
+    }
+  }
+  return all;
+}
+
+std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identify::Experiments& experiments,
+                                         const Sought& sought, std::vector<SetupFault>& faults) {
+  std::vector<std::string> lacking;
+  std::vector<FitParameter> parameters;
+  const auto is_free = [&](std::string_view name) {
+    return std::ranges::find(sought.free, name) != sought.free.end();
+  };
+  for (FitParameter& parameter : identify::unstated_parameters(rig, lacking)) {
+    if (parameter.owner != Owner::law && is_loop_alone(experiments)) continue;
+    if (parameter.owner == Owner::damping && is_free("damping_ratio")) continue;
+    add_new(std::move(parameter), parameters);
+  }
+  for (const std::string& lack : lacking) faults.push_back({"laws", lack});
+  const std::vector<FitParameter> all = identify::parameters_of(rig);
+  std::vector<FitParameter> own;
+  for (const std::string& name : sought.free) {
+    std::string fault;
+    std::vector<FitParameter> found = identify::named(all, name, fault);
+    if (found.empty() && take_own(name, experiments, own)) continue;
+    if (!fault.empty()) {
+      std::string names;
+      for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
+      faults.push_back({"free", fault + "; there are " + names + ", position, velocity, offset"});
+    }
+    for (FitParameter& parameter : found) add_new(std::move(parameter), parameters);
+  }
+  refuse_without_scale(rig, parameters, experiments, faults);
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    for (const Own free : experiments[e]->own_free) {
+      if (sought.initial_is_known && experiments[e]->kind == identify::ExperimentKind::history) continue;
+      FitParameter parameter = identify::own_parameter(*experiments[e], e, free, experiments.size() == 1);
+      if (std::ranges::find(own, parameter.name, &FitParameter::name) == own.end())
+        own.push_back(std::move(parameter));
+    }
+  identify::arrange(rig, parameters);
+  std::ranges::move(own, std::back_inserter(parameters));
+  for (const Bound& bound : sought.bounds) take_bound(bound, parameters, faults);
+  return parameters;
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,62 @@
+#pragma once
+/// What a fit or a prediction is made of: rigs, experiments, and the parameters that are sought.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identify/fit/fit.hpp"
+#include "scenarios/format/checked_file.hpp"
+#include "scenarios/format/json.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Of a list `analysis.NAME` of data files.
+struct DataItem {
+  std::string file;
+  Json keys;  ///< of its item
+  identify::MeasuredRecord data;
+};
+
+[[nodiscard]] std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files,
+                                             const std::string& key);
+
+/// Limits of a parameter that is sought; NaN: that of the law.
+struct Bound {
+  std::string name;
+  std::string low;
+  std::string high;
+};
+
+/// What is sought beside what the system does not state.
+struct Sought {
+  std::vector<std::string> free;  ///< names
+  std::vector<Bound> bounds;
+  bool initial_is_known = false;
+};
+
+[[nodiscard]] Sought sought_of(const Json& analysis, bool initial_is_known);
+
+/// The laws of `system`, or the law `law` alone. `model`: its oscillator and excitation.
+[[nodiscard]] identify::Rig rig_of(const Json& system, const sim::Model& model, const std::string& law = {});
+
+/// "coulomb + viscous_power"
+[[nodiscard]] std::string laws_text(const identify::Rig& rig);
+
+/// Experiments of all items; what cannot be used goes to `faults`, of item `index`.
+struct SetupFault {
+  std::string path;  ///< below `analysis`
+  std::string message;
+};
+[[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
+                                                     const sim::Model& model, bool initial_is_known,
+                                                     std::vector<SetupFault>& faults);
+
+/// All that is sought, in order.
+[[nodiscard]] std::vector<identify::FitParameter> parameters_for(const identify::Rig& rig,
+                                                                 const identify::Experiments& experiments,
+                                                                 const Sought& sought,
+                                                                 std::vector<SetupFault>& faults);
+
+}  // namespace dualdamp::scenarios

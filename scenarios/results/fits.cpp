@@ -1,0 +1,174 @@
+#include "scenarios/results/fits.hpp"
+
+#include <cmath>
+
+#include "scenarios/results/cells.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+Json pair_json(const std::array<double, 2>& pair) {
+  return Json::array({finite_or_null(pair[0]), finite_or_null(pair[1])});
+}
+
+const identify::Signal& signal_of(const identify::FittedSignal& fitted, const identify::Experiments& experiments) {
+  return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];
+}
+
+Table parameter_table(const identify::Fit& fit) {
+  using identify::FittedParameter;
+  const std::vector<FittedParameter>& list = fit.parameters;
+  const auto end_of = [](auto member, std::size_t end) {
+    return [member, end](const FittedParameter& parameter) { return (parameter.*member)[end]; };
+  };
+  Table table{.name = "parameters"};
+  table.columns.push_back(text_column("name", list, [](const FittedParameter& p) { return p.parameter.name; }));
+  table.columns.push_back(text_column("unit", list, [](const FittedParameter& p) { return p.parameter.unit; }));
+  table.columns.push_back(column("value", "", list, &FittedParameter::value));
+  table.columns.push_back(column("std", "", list, &FittedParameter::std));
+  table.columns.push_back(column("low95", "", list, end_of(&FittedParameter::interval95, 0)));
+  table.columns.push_back(column("high95", "", list, end_of(&FittedParameter::interval95, 1)));
+  table.columns.push_back(column("profile_low95", "", list, end_of(&FittedParameter::profile95, 0)));
+  table.columns.push_back(column("profile_high95", "", list, end_of(&FittedParameter::profile95, 1)));
+  table.columns.push_back(text_column("remark", list, [](const FittedParameter& p) { return p.reason; }));
+  return table;
+}
+
+}  // namespace
+
+void add_fit(const identify::Fit& fit, const identify::Experiments& experiments, Answer& answer) {
+  Json& result = answer.result;
+  result["parameters"] = Json::array();
+  for (const identify::FittedParameter& fitted : fit.parameters) {
+    Json item = {{"name", fitted.parameter.name},
+                 {"unit", fitted.parameter.unit},
+                 {"value", fitted.value},
+                 {"std", finite_or_null(fitted.std)},
+                 {"interval95", pair_json(fitted.interval95)},
+                 {"profile95", pair_json(fitted.profile95)},
+                 {"at_bound", fitted.at_bound}};
+    if (!fitted.reason.empty()) item["reason"] = fitted.reason;
+    result["parameters"].push_back(std::move(item));
+  }
+  result["not_identifiable"] = Json::array();
+  for (const identify::TradeOff& trade : fit.not_identifiable) {
+    result["not_identifiable"].push_back({{"parameters", trade.parameters}, {"text", trade.text}});
+    answer.warnings.push_back("not identifiable: " + trade.text);
+  }
+  result["residual"] = {{"rms", fit.signals.front().rms},
+                        {"unit", signal_of(fit.signals.front(), experiments).unit},
+                        {"noise_units", finite_or_null(fit.noise_units)}};
+  if (std::isnan(fit.noise_units))
+    result["residual"]["reason"] = "the noise of the readings is neither stated nor to be seen in them";
+  result["signals"] = Json::array();
+  for (const identify::FittedSignal& signal : fit.signals)
+    result["signals"].push_back({{"record", experiments[signal.rows.experiment]->label},
+                                 {"name", signal_of(signal, experiments).name},
+                                 {"unit", signal_of(signal, experiments).unit},
+                                 {"readings", signal.rows.end - signal.rows.begin},
+                                 {"independent", signal.independent},
+                                 {"rms", signal.rms},
+                                 {"relative", signal.range > 0.0 ? Json(signal.rms / signal.range) : Json(nullptr)},
+                                 {"noise", finite_or_null(signal.noise)},
+                                 {"noise_units", finite_or_null(signal.noise_units)}});
+  result["covariance"] = Json::array();
+  for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < fit.covariance.cols(); ++j) row.push_back(fit.covariance(i, j));
+    result["covariance"].push_back(std::move(row));
+  }
+  result["starts"] = fit.starts;
+  answer.tables.push_back(parameter_table(fit));
+}
+
+void add_curves(const identify::Fit& fit, const identify::Experiments& experiments, const std::string& prefix,
+                Answer& answer) {
+  for (const identify::FittedSignal& fitted : fit.signals) {
+    const identify::Signal& signal = signal_of(fitted, experiments);
+    Table table{.name = prefix + "_" + std::to_string(fitted.rows.experiment) + "_" + signal.name,
+                .is_long = true,
+                .is_complete = true};
+    Column at{.name = signal.at_name, .unit = signal.at_unit, .numbers = signal.at};
+    Column measured{.name = "measured", .unit = signal.unit, .numbers = signal.measured};
+    Column output{.name = prefix == "fit" ? "fitted" : "predicted", .unit = signal.unit};
+    Column residual{.name = "residual", .unit = signal.unit};
+    for (Eigen::Index i = fitted.rows.begin; i < fitted.rows.end; ++i) {
+      output.numbers.push_back(fit.outputs[i]);
+      residual.numbers.push_back(signal.measured[static_cast<std::size_t>(i - fitted.rows.begin)] - fit.outputs[i]);
+    }
+    table.columns = {std::move(at), std::move(measured), std::move(output), std::move(residual)};
+    answer.tables.push_back(std::move(table));
+  }
+}
+
+Json validation_json(const identify::Prediction& prediction) {
+  Json json = {{"error", finite_or_null(prediction.error)},
+               {"noise_units", finite_or_null(prediction.noise_units)},
+               {"attainable", finite_or_null(prediction.attainable)},
+               {"attainable_noise_units", finite_or_null(prediction.attainable_noise_units)},
+               {"uncertainty", finite_or_null(prediction.uncertainty)},
+               {"wrong", prediction.is_wrong},
+               {"text", prediction.text},
+               {"bands", Json::array()}};
+  for (const identify::PredictionBand& band : prediction.bands)
+    json["bands"].push_back({{"from", band.from},
+                             {"to", band.to},
+                             {"error", band.error},
+                             {"noise_units", finite_or_null(band.noise_units)}});
+  return json;
+}
+
+ResultFields fit_fields() {
+  return {{"law", "", "laws of the fit, + between laws in parallel"},
+          {"parameters[].name", "", "name of a parameter; [1] behind that of a record: the second record"},
+          {"parameters[].unit", "", "SI"},
+          {"parameters[].value", "", "estimate"},
+          {"parameters[].std", "", "standard error, allowing for residuals that are alike from sample to sample"},
+          {"parameters[].interval95[]", "", "95 % interval by the covariance"},
+          {"parameters[].profile95[]", "", "95 % interval by the profile of the likelihood; null: it does not end"},
+          {"parameters[].at_bound", "", "it lies at the end of its range"},
+          {"parameters[].reason", "", "why a number does not exist"},
+          {"not_identifiable[].parameters[]", "", "parameters that the data do not tell apart"},
+          {"not_identifiable[].text", "", "how they trade off"},
+          {"residual.rms", "", "rms of the residuals of the first signal"},
+          {"residual.unit", "", "its unit"},
+          {"residual.noise_units", "1", "rms of all residuals over the noise of their sensors"},
+          {"residual.reason", "", "why that does not exist"},
+          {"signals[].record", "", "data file, and label in it"},
+          {"signals[].name", "", "x, v, a, phase, t (of extremes), force"},
+          {"signals[].unit", "", "SI"},
+          {"signals[].readings", "1", "how many"},
+          {"signals[].independent", "1", "how many of them count as independent"},
+          {"signals[].rms", "", "rms of the residuals"},
+          {"signals[].relative", "1", "over the rms of the signal about its mean"},
+          {"signals[].noise", "", "of the sensor: stated, or by the signal's roughness"},
+          {"signals[].noise_units", "1", "rms of the residuals over it"},
+          {"covariance[][]", "", "of the parameters, in their order"},
+          {"starts", "1", "starts that were tried"},
+          {"laws[].law", "", "laws that were compared, best first"},
+          {"laws[].parameters", "1", "how many are sought"},
+          {"laws[].AICc", "1", "Akaike's criterion; the smallest is the best"},
+          {"laws[].weight", "1", "Akaike's weight among the laws compared"},
+          {"laws[].rms", "", "rms of the residuals of the first signal"},
+          {"laws[].noise_units", "1", "rms of all residuals over the noise of their sensors"},
+          {"laws[].reason", "", "why there is no fit"},
+          {"scenario", "", "the fitted rig as the text of a scenario, with the first record's curve"},
+          {"scenarios[]", "", "the same for each record"}};
+}
+
+ResultFields validation_fields(const std::string& prefix) {
+  return {{prefix + "error", "1", "rms of what the prediction misses over the rms of the signal"},
+          {prefix + "noise_units", "1", "the same over the noise of the sensors"},
+          {prefix + "attainable", "1", "error that the same laws reach when they are fitted to this record itself"},
+          {prefix + "attainable_noise_units", "1", "the same over the noise"},
+          {prefix + "uncertainty", "1", "error that the uncertainty of the fitted parameters explains"},
+          {prefix + "wrong", "", "the law, or the rig, is not that of the fitted records"},
+          {prefix + "text", "", "what that means"},
+          {prefix + "bands[].from", "Hz", "lower end of a band of frequencies"},
+          {prefix + "bands[].to", "Hz", "its upper end"},
+          {prefix + "bands[].error", "1", "rms of what is missed there, over the rms of the whole signal"},
+          {prefix + "bands[].noise_units", "1", "the same over the noise in the band"}};
+}
+
+}  // namespace dualdamp::scenarios

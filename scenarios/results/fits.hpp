@@ -1,0 +1,28 @@
+#pragma once
+/// A fit as an answer: JSON and tables.
+
+#include <string>
+#include <vector>
+
+#include "identify/fit/fit.hpp"
+#include "identify/fit/prediction.hpp"
+#include "scenarios/results/answer.hpp"
+#include "scenarios/results/motion.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Keys `parameters`, `not_identifiable`, `residual`, `signals`, `covariance`, and the table of parameters.
+void add_fit(const identify::Fit& fit, const identify::Experiments& experiments, Answer& answer);
+
+/// What was measured and what the fit gives, a table for each signal of each record, named PREFIX_RECORD_SIGNAL.
+void add_curves(const identify::Fit& fit, const identify::Experiments& experiments, const std::string& prefix,
+                Answer& answer);
+
+/// `validation`.
+[[nodiscard]] Json validation_json(const identify::Prediction& prediction);
+
+[[nodiscard]] ResultFields fit_fields();
+/// `prefix`: where the validation is.
+[[nodiscard]] ResultFields validation_fields(const std::string& prefix);
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,163 @@
+#include "scenarios/results/fitted_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers.hpp"
+#include "scenarios/format/law_values.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+using identify::ExperimentKind;
+using identify::Own;
+
+bool is_plain(const std::string& text) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+  if (text == "true" || text == "false" || text == "null" || text == "yes" || text == "no") return false;
+  return !text.empty() && text.find_first_not_of(letters) == std::string::npos;
+}
+
+std::string scalar(const Json& value) {
+  if (value.is_number_float()) return core::format_number(value.get<double>());
+  if (value.is_string() && is_plain(value.get<std::string>())) return value.get<std::string>();
+  return value.dump();
+}
+
+/// Flow style on one line.
+std::string flow(const Json& value) {
+  if (!value.is_structured()) return scalar(value);
+  std::string text;
+  for (const auto& [key, item] : value.items())
+    text += (text.empty() ? "" : ", ") + (value.is_array() ? "" : key + ": ") + flow(item);
+  return value.is_array() ? "[" + text + "]" : "{" + text + "}";
+}
+
+std::string yaml(const Json& scenario) {
+  std::string text;
+  for (const auto& [key, value] : scenario.items()) {
+    if (!value.is_object()) {
+      text += key + ": " + (key == "schema" ? value.get<std::string>() : flow(value)) + "\n";
+      continue;
+    }
+    text += key + ":\n";
+    for (const auto& [inner, item] : value.items()) text += "  " + inner + ": " + flow(item) + "\n";
+  }
+  return text;
+}
+
+std::string in_rad_per_s(double omega) { return core::format_number(omega) + " rad/s"; }
+
+bool all_equal(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [&](double value) { return value == values.front(); });
+}
+
+void ask_for_states(const identify::Experiment& experiment, Json& scenario) {
+  std::vector<double> amplitudes;
+  std::vector<double> frequencies;
+  for (const auto& [Y, omega] : experiment.levels()) {
+    amplitudes.push_back(Y);
+    frequencies.push_back(omega);
+  }
+  Json& drive = scenario["excitation"];
+  if (!drive.is_object() || drive.value("type", "") == "none") drive = {{"type", "base_harmonic"}};
+  if (all_equal(amplitudes) && !all_equal(frequencies)) {
+    Json list = Json::array();
+    for (const double omega : frequencies) list.push_back(in_rad_per_s(omega));
+    drive["amplitude"] = amplitudes.front();
+    drive.erase("frequency");
+    scenario["analysis"] = {{"type", "frequency_response"}, {"frequencies", std::move(list)}};
+    return;
+  }
+  // Levels at several frequencies: those of the first one.
+  Json list = Json::array();
+  for (std::size_t i = 0; i < amplitudes.size(); ++i)
+    if (frequencies[i] == frequencies.front()) list.push_back(amplitudes[i]);
+  drive["frequency"] = in_rad_per_s(frequencies.front());
+  drive.erase("amplitude");
+  scenario["analysis"] = {{"type", "xy_curve"}, {"amplitudes", std::move(list)}};
+}
+
+void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experiment, std::size_t index,
+                    Json& scenario) {
+  const identify::OwnValues& own = fit.own[index];
+  const std::vector<double>& t = experiment.signals.front().at;
+  const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
+  const sim::Excitation& drive = fit.rig.known.excitation;
+  if (scenario.contains("excitation") && drive.is_harmonic()) {
+    // The time of the scenario begins with the record.
+    scenario["excitation"]["phase"] = drive.phase + drive.frequency * t.front();
+    if (scenario["excitation"].contains("harmonics"))
+      for (Json& harmonic : scenario["excitation"]["harmonics"])
+        harmonic["phase"] =
+            harmonic.at("phase").get<double>() + harmonic.at("order").get<int>() * drive.frequency * t.front();
+  }
+  scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]},
+                         {"velocity", own[static_cast<std::size_t>(Own::velocity)]}};
+  scenario["analysis"] = {{"type", "simulate"}, {"duration", t.back() - t.front()}, {"sample_rate", rate}};
+}
+
+}  // namespace
+
+Json system_json(const identify::Rig& rig) {
+  const sim::Oscillator& o = rig.known.oscillator;
+  Json system = Json::object();
+  if (o.coordinate == core::Coordinate::angle) system["coordinate"] = core::name_of(o.coordinate);
+  system["mass"] = o.mass > 0.0 ? o.mass : 1.0;
+  system["stiffness"] = o.stiffness > 0.0 ? o.stiffness : 1.0;
+  system["damping"] = std::isnan(o.damping) ? 0.0 : o.damping;
+  if (o.cubic_stiffness != 0.0) system["cubic_stiffness"] = o.cubic_stiffness;
+  if (o.gravity_stiffness != 0.0) system["gravity_stiffness"] = o.gravity_stiffness;
+  system["damper_to"] = o.damper_to == sim::DamperTo::base ? "base" : "ground";
+  Json laws = Json::array();
+  for (const identify::RigLaw& law : rig.laws) {
+    Json section = {{"law", law.entry->name}};
+    section.update(law_json(law.entry->parameters, law.values));
+    laws.push_back(std::move(section));
+  }
+  if (laws.size() == 1)
+    system["friction"] = std::move(laws.front());
+  else if (!laws.empty())
+    system["friction"] = std::move(laws);
+  return system;
+}
+
+std::string scenario_text(const identify::Fit& fit, const identify::Experiments& experiments, std::size_t index,
+                          const RigText& text) {
+  const identify::Experiment& experiment = *experiments[index];
+  Json scenario = {{"schema", "dualdamp/1"}, {"title", text.title}, {"system", system_json(fit.rig)}};
+  if (text.excitation.is_object()) {
+    scenario["excitation"] = text.excitation;
+    for (const char* key : {"frequency_uncertainty"}) scenario["excitation"].erase(key);
+    const sim::Excitation& drive = fit.rig.known.excitation;
+    if (drive.is_harmonic()) scenario["excitation"]["phase"] = drive.phase;
+    if (drive.type == sim::ExcitationType::force_harmonic) scenario["excitation"]["offset"] = drive.offset;
+  }
+  const identify::OwnValues& own = fit.own[index];
+  switch (experiment.kind) {
+    case ExperimentKind::steady_states:
+      ask_for_states(experiment, scenario);
+      break;
+    case ExperimentKind::decay:
+      scenario.erase("excitation");
+      scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]}, {"velocity", 0.0}};
+      scenario["analysis"] = {{"type", "free_decay"}, {"peaks", experiment.signals.front().measured.size()}};
+      break;
+    case ExperimentKind::history:
+      ask_for_motion(fit, experiment, index, scenario);
+      break;
+    case ExperimentKind::loop:
+      scenario.erase("excitation");
+      scenario["initial"] = {{"position", 1.0}, {"velocity", 0.0}};
+      scenario["analysis"] = {{"type", "free_decay"}, {"peaks", 10}};
+      break;
+  }
+  const sim::Oscillator& o = fit.rig.known.oscillator;
+  const bool lacks = !(o.mass > 0.0) || !(o.stiffness > 0.0);
+  return (lacks ? "# A loop shows the friction alone: replace mass, stiffness and initial by those of your rig.\n"
+                : "") +
+         yaml(scenario);
+}
+
+}  // namespace dualdamp::scenarios

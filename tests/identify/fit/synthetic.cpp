@@ -1,0 +1,166 @@
+#include "tests/identify/fit/synthetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/random.hpp"
+#include "friction_models/registry.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::test {
+
+using friction::ParameterValues;
+
+const std::vector<LawCase>& law_cases() {
+  using List = std::vector<ParameterValues>;
+  static const std::vector<LawCase> cases = {
+      {"coulomb", {{"kinetic", 1.0}}, {"kinetic"}},
+      {"stribeck",
+       {{"kinetic", 1.0}, {"static", 1.6}, {"stribeck_velocity", 0.05}},
+       {"kinetic", "static", "stribeck_velocity"}},
+      {"dahl", {{"kinetic", 1.0}, {"sigma0", 5000.0}}, {"kinetic", "sigma0"}},
+      {"lugre",
+       {{"kinetic", 1.0}, {"static", 1.5}, {"stribeck_velocity", 0.03}, {"sigma0", 5000.0}, {"sigma1", 20.0}},
+       {"kinetic", "static", "stribeck_velocity", "sigma0", "sigma1"}},
+      {"generalized_maxwell_slip",
+       {{"elements", List{{{"stiffness", 6000.0}, {"share", 0.4}}, {{"stiffness", 1000.0}, {"share", 0.6}}}},
+        {"kinetic", 1.0},
+        {"static", 1.5},
+        {"stribeck_velocity", 0.05},
+        {"attraction", 100.0}},
+       {"elements", "kinetic", "static", "stribeck_velocity", "attraction"}},
+      {"contact_compliance", {{"kinetic", 1.0}, {"contact_stiffness", 3000.0}}, {"kinetic", "contact_stiffness"}},
+      {"bouc_wen", {{"limit", 1.0}, {"stiffness", 3000.0}, {"exponent", 1.5}}, {"limit", "stiffness", "exponent"}},
+      {"elasto_plastic",
+       {{"kinetic", 1.0},
+        {"static", 1.5},
+        {"stribeck_velocity", 0.05},
+        {"sigma0", 5000.0},
+        {"sigma1", 20.0},
+        {"elastic_limit", 1e-4}},
+       {"kinetic", "static", "stribeck_velocity", "sigma0"}},
+      {"friction_lag",
+       {{"kinetic", 1.0}, {"static", 1.6}, {"stribeck_velocity", 0.05}, {"lag", 0.005}},
+       {"kinetic", "static", "stribeck_velocity", "lag"}},
+      {"iwan", {{"stiffness", 2000.0}, {"limit", 2.0}, {"count", 20.0}}, {"stiffness", "limit"}},
+      {"reset_integrator",
+       {{"kinetic", 1.0}, {"stiffness", 5000.0}, {"static_gain", 0.5}},
+       {"kinetic", "stiffness", "static_gain"}},
+      {"viscous_power",
+       {{"coefficient", 3.0}, {"exponent", 1.7}, {"reference_velocity", 0.3}},
+       {"coefficient", "exponent"}},
+      {"viscous_saturating",
+       {{"coefficient", 15.0}, {"saturation_velocity", 0.2}},
+       {"coefficient", "saturation_velocity"}}};
+  return cases;
+}
+
+const LawCase& law_case_of(const std::string& law) {
+  const auto found = std::ranges::find(law_cases(), law, &LawCase::law);
+  if (found == law_cases().end()) throw std::invalid_argument("there is no case of " + law);
+  return *found;
+}
+
+identify::Rig rig_with(const LawCase& law) {
+  identify::Rig rig;
+  rig.known.oscillator = {.mass = 1.0, .stiffness = 1000.0, .damping = 1.0};
+  rig.known.excitation = {.type = sim::ExcitationType::base_harmonic,
+                          .amplitude = law.amplitude,
+                          .frequency = 2.0 * std::numbers::pi * 4.0};
+  rig.known.solver.tolerance = 1e-9;
+  rig.laws.push_back({friction::find_law(law.law), law.truth});
+  return rig;
+}
+
+identify::Record history_of(const identify::Rig& rig, const HistoryPlan& plan, std::uint64_t seed) {
+  sim::Model model = *identify::model_of(rig);
+  model.initial = plan.initial;
+  model.solver.tolerance = 1e-11;
+  const sim::History motion = sim::simulate(model, {.duration = plan.duration, .sample_rate = plan.rate});
+  identify::History history;
+  history.sample_rate = plan.rate;
+  const core::RandomStream of_x{seed, 900};
+  const core::RandomStream of_v{seed, 901};
+  for (std::size_t i = 0; i < motion.samples.size(); ++i) {
+    history.x.push_back(motion.samples[i].x + plan.noise_x * of_x.normal(i));
+    if (plan.noise_v > 0.0) history.v.push_back(motion.samples[i].v + plan.noise_v * of_v.normal(i));
+  }
+  identify::Record record;
+  record.histories.push_back(std::move(history));
+  return record;
+}
+
+identify::Record decay_of_rig(identify::Rig rig, double position, int peaks, double noise, std::uint64_t seed) {
+  rig.known.excitation = {};
+  sim::Model model = *identify::model_of(rig);
+  model.initial = {position, 0.0};
+  const sim::FreeDecay decay = sim::free_decay(model, peaks);
+  identify::DecayRecord record;
+  const core::RandomStream draws{seed, 902};
+  for (std::size_t i = 0; i < decay.peaks.size(); ++i) {
+    record.extremes.push_back(decay.peaks[i].x + noise * draws.normal(i));
+    record.times.push_back(decay.peaks[i].t + 1e-4 * draws.normal(1000 + i));
+  }
+  identify::Record result;
+  result.decay = std::move(record);
+  return result;
+}
+
+identify::Record response_of(const identify::Rig& rig, double amplitude, const std::vector<double>& frequencies,
+                             double noise, double noise_phase, std::uint64_t seed) {
+  sim::Model model = *identify::model_of(rig);
+  identify::PairRecord record;
+  const core::RandomStream draws{seed, 903};
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    model.excitation.amplitude = amplitude;
+    model.excitation.frequency = frequencies[i];
+    const sim::SteadyState state = sim::steady_state(model);
+    record.pairs.push_back({.Y = amplitude,
+                            .x = state.amplitude + noise * draws.normal(2 * i),
+                            .number = static_cast<int>(i) + 1,
+                            .omega = frequencies[i],
+                            .phase = state.phase + noise_phase * draws.normal(2 * i + 1)});
+  }
+  identify::Record result;
+  result.pairs = std::move(record);
+  return result;
+}
+
+std::vector<identify::FitParameter> sought_in(identify::Rig& rig, const std::vector<std::string>& names,
+                                              double factor) {
+  std::vector<identify::FitParameter> parameters;
+  const std::vector<identify::FitParameter> all = identify::parameters_of(rig);
+  for (const std::string& name : names) {
+    std::string fault;
+    for (identify::FitParameter& found : identify::named(all, name, fault)) {
+      if (!found.path.ends_with("share")) found.stated *= factor;
+      parameters.push_back(std::move(found));
+    }
+    if (!fault.empty()) throw std::invalid_argument(fault);
+  }
+  identify::arrange(rig, parameters);
+  return parameters;
+}
+
+identify::Fit fit_of(const LawCase& law, std::uint64_t seed, const HistoryPlan& plan, bool profile) {
+  identify::Rig rig = rig_with(law);
+  std::string fault;
+  const identify::Record record = history_of(rig, plan, seed);
+  const identify::Experiments experiments = identify::experiments_of(record, {.name = "synthetic"}, fault);
+  constexpr double off = 1.15;
+  std::vector<identify::FitParameter> parameters = sought_in(rig, law.sought, off);
+  for (const identify::Own own : experiments.front()->own_free)
+    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  return identify::fit_rig(rig, std::move(parameters), experiments, {.profile = profile});
+}
+
+double truth_of(const identify::Rig& rig, const std::string& name) {
+  std::string fault;
+  const std::vector<identify::FitParameter> found = identify::named(identify::parameters_of(rig), name, fault);
+  return found.size() == 1 ? found.front().stated : 0.0;
+}
+
+}  // namespace dualdamp::test

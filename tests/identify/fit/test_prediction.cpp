@@ -1,0 +1,60 @@
+#include "identify/fit/prediction.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "friction_models/registry.hpp"
+#include "tests/identify/fit/synthetic.hpp"
+
+using namespace dualdamp;
+
+namespace {
+
+identify::Experiments experiments_of(const identify::Record& record) {
+  std::string fault;
+  identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
+  REQUIRE(fault.empty());
+  return experiments;
+}
+
+/// Fits `law` to a record of the true rig, and predicts another one at less than its amplitude.
+identify::Prediction prediction_by(const std::string& law, std::vector<std::string> names) {
+  const identify::Rig truth = test::rig_with(test::law_case_of("stribeck"));
+  const identify::Experiments first = experiments_of(test::history_of(truth, {.noise_x = 2e-5}, 31));
+  identify::Rig quieter = truth;
+  quieter.known.excitation.amplitude *= 0.6;
+  const identify::Experiments second = experiments_of(test::history_of(quieter, {.noise_x = 2e-5}, 32));
+  identify::Rig rig = truth;
+  if (law != "stribeck") rig.laws = {{friction::find_law(law), {{"kinetic", 1.2}}}};
+  std::vector<identify::FitParameter> parameters = test::sought_in(rig, names, 1.2);
+  for (const identify::Own own : first.front()->own_free)
+    parameters.push_back(identify::own_parameter(*first.front(), 0, own, true));
+  identify::Fit fit = identify::fit_rig(rig, parameters, first, {.profile = false});
+  REQUIRE(fit.outcome.ok());
+  fit.rig.known.excitation.amplitude *= 0.6;
+  return identify::predict_records(fit.rig, parameters, identify::shared_covariance(fit), second);
+}
+
+}  // namespace
+
+TEST_CASE("prediction: the right law comes within 10 % of what it can reach", "[identify][fit]") {
+  const identify::Prediction right = prediction_by("stribeck", {"kinetic", "static", "stribeck_velocity"});
+  REQUIRE(right.outcome.ok());
+  CAPTURE(right.text, right.error, right.attainable, right.uncertainty);
+  CHECK(right.error < 1.1 * right.attainable);
+  CHECK(!right.is_wrong);
+  CHECK_THAT(right.text, Catch::Contains("the law carries over"));
+  // Bands add up to the whole.
+  double sum = 0.0;
+  for (const identify::PredictionBand& band : right.bands) sum += band.error * band.error;
+  CHECK(std::sqrt(sum) == Approx(right.error).epsilon(0.02));
+}
+
+TEST_CASE("prediction: a wrong law is called wrong", "[identify][fit]") {
+  const identify::Prediction wrong = prediction_by("coulomb", {"kinetic"});
+  REQUIRE(wrong.outcome.ok());
+  CAPTURE(wrong.text, wrong.error, wrong.attainable, wrong.uncertainty);
+  CHECK(wrong.is_wrong);
+  CHECK_THAT(wrong.text, Catch::Contains("the law is wrong"));
+  CHECK(wrong.noise_units > 2.0);
+}

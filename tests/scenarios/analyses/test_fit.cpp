@@ -1,0 +1,167 @@
+#include "scenarios/analyses/fit.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+#include "core/random.hpp"
+#include "tests/scenarios/answers.hpp"
+
+using namespace dualdamp;
+using scenarios::parse_scenario;
+
+namespace {
+
+constexpr const char* rig = "mass: 1 kg, stiffness: 1000 N/m";
+
+/// A file beside the test's scenarios, gone with it.
+class File {
+ public:
+  File(const std::string& name, const std::string& text) : path_(name) { std::ofstream(path_) << text; }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() { std::remove(path_.c_str()); }
+
+ private:
+  std::string path_;
+};
+
+nlohmann::json result_of_text(const std::string& text) {
+  const scenarios::RunResult result = scenarios::run(parse_scenario(text, "test.yaml"));
+  INFO(result.failure);
+  REQUIRE(result.failure.empty());
+  return testing::result_of(result);
+}
+
+std::string scenario(const std::string& system, const std::string& analysis, const std::string& more = {}) {
+  return "schema: dualdamp/1\nsystem: {" + system + "}\n" + more + "analysis: {type: fit, " + analysis + "}\n";
+}
+
+/// The column `name` of a table of the result's run.
+std::vector<double> column_of(const scenarios::RunResult& result, const std::string& table,
+                              const std::string& name) {
+  for (const scenarios::Table& candidate : result.tables)
+    if (candidate.name == table)
+      for (const scenarios::Column& column : candidate.columns)
+        if (column.name == name) return column.numbers;
+  return {};
+}
+
+std::string fault_of(const std::string& text) {
+  try {
+    static_cast<void>(parse_scenario(text, "test.yaml"));
+  } catch (const core::InputError& error) {
+    std::string all;
+    for (const core::Diagnostic& problem : error.diagnostics()) all += core::format(problem) + "\n";
+    return all;
+  }
+  return "no fault";
+}
+
+/// A motion of the rig with friction, as a data file with noise.
+std::string history_text(const std::string& system, const std::string& drive, double noise, std::uint64_t seed) {
+  const scenarios::RunResult motion =
+      scenarios::run(parse_scenario("schema: dualdamp/1\nsystem: {" + system + "}\n" + drive +
+                                        "\nanalysis: {type: simulate, duration: 1 s, sample_rate: 400 1/s}\n",
+                                    "motion.yaml"));
+  const std::vector<double> t = column_of(motion, "history", "t");
+  const std::vector<double> x = column_of(motion, "history", "x");
+  std::ostringstream text;
+  text << "t [s],x [m]\n";
+  const core::RandomStream draws{seed, 950};
+  for (std::size_t i = 0; i < t.size(); ++i)
+    text << core::format_number(t[i]) << "," << core::format_number(x[i] + noise * draws.normal(i)) << "\n";
+  return text.str();
+}
+
+const std::string with_coulomb = std::string(rig) + ", damping: 1 N.s/m, friction: {law: coulomb, kinetic: 1 N}";
+const std::string released = "initial: {position: 30 mm}";
+
+}  // namespace
+
+TEST_CASE("fit: the scenario of a fit runs and gives the fitted curve", "[scenarios][fit]") {
+  const File data("fit_history.csv", history_text(with_coulomb, released, 1e-5, 1));
+  const scenarios::RunResult fit = scenarios::run(parse_scenario(
+      scenario(std::string(rig) + ", friction: {law: coulomb}", "data: fit_history.csv"), "test.yaml"));
+  REQUIRE(fit.failure.empty());
+  const nlohmann::json result = testing::result_of(fit);
+  CHECK(result.at("parameters").at(0).at("name") == "damping");
+  CHECK(result.at("parameters").at(1).at("value").get<double>() == Approx(1.0).epsilon(2e-3));
+  CHECK(result.at("residual").at("noise_units").get<double>() == Approx(1.0).margin(0.15));
+  const scenarios::RunResult again =
+      scenarios::run(parse_scenario(result.at("scenario").get<std::string>(), "fitted.yaml"));
+  REQUIRE(again.failure.empty());
+  const std::vector<double> fitted = column_of(fit, "fit_0_x", "fitted");
+  const std::vector<double> x = column_of(again, "history", "x");
+  REQUIRE(x.size() == fitted.size());
+  for (std::size_t i = 0; i < x.size(); ++i) CHECK(x[i] == Approx(fitted[i]).margin(1e-12));
+}
+
+TEST_CASE("fit: the scenario of steady states gives their points", "[scenarios][fit]") {
+  const nlohmann::json curve = testing::answer_to(
+      "{type: frequency_response, frequencies: [8 rad/s, 9 rad/s, 10 rad/s, 11 rad/s, 12 rad/s, 14 rad/s]}");
+  std::string text = "Y [m],x [m],omega [rad/s],phase [rad]\n";
+  for (const auto& point : curve.at("points"))
+    text += "0.1," + point.at("x").dump() + "," + point.at("omega").dump() + "," + point.at("phase").dump() + "\n";
+  const File data("fit_response.csv", text);
+  const nlohmann::json result =
+      result_of_text(scenario("mass: 1 kg, friction: {law: coulomb}", "data: fit_response.csv"));
+  for (const auto& [i, truth] : {std::pair{0, 100.0}, {1, 4.0}, {2, 2.0}})
+    CHECK(result.at("parameters").at(i).at("value").get<double>() == Approx(truth).epsilon(1e-5));
+  const nlohmann::json again =
+      testing::result_of(scenarios::run(parse_scenario(result.at("scenario").get<std::string>(), "fitted.yaml")));
+  REQUIRE(again.at("points").size() == 6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(again.at("points").at(i).at("x").get<double>() ==
+          Approx(curve.at("points").at(i).at("x").get<double>()).epsilon(1e-6));
+    CHECK(again.at("points").at(i).at("phase").get<double>() ==
+          Approx(curve.at("points").at(i).at("phase").get<double>()).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("fit: laws are compared, and the right one predicts", "[scenarios][fit]") {
+  const File data("fit_first.csv", history_text(with_coulomb, released, 1e-5, 2));
+  const File other("fit_second.csv", history_text(with_coulomb, "initial: {position: 12 mm}", 1e-5, 3));
+  const nlohmann::json result = result_of_text(scenario(
+      rig, "data: [{file: fit_first.csv}], validate: fit_second.csv, laws: [viscous_saturating, coulomb]"));
+  CHECK(result.at("law") == "coulomb");
+  CHECK(result.at("laws").at(0).at("weight").get<double>() > 0.99);
+  const nlohmann::json& validation = result.at("validation");
+  CHECK(validation.at("error").get<double>() < 1.1 * validation.at("attainable").get<double>());
+  CHECK(validation.at("wrong") == false);
+}
+
+TEST_CASE("fit: a stated initial state is known", "[scenarios][fit]") {
+  const File data("fit_known.csv", history_text(with_coulomb, released, 1e-5, 4));
+  const nlohmann::json result = result_of_text(
+      scenario(std::string(rig) + ", friction: {law: coulomb}", "data: fit_known.csv", released + "\n"));
+  CHECK(result.at("parameters").size() == 2);
+}
+
+TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][fit]") {
+  const File data("fit_faults.csv", "t [s],x [m]\n0,0.03\n0.1,-0.02\n0.2,0.015\n0.3,-0.01\n0.4,0.006\n");
+  const std::string known = std::string(rig) + ", friction: {law: coulomb}";
+  using Catch::Contains;
+  CHECK_THAT(fault_of(scenario(known, "data: missing.csv")), Contains("cannot be opened"));
+  CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, free: kinetik")),
+             Contains("there is no number 'kinetik' to fit; there are mass, stiffness"));
+  CHECK_THAT(fault_of(scenario("friction: {law: coulomb}", "data: fit_faults.csv")),
+             Contains("neither the mass nor the stiffness is known"));
+  CHECK_THAT(fault_of(scenario(known, "data: {file: fit_faults.csv, loop: true}")),
+             Contains("a loop needs the columns"));
+  CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, laws: [dahl]")),
+             Contains("stands beside 'system.friction'"));
+  CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, bounds: [{name: kinetic, low: 3 kg}]")),
+             Contains("the bound '3 kg' of kinetic"));
+  CHECK_THAT(
+      fault_of(scenario(std::string(rig) + ", friction: {law: generalized_maxwell_slip}", "data: fit_faults.csv")),
+      Contains("'elements' of generalized_maxwell_slip is missing"));
+  CHECK_THAT(fault_of(scenario(std::string(rig) + ", friction: {law: reset_integrator}",
+                               "data: fit_faults.csv, free: stiffness")),
+             Contains("'stiffness' may be system.stiffness or friction.stiffness"));
+}
