@@ -193,7 +193,7 @@ void check(CheckedFile& file) {
     for (const Rig& departure : departures()) all.push_back(departure.name);
     file.fill_in("laws", std::move(all));
   }
-  resolve_methods(file, outlines(analysis));
+  resolve_methods(file, outlines(analysis), scenarios::SlowMethods::only_where_named);
   if (!analysis.contains("laws")) return;
   check_severities(file, analysis);
   const std::size_t motions =

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,6 +107,8 @@ struct LawCandidate {
   double weight = 0.0;  ///< Akaike weight among the candidates
 };
 
+struct LawIntervals;  // methods/any_law/law_intervals.hpp
+
 struct Estimate {
   std::string method;
   core::Outcome outcome;  ///< not ok(): there is no estimate, and why
@@ -127,7 +130,8 @@ struct Estimate {
   std::optional<LineFit> line;    ///< resonance methods
   std::optional<DecayFit> decay;  ///< free_decay
   std::vector<FurtherParameter> others;
-  std::vector<LawCandidate> candidates;  ///< best first
+  std::vector<LawCandidate> candidates;      ///< best first
+  std::shared_ptr<const LawIntervals> laws;  ///< any_law
   std::vector<EstimateCurve> curves;
   std::vector<std::string> warnings;  ///< each a sentence
 };

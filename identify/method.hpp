@@ -64,6 +64,9 @@ struct MethodEntry {
   std::string (*lacks)(const Record&);
   MethodCall call;
   AssumptionSet rests_on;  ///< what a departure from makes the estimate wrong
+  /// It takes seconds: campaigns run it where it is named only, and uncertainties of constants are not found by
+  /// running it again.
+  bool takes_seconds = false;
 
   [[nodiscard]] std::span<const Option* const> options() const { return call.options; }
   [[nodiscard]] bool has(const Option& option) const;

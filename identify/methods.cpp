@@ -5,6 +5,7 @@
 // The methods, one line each, sorted by name. The source of each method defines its entry, NAME_method.
 #define DUALDAMP_METHODS(METHOD)             \
   METHOD(acceleration_velocity_displacement) \
+  METHOD(any_law)                            \
   METHOD(den_hartog_fit)                     \
   METHOD(energy_balance)                     \
   METHOD(extended_kalman)                    \

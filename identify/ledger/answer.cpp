@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"
+#include "identify/methods/any_law/law_intervals.hpp"
 
 namespace dualdamp::identify {
 
@@ -227,6 +228,21 @@ bool disagree(const Estimate& a, const Estimate& b) {
   return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
 }
 
+/// The ranges over all laws, and which laws end that of zeta.
+std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
+  const auto found = std::ranges::find_if(estimates, [](const Estimate& e) { return e.laws != nullptr; });
+  if (found == estimates.end()) return {};
+  const LawIntervals& laws = *found->laws;
+  const auto range = [](const Interval& ends) { return number(ends[0]) + " to " + number(ends[1]); };
+  const auto ends = [](const std::array<std::string, 2>& names) {
+    return names[0] == names[1] ? "'" + names[0] + "' ends it" : "'" + names[0] + "' and '" + names[1] + "' end it";
+  };
+  const auto allowed = std::ranges::count_if(laws.laws, [](const LawAnswer& law) { return !law.rejected; });
+  return " Whatever the law, of " + std::to_string(allowed) + " that these data allow: zeta " +
+         range(laws.zeta_hull) + " (" + ends(laws.zeta_ends) + "), F0 " + range(laws.F0_hull) + " " +
+         core::unit_for(coordinate, "N") + " (" + ends(laws.F0_ends) + ").";
+}
+
 std::string verdict_of(const Identification& all) {
   std::string text = departures_text(all.ledger);
   const bool of_friction = all.ledger.is_violated(Assumption::friction_velocity) ||
@@ -235,7 +251,7 @@ std::string verdict_of(const Identification& all) {
     return (text.empty()
                 ? ""
                 : text.substr(1) + (of_friction ? trend_text(all.estimates, all.ledger.coordinate) : "") + " ") +
-           "No estimate is to be used: " + all.reason + ".";
+           "No estimate is to be used: " + all.reason + "." + over_laws(all.estimates, all.ledger.coordinate);
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
   text = numbers_of(best, all.ledger.coordinate) + ", by " + best.method + ". " +
@@ -245,7 +261,7 @@ std::string verdict_of(const Identification& all) {
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
-  return text;
+  return text + over_laws(all.estimates, all.ledger.coordinate);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
   ANALYSIS(identify)                \
   ANALYSIS(fit)                     \
   ANALYSIS(predict)                 \
+  ANALYSIS(design)                  \
   ANALYSIS(formula)
 
 namespace dualdamp::scenarios {

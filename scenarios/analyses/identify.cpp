@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "identify/ledger/outliers.hpp"
+#include "identify/methods/any_law/any_law.hpp"
 #include "identify/records/pendulum.hpp"
 #include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -78,7 +79,7 @@ void check(CheckedFile& file) {
   read_data(file);
   const std::optional<identify::Record> record = outlined_record(file);
   if (!record) return;
-  resolve_methods(file, {*record});
+  resolve_methods(file, {*record}, SlowMethods::run);
   check_frequency(file, *record);
   check_method_options(file, record->pairs ? record->pairs->pairs.size() : 0);
 }
@@ -116,27 +117,33 @@ identify::Reader joint_estimate(const identify::LedgerOptions& options) {
   };
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+identify::KnownConstants constants_of(const sim::Model& model) {
+  // A measurement at several frequencies needs none of the excitation's own, which is then zero.
+  const bool has_frequency = model.excitation.is_harmonic() && model.excitation.frequency > 0.0;
+  return {model.oscillator.mass, model.oscillator.stiffness,
+          has_frequency ? model.excitation.frequency : identify::unknown, model.oscillator.coordinate};
+}
+
+std::unique_ptr<const IdentifyQuestion> question_of(CheckedValues&& values, IdentifyQuestion::Methods methods) {
   const Json& section = values.analysis;
-  const sim::Model& model = values.model;
-  IdentifyQuestion::Methods methods = {
-      methods_of(section.at("methods")),
-      {model.oscillator.mass, model.oscillator.stiffness,
-       // A measurement at several frequencies needs none of the excitation's own, which is then zero.
-       model.excitation.is_harmonic() && model.excitation.frequency > 0.0 ? model.excitation.frequency
-                                                                          : identify::unknown,
-       model.oscillator.coordinate},
-      uncertainties_of(values),
-      method_options(section),
-      {section.at("least_change").get<double>()},
-      section.value("robust", false)};
   if (values.data) return std::make_unique<IdentifyQuestion>(std::move(*values.data), std::move(methods));
-  IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), model)};
+  IdentifyQuestion::Synthetic synthetic{.measurement = measurement_of(section.at("measurement"), values.model)};
   if (section.contains("sensors")) {
     synthetic.sensors = sensors_of(section.at("sensors"));
     synthetic.seed = section.at("sensors").at("seed").get<std::uint64_t>();
   }
   return std::make_unique<IdentifyQuestion>(std::move(synthetic), std::move(methods));
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  const Json& section = values.analysis;
+  IdentifyQuestion::Methods methods = {methods_of(section.at("methods")),
+                                       constants_of(values.model),
+                                       uncertainties_of(values),
+                                       method_options(section),
+                                       {section.at("least_change").get<double>()},
+                                       section.value("robust", false)};
+  return question_of(std::move(values), std::move(methods));
 }
 
 std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view list) {
@@ -145,6 +152,11 @@ std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view l
 }
 
 }  // namespace
+
+std::unique_ptr<const IdentifyQuestion> record_question(CheckedValues&& values) {
+  IdentifyQuestion::Methods no_methods{.constants = constants_of(values.model)};
+  return question_of(std::move(values), std::move(no_methods));
+}
 
 const identify::Record* IdentifyQuestion::measured() const {
   const auto* data = std::get_if<identify::MeasuredRecord>(&source_);
@@ -167,14 +179,31 @@ identify::Record IdentifyQuestion::record(const RunContext& context, std::vector
   return record;
 }
 
+/// Of a method that takes seconds: the constants move it as they move the joint model.
+identify::Estimate IdentifyQuestion::slow_estimate(const identify::Reader& reader, const identify::Record& record,
+                                                   const identify::Ledger& ledger) const {
+  identify::Estimate estimate = reader(record, methods_.constants);
+  if (!methods_.uncertainties.any()) return estimate;
+  if (ledger.joint) {
+    const identify::Estimate uncertain = identify::with_uncertainties(joint_estimate(methods_.ledger), record,
+                                                                      methods_.constants, methods_.uncertainties);
+    identify::add_uncertainty_of(*ledger.joint, uncertain, estimate);
+  } else {
+    estimate.warnings.emplace_back("the uncertainties of the constants are not in its intervals");
+  }
+  return estimate;
+}
+
 identify::Identification IdentifyQuestion::conclude(const identify::Record& record, double within) const {
   const auto read = [&](const identify::Reader& reader) {
     return identify::with_uncertainties(reader, record, methods_.constants, methods_.uncertainties);
   };
-  std::vector<identify::Estimate> estimates;
-  for (const identify::MethodEntry* method : methods_.list)
-    estimates.push_back(read(reader_of(*method, methods_.options)));
   identify::Ledger ledger = identify::ledger_of(record, methods_.constants, methods_.ledger);
+  std::vector<identify::Estimate> estimates;
+  for (const identify::MethodEntry* method : methods_.list) {
+    const identify::Reader reader = reader_of(*method, methods_.options);
+    estimates.push_back(method->takes_seconds ? slow_estimate(reader, record, ledger) : read(reader));
+  }
   if (ledger.joint && methods_.uncertainties.any()) ledger.joint = read(joint_estimate(methods_.ledger));
   for (identify::Estimate& estimate : estimates) identify::widen(estimate, within);
   if (ledger.joint) identify::widen(*ledger.joint, within);
@@ -186,6 +215,7 @@ std::vector<identify::Sensitivity> IdentifyQuestion::sensitivities(const identif
   if (!found.answer) return {};
   const identify::Estimate& best = found.estimates[*found.answer];
   const identify::MethodEntry* method = identify::find_method(best.method);
+  if (method != nullptr && method->takes_seconds) return {};
   const identify::Reader reader =
       method == nullptr ? joint_estimate(methods_.ledger) : reader_of(*method, methods_.options);
   return identify::sensitivities(reader, best, record, methods_.constants, methods_.uncertainties);

@@ -42,10 +42,14 @@ class IdentifyQuestion final : public Question {
   [[nodiscard]] const identify::Record* measured() const;
   [[nodiscard]] const Methods& methods() const { return methods_; }
 
+  /// The record as the methods read it.
+  [[nodiscard]] identify::Record record(const RunContext& context, std::vector<std::string>& warnings) const;
+
   [[nodiscard]] Answer run(const RunContext& context) const override;
 
  private:
-  identify::Record record(const RunContext& context, std::vector<std::string>& warnings) const;
+  identify::Estimate slow_estimate(const identify::Reader& reader, const identify::Record& record,
+                                   const identify::Ledger& ledger) const;
   identify::Identification conclude(const identify::Record& record, double within) const;
   std::vector<identify::Sensitivity> sensitivities(const identify::Identification& found,
                                                    const identify::Record& record) const;
@@ -53,6 +57,9 @@ class IdentifyQuestion final : public Question {
   std::variant<identify::MeasuredRecord, Synthetic> source_;
   Methods methods_;
 };
+
+/// The record that a checked section `analysis` speaks of, without methods.
+[[nodiscard]] std::unique_ptr<const IdentifyQuestion> record_question(CheckedValues&& values);
 
 [[nodiscard]] const Analysis& identify_analysis();
 

@@ -198,6 +198,27 @@ function subsetCharts(estimates) {
       .flat();
 }
 
+/** The 95 % region of each law that the record allows, one above the other: their union is the hull. */
+function lawCharts(estimates) {
+  return estimates.filter((e) => e.laws)
+      .flatMap((e) => {
+        const allowed = e.laws.filter((law) => !law.rejected);
+        return [['zeta', 'ζ', ''], ['F0', 'F0', unitAt('estimates[].F0', 'N')]].map(
+            ([key, label, unit]) => chart({
+              title: `${label}, law by law`,
+              note: `${allowed.length} of ${e.laws.length} laws are allowed; the hull goes from ${
+                  short(e.hull95[key][0], 4)} (${e.hull_ends[key][0]}) to ${short(e.hull95[key][1], 4)} (${
+                  e.hull_ends[key][1]})`,
+              x: {label, unit},
+              y: {label: 'law, best first', unit: '', whole: true},
+              series: allowed.map((law, i) => {
+                const [low, high] = law[`${key}_interval95`];
+                return {label: law.name, x: [low, law[key], high], y: [i + 1, i + 1, i + 1], width: 3, colour: i};
+              })
+            }));
+      });
+}
+
 function identifyView(result) {
   const {estimates} = result;
   // The covariance is that of the damping ratio: without a spring there is none.
@@ -219,6 +240,7 @@ function identifyView(result) {
       series
     }) :
                    null,
+    ...lawCharts(estimates),
     ...estimateCurves(estimates), ...subsetCharts(estimates)
   ];
 }

@@ -10,19 +10,23 @@ Field methods_key(const std::string& all) {
   return word_list("methods", std::move(names), "identification methods; default: " + all);
 }
 
-void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& records) {
+void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& records, SlowMethods slow) {
   const auto lack_of = [&](const identify::MethodEntry& method) {
     for (const identify::Record& record : records)
       if (std::string lack = method.lacks(record); !lack.empty()) return lack;
     return std::string();
   };
   std::vector<std::string> fitting;
-  for (const identify::MethodEntry& method : identify::methods())
-    if (lack_of(method).empty()) fitting.emplace_back(method.name);
+  std::vector<std::string> chosen;
+  for (const identify::MethodEntry& method : identify::methods()) {
+    if (!lack_of(method).empty()) continue;
+    fitting.emplace_back(method.name);
+    if (slow == SlowMethods::run || !method.takes_seconds) chosen.emplace_back(method.name);
+  }
 
   const Json& analysis = file.values().at("analysis");
   if (!file.stands_in_file("analysis", "methods")) {
-    file.fill_in("methods", fitting);
+    file.fill_in("methods", chosen);
   } else if (analysis.contains("methods")) {
     for (std::size_t i = 0; i < analysis.at("methods").size(); ++i) {
       const auto name = analysis.at("methods")[i].get<std::string>();

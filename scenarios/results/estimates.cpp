@@ -1,9 +1,11 @@
 #include "scenarios/results/estimates.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/numbers.hpp"
 #include "scenarios/results/cells.hpp"
+#include "scenarios/results/laws.hpp"
 #include "scenarios/results/ledger.hpp"
 
 namespace dualdamp::scenarios {
@@ -143,6 +145,7 @@ Json estimate_json(const identify::Estimate& estimate, const identify::KnownCons
   json["interval95"] = exists && estimate.interval95 ? interval_json(*estimate.interval95) : Json(nullptr);
   json["diagnostics"] = diagnostics_json(estimate, constants);
   json["usable"] = estimate.usable;
+  if (estimate.laws) add_laws(*estimate.laws, json);
   return json;
 }
 
@@ -328,6 +331,7 @@ ResultFields estimate_fields() {
   fields = joined(fields, parameter_fields("estimates[].", "", ""));
   fields = joined(fields, parameter_fields("estimates[].std.", "", "standard error of the "));
   fields = joined(fields, parameter_fields("estimates[].interval95.", "[]", "95 % interval of the "));
+  fields = joined(fields, law_fields());
   fields = joined(fields, diagnostics());
   return joined(fields, {{"verdict", "", "the answer, or why there is none, in plain words"},
                          {"fit.method", "", "the method of the fit: that of the answer, else a usable one"},
@@ -365,6 +369,8 @@ Answer answer_of(const identify::Identification& found, const identify::Record& 
   answer.tables.push_back(readable_estimates(estimates, constants));
   answer.tables.push_back(readable_others(estimates, constants));
   answer.tables.push_back(estimate_table(estimates));
+  for (const identify::Estimate& estimate : estimates)
+    if (estimate.laws) std::ranges::move(law_tables(*estimate.laws, constants), std::back_inserter(answer.tables));
   add_curves(estimates, answer);
   return answer;
 }

@@ -52,6 +52,7 @@ ROOMS = {
         "methods": [".", "statistics", "records", "models", "uncertainty"],
         "fit": [".", "statistics", "records"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
+        "design": [".", "statistics", "methods"],
         "any_law": [".", "statistics", "records", "models", "methods"],
     },
     "scenarios": {

@@ -1,0 +1,39 @@
+#pragma once
+/// Measurements that could follow a record: what the advice chooses from.
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+/// A steady state to be measured.
+struct PlannedState {
+  double Y = 0.0;      ///< input amplitude [m]
+  double omega = 0.0;  ///< rad/s
+};
+
+/// A release from rest, whose extremes are read.
+struct PlannedDecay {
+  double release = 0.0;  ///< m
+  int extremes = 0;
+};
+
+struct CandidateMeasurement {
+  std::string name;  ///< "phase of the same states", one line
+  std::variant<std::vector<PlannedState>, PlannedDecay> plan;
+  bool phases = false;  ///< recorded beside the amplitudes of x
+  /// Only phases: their amplitudes are those of the record and are no news.
+  bool only_phases = false;
+  double cost = 0.0;  ///< states, or releases
+};
+
+/// What a laboratory with this record could do next with the same rig: record the phase, repeat, take two or three
+/// levels more often, go to higher levels, another frequency, the resonance curve, or a release. `zeta`: about, for
+/// the width of the resonance.
+[[nodiscard]] std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& states,
+                                                                 const KnownConstants& constants, double zeta);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,50 @@
+#pragma once
+/// zeta and F0 when nobody knows the friction law: ranges over all laws that the record allows.
+///
+/// Steady states, with or without phases, or the extremes of a free vibration are fitted under every law of the
+/// library, each over its severity (law_intervals.hpp). The 95 % interval of the estimate is the hull; its value is
+/// the mean of the average over laws, moved into the hull where it lies outside. What remains assumed: one law of
+/// the library, or one that acts on the readings like it, its severity below `largest_severity`; that the sensors
+/// are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty: estimated from what a
+/// smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`. Cost: seconds.
+
+#include "identify/method.hpp"
+
+namespace dualdamp::identify {
+
+inline constexpr Option largest_severity_option{
+    .name = "largest_severity",
+    .kind = OptionKind::number,
+    .unit = "1",
+    .range = {.low = 0.0, .high = 1.0, .low_open = true},
+    .otherwise = "0.3",
+    .meaning = "severity up to which any_law seeks each law; it bounds the departure from Coulomb's law"};
+inline constexpr Option severity_deviation_option{
+    .name = "severity_deviation",
+    .kind = OptionKind::number,
+    .unit = "1",
+    .range = {.low = 0.0, .high = 1.0, .low_open = true},
+    .otherwise = "0.1",
+    .meaning = "standard deviation of the prior of the severity in any_law's average over laws"};
+
+struct AnyLawOptions : KnownDeviations {
+  double largest_severity = 0.3;
+  double severity_deviation = 0.1;
+
+  static constexpr auto declared() {
+    return std::tuple_cat(KnownDeviations::declared(),
+                          std::tuple{Use{&largest_severity_option, &AnyLawOptions::largest_severity},
+                                     Use{&severity_deviation_option, &AnyLawOptions::severity_deviation}});
+  }
+};
+
+[[nodiscard]] Estimate any_law(const Record& record, const KnownConstants& constants,
+                               const AnyLawOptions& options = {});
+
+/// Adds to the intervals of `estimate` what uncertain constants add to those of another estimate of the record:
+/// `uncertain` and `stated` are that one with and without them. any_law takes too long to be read again.
+void add_uncertainty_of(const Estimate& stated, const Estimate& uncertain, Estimate& estimate);
+
+extern const MethodEntry any_law_method;
+
+}  // namespace dualdamp::identify

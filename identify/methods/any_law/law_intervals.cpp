@@ -1,0 +1,253 @@
+#include "identify/methods/any_law/law_intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double level = 0.05;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One law over its severity, densely.
+struct Profile {
+  const LawFits* law = nullptr;
+  std::vector<SeverityPoint> points{};
+  double least = infinity;  ///< chi2
+};
+
+/// A point of the mixture: a normal distribution with a weight.
+struct Component {
+  double weight = 0.0;
+  double value = 0.0;
+  double deviation = 0.0;
+};
+
+double quantile(const std::vector<Component>& mixture, double share) {
+  double low = infinity;
+  double high = -infinity;
+  constexpr double reach = 6.0;
+  for (const Component& part : mixture) {
+    low = std::min(low, part.value - reach * part.deviation);
+    high = std::max(high, part.value + reach * part.deviation);
+  }
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = std::midpoint(low, high);
+    double below = 0.0;
+    for (const Component& part : mixture)
+      below += part.weight * 0.5 * std::erfc(-(middle - part.value) / part.deviation / std::numbers::sqrt2);
+    (below < share ? low : high) = middle;
+  }
+  return std::midpoint(low, high);
+}
+
+/// Likelihood of chi2 less the least of all, with the deviation known or estimated (Student).
+double likelihood(double above, double scale, double freedom) {
+  if (std::isinf(freedom)) return std::exp(-0.5 * above / scale);
+  return std::pow(1.0 + above / scale / freedom, -0.5 * (freedom + 1.0));
+}
+
+class Summary {
+ public:
+  Summary(const ReadingModel& model, const KnownConstants& constants, const PlainFit& plain,
+          std::vector<Profile> profiles)
+      : model_(model), constants_(constants), plain_(plain), profiles_(std::move(profiles)) {}
+
+  [[nodiscard]] LawIntervals intervals() {
+    LawIntervals result;
+    result.data = model_.data();
+    judge(result);
+    const double student = quantile95(plain_.noise.freedom);
+    for (const Profile& profile : profiles_) result.laws.push_back(answer_of(profile, student * student));
+    weigh(result);
+    draw_hull(result);
+    result.aliases = aliases(result);
+    std::ranges::stable_sort(result.laws, std::ranges::greater{}, &LawAnswer::p_value);
+    return result;
+  }
+
+ private:
+  /// Degrees of freedom of a law's fit.
+  [[nodiscard]] double freedom_of(const Profile& profile) const {
+    const auto rows = static_cast<double>(model_.readings().size());
+    const double own = profile.law->law.departure == nullptr ? 2.0 : 3.0;
+    return std::max(rows - own, 1.0);
+  }
+
+  [[nodiscard]] double p_value(const Profile& profile) const {
+    const double freedom = freedom_of(profile);
+    const double denominator = std::min(plain_.noise.freedom, 1e8);
+    return f_test_p_value(profile.least / scale_ / freedom, freedom, denominator);
+  }
+
+  /// Raises the noise until the best law is not rejected.
+  void judge(LawIntervals& result) {
+    double best = 0.0;
+    for (const Profile& profile : profiles_) best = std::max(best, p_value(profile));
+    if (best >= level) return;
+    double least = infinity;
+    for (const Profile& profile : profiles_) least = std::min(least, profile.least / freedom_of(profile));
+    scale_ = std::max(least, 1.0);
+    result.inflation = std::sqrt(scale_);
+  }
+
+  [[nodiscard]] double zeta_of(double c) const {
+    return c / (2.0 * std::sqrt(constants_.mass * constants_.stiffness));
+  }
+
+  [[nodiscard]] LawAnswer answer_of(const Profile& profile, double reach) const {
+    LawAnswer answer;
+    answer.name = profile.law->law.name();
+    answer.p_value = p_value(profile);
+    answer.rejected = answer.p_value < level;
+    const SeverityPoint& best = best_of(profile.points);
+    answer.severity = best.severity;
+    answer.largest = profile.law->law.largest;
+    answer.value = {zeta_of(best.c), best.c, best.F0 / constants_.stiffness, best.F0};
+    answer.F0_interval95 =
+        region_of(profile.points, reach * scale_, &SeverityPoint::F0, &SeverityPoint::F0_deviation);
+    const Interval c = region_of(profile.points, reach * scale_, &SeverityPoint::c, &SeverityPoint::c_deviation);
+    answer.zeta_interval95 = {zeta_of(c[0]), zeta_of(c[1])};
+    return answer;
+  }
+
+  void weigh(LawIntervals& result) const {
+    double least = infinity;
+    for (const Profile& profile : profiles_) least = std::min(least, profile.least);
+    std::vector<Component> zeta;
+    std::vector<Component> F0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < profiles_.size(); ++i) {
+      const std::vector<double> prior = prior_of(profiles_[i]);
+      for (std::size_t j = 0; j < prior.size(); ++j) {
+        const SeverityPoint& node = profiles_[i].points[j];
+        const double weight = prior[j] * likelihood(node.chi2 - least, scale_, plain_.noise.freedom) *
+                              std::exp(node.log_volume - plain_volume());
+        result.laws[i].weight += weight;
+        sum += weight;
+        zeta.push_back({weight, zeta_of(node.c), zeta_of(node.c_deviation) * std::sqrt(scale_)});
+        F0.push_back({weight, node.F0, node.F0_deviation * std::sqrt(scale_)});
+      }
+    }
+    for (LawAnswer& law : result.laws) law.weight /= sum;
+    for (auto [mixture, mean, std, interval] :
+         {std::tuple{&zeta, &result.mean.zeta, &result.std.zeta, &result.zeta_average},
+          std::tuple{&F0, &result.mean.F0, &result.std.F0, &result.F0_average}}) {
+      for (Component& part : *mixture) part.weight /= sum;
+      double square = 0.0;
+      for (const Component& part : *mixture) *mean += part.weight * part.value;
+      for (const Component& part : *mixture)
+        square += part.weight * (std::pow(part.value - *mean, 2) + part.deviation * part.deviation);
+      *std = std::sqrt(square);
+      *interval = {std::max(quantile(*mixture, 0.025), 0.0), quantile(*mixture, 0.975)};
+    }
+    const double critical = 2.0 * std::sqrt(constants_.mass * constants_.stiffness);
+    for (ParameterSet* set : {&result.mean, &result.std}) {
+      set->c = set->zeta * critical;
+      set->x_f = set->F0 / constants_.stiffness;
+    }
+  }
+
+  [[nodiscard]] double plain_volume() const {
+    return 0.5 * std::log(std::max(plain_.fit.covariance.determinant(), std::numeric_limits<double>::min()));
+  }
+
+  /// Of each node: the normal density of its severity, by the trapezoidal rule, in all 1.
+  static std::vector<double> prior_of(const Profile& profile) {
+    const std::vector<SeverityPoint>& nodes = profile.points;
+    std::vector<double> prior(nodes.size(), 1.0);
+    if (nodes.size() < 2) return prior;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      const double before = nodes[j == 0 ? 0 : j - 1].severity;
+      const double after = nodes[std::min(j + 1, nodes.size() - 1)].severity;
+      const double z = nodes[j].severity / profile.law->law.deviation;
+      prior[j] = 0.5 * (after - before) * std::exp(-0.5 * z * z);
+      sum += prior[j];
+    }
+    for (double& weight : prior) weight /= sum;
+    return prior;
+  }
+
+  static void draw_hull(LawIntervals& result) {
+    result.zeta_hull = result.F0_hull = {infinity, -infinity};
+    for (const LawAnswer& law : result.laws) {
+      if (law.rejected) continue;
+      for (auto [hull, own, ends] : {std::tuple{&result.zeta_hull, &law.zeta_interval95, &result.zeta_ends},
+                                     std::tuple{&result.F0_hull, &law.F0_interval95, &result.F0_ends}}) {
+        if ((*own)[0] < (*hull)[0]) (*hull)[0] = (*own)[0], (*ends)[0] = law.name;
+        if ((*own)[1] > (*hull)[1]) (*hull)[1] = (*own)[1], (*ends)[1] = law.name;
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<std::vector<std::string>> aliases(const LawIntervals& result) const {
+    constexpr double alike = 1.0;  // standard deviations between the readings of two best fits
+    std::vector<std::vector<std::size_t>> groups;
+    const Index rows = model_.readings().size();
+    for (std::size_t i = 0; i < profiles_.size(); ++i) {
+      if (result.laws[i].rejected) continue;
+      const auto fits_in = [&](const std::vector<std::size_t>& group) {
+        return std::ranges::all_of(group, [&](std::size_t j) {
+          const VectorXd apart =
+              profiles_[i].law->best().residuals.head(rows) - profiles_[j].law->best().residuals.head(rows);
+          return apart.squaredNorm() < alike * scale_;
+        });
+      };
+      const auto group = std::ranges::find_if(groups, fits_in);
+      if (group == groups.end())
+        groups.push_back({i});
+      else
+        group->push_back(i);
+    }
+    std::vector<std::vector<std::string>> named;
+    for (const std::vector<std::size_t>& group : groups) {
+      if (group.size() < 2) continue;
+      named.emplace_back();
+      for (const std::size_t i : group) named.back().push_back(result.laws[i].name);
+    }
+    return named;
+  }
+
+  const ReadingModel& model_;
+  const KnownConstants& constants_;
+  const PlainFit& plain_;
+  std::vector<Profile> profiles_;
+  double scale_ = 1.0;
+};
+
+}  // namespace
+
+std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const KnownConstants& constants,
+                                               const LawIntervalOptions& options) {
+  std::optional<PlainFit> plain = plain_fit(model);
+  if (!plain) return "no Coulomb and viscous friction has steady states like these";
+  LawStudy study{.plain = std::move(*plain)};
+  study.laws = fit_library(model, options, study.plain);
+  std::vector<std::string> unsolved;
+  for (const LawFits& law : study.laws)
+    if (!law.solved()) unsolved.push_back(law.law.name());
+  std::erase_if(study.laws, [](const LawFits& law) { return !law.solved(); });
+  std::vector<Profile> profiles;
+  for (const LawFits& law : study.laws) {
+    Profile profile{&law, severity_curve(model, law.fits)};
+    profile.least = best_of(profile.points).chi2;
+    profiles.push_back(std::move(profile));
+  }
+  study.intervals = Summary(model, constants, study.plain, std::move(profiles)).intervals();
+  study.intervals.unsolved = std::move(unsolved);
+  return study;
+}
+
+}  // namespace dualdamp::identify

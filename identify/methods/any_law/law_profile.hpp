@@ -1,0 +1,51 @@
+#pragma once
+/// One law over its severity: at each of a few severities the best fit of all else, with its covariance.
+///
+///   chi2(s) = min over F0, c and the nuisances of sum (reading - prediction)^2/sigma^2 + sum
+///   (nuisance/deviation)^2
+///
+/// Between the severities the values are interpolated, so that the 95 % region of zeta and F0 over all severities
+/// is that of the profile likelihood: severity s adds the interval theta(s) +- sqrt((D - chi2(s) + chi2_min) V(s)).
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identify/methods/any_law/reading_model.hpp"
+
+namespace dualdamp::identify {
+
+/// Standard deviation of each channel of readings, and the degrees of freedom behind it.
+struct ReadingNoise {
+  std::vector<double> deviations;
+  double freedom = 0.0;  ///< infinite where they are known
+};
+
+struct LawFit {
+  double severity = 0.0;
+  double chi2 = 0.0;
+  Eigen::VectorXd unknowns;
+  Eigen::VectorXd residuals;   ///< over their deviations
+  Eigen::MatrixXd covariance;  ///< of the unknowns
+};
+
+/// The best fit of a law at one severity from `start` on; nothing where it has no steady states there.
+[[nodiscard]] std::optional<LawFit> fit_law(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise,
+                                            const Eigen::VectorXd& start, NearbyOrbits& near);
+
+/// The noise of the readings, where it is not known: what a smooth curve leaves of the residuals of Coulomb +
+/// viscous friction. `plain`: that fit; it is repeated until its weights are those of the noise. Nothing where it
+/// has none.
+struct PlainFit {
+  ReadingNoise noise;
+  LawFit fit;
+};
+[[nodiscard]] std::optional<PlainFit> plain_fit(const ReadingModel& model);
+
+/// Fits over the severities of one departure, the mildest first; `plain` stands for severity zero. Ends where a law
+/// explains the readings so much worse than a milder one that no region reaches it. Negative `largest`: the other
+/// sign.
+[[nodiscard]] std::vector<LawFit> law_profile(const ReadingModel& model, const bench::Rig& departure,
+                                              double largest, const ReadingNoise& noise, const LawFit& plain);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,65 @@
+#include "identify/methods/any_law/library.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+#include "sim/parallel.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Departures that mean something for a severity of either sign.
+constexpr std::array two_sided = {"cubic_spring", "detuning", "position_slope", "viscous_power"};
+constexpr std::array no_laws = {"rough_way", "warming"};
+
+template <typename List>
+bool names(const List& list, std::string_view name) {
+  return std::ranges::find(list, name) != std::end(list);
+}
+
+LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
+  LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit)};
+  if (!law.both_signs) return all;
+  std::vector<LawFit> negative = law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit);
+  std::ranges::reverse(negative);
+  negative.pop_back();
+  all.fits.insert(all.fits.begin(), negative.begin(), negative.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
+  std::vector<LibraryLaw> laws;
+  for (const bench::Rig& departure : bench::departures()) {
+    if (names(no_laws, departure.name) || names(options.without, departure.name)) continue;
+    if (departure.forced_only && !model.is_driven()) continue;
+    LibraryLaw law{&departure, std::min(options.largest_severity, departure.largest), options.severity_deviation,
+                   names(two_sided, departure.name)};
+    // Where the readings tell of spring and frequency these are free under every law.
+    const bool of_spring = departure.name == "detuning" || departure.name == "cubic_spring";
+    if (of_spring && !model.nuisances().empty()) continue;
+    if (departure.name == "detuning") law.largest = 0.01, law.deviation = 0.005;
+    if (departure.name == "cubic_spring") law.largest = 0.1, law.deviation = 0.05;
+    laws.push_back(law);
+  }
+  return laws;
+}
+
+const LawFit& LawFits::best() const { return *std::ranges::min_element(fits, {}, &LawFit::chi2); }
+
+std::vector<LawFits> fit_library(const ReadingModel& model, const LawIntervalOptions& options,
+                                 const PlainFit& plain) {
+  const std::vector<LibraryLaw> laws = law_library(model, options);
+  std::vector<LawFits> all(laws.size() + 1);
+  all[0].fits = {plain.fit};
+  sim::in_parts(laws.size(), 1, 0, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) all[i + 1] = fits_of(model, laws[i], plain);
+  });
+  return all;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,49 @@
+#pragma once
+/// The library of friction laws that any_law fits: the departures of sim/rigs/ with the severities that a real rig
+/// may have, and what each makes of a record.
+
+#include <string>
+#include <vector>
+
+#include "identify/methods/any_law/law_profile.hpp"
+#include "identify/methods/any_law/reading_model.hpp"
+
+namespace dualdamp::identify {
+
+struct LawIntervalOptions {
+  double largest_severity = 0.3;
+  double severity_deviation = 0.1;  ///< of the prior of a severity, about zero
+  /// Departures that stay out of the library.
+  std::vector<std::string> without{};
+};
+
+struct LibraryLaw {
+  const bench::Rig* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
+  double largest = 0.0;                   ///< severity up to which it is sought
+  double deviation = 0.0;                 ///< of the prior of its severity
+  bool both_signs = false;
+
+  [[nodiscard]] std::string name() const {
+    return departure == nullptr ? "coulomb_viscous" : std::string(departure->name);
+  }
+};
+
+/// The laws for readings of this kind, sorted by name, without plain friction. Friction that varies along the way
+/// at random is no law, and friction that warms has no F0 but that of its history: they are not among them.
+[[nodiscard]] std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options);
+
+/// One law over its severity, negative ones first. A law without steady states has no fit but that of severity
+/// zero.
+struct LawFits {
+  LibraryLaw law{};
+  std::vector<LawFit> fits{};
+
+  [[nodiscard]] bool solved() const { return law.departure == nullptr || fits.size() > 1; }
+  [[nodiscard]] const LawFit& best() const;
+};
+
+/// Plain friction first, then the library; on all cores.
+[[nodiscard]] std::vector<LawFits> fit_library(const ReadingModel& model, const LawIntervalOptions& options,
+                                               const PlainFit& plain);
+
+}  // namespace dualdamp::identify

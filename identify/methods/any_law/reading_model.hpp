@@ -1,0 +1,95 @@
+#pragma once
+/// What a record's readings are under any friction law: the forward model behind the interval over laws.
+///
+/// The law is a departure of `sim/rigs/` at a severity s, or Coulomb + viscous friction. Unknowns are numbers of
+/// order one: F0 and c over those where the search begins, and what else the record cannot exclude.
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "identify/estimate.hpp"
+#include "identify/record.hpp"
+#include "sim/rigs/rigs.hpp"
+
+namespace dualdamp::identify {
+
+/// A law at a severity; without a departure it is Coulomb + viscous friction.
+struct LawAt {
+  const bench::Rig* departure = nullptr;
+  double severity = 0.0;
+};
+
+/// Something beside F0 and c that is free in every fit.
+struct Nuisance {
+  std::string name;
+  double deviation = 0.0;  ///< standard deviation of its prior, about zero; 0: none, the record decides
+};
+
+/// Orbits of the last prediction, next to which those of a similar one are found quickly.
+struct NearbyOrbits {
+  virtual ~NearbyOrbits() = default;
+};
+
+class ReadingModel {
+ public:
+  virtual ~ReadingModel() = default;
+
+  /// Unknowns: F0, c, then the nuisances.
+  [[nodiscard]] const std::vector<Nuisance>& nuisances() const { return nuisances_; }
+  [[nodiscard]] Eigen::Index unknowns() const { return 2 + static_cast<Eigen::Index>(nuisances_.size()); }
+  [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
+  /// F0 [N] and c [N.s/m] per unit of the first two unknowns.
+  [[nodiscard]] double F0_unit() const { return F0_unit_; }
+  [[nodiscard]] double c_unit() const { return c_unit_; }
+
+  /// The motion that severities are measured by.
+  [[nodiscard]] const bench::ReferenceMotion& reference() const { return reference_; }
+
+  [[nodiscard]] const Eigen::VectorXd& readings() const { return readings_; }
+  /// The channel of each reading: readings of one channel have one standard deviation.
+  [[nodiscard]] const std::vector<int>& channels() const { return channels_; }
+  /// Known standard deviation of each channel; 0: from the record.
+  [[nodiscard]] const std::vector<double>& known_deviations() const { return known_deviations_; }
+  /// Columns that span what a smooth departure does to the readings: what they leave is noise.
+  [[nodiscard]] const Eigen::MatrixXd& smooth_curve() const { return smooth_curve_; }
+  /// Deviations below it are not believed.
+  [[nodiscard]] double least_deviation(int channel) const {
+    return least_deviations_[static_cast<std::size_t>(channel)];
+  }
+  /// Whether a base drives the mass: else departures of the drive mean nothing.
+  [[nodiscard]] bool is_driven() const { return driven_; }
+  [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }  ///< of the data used
+  [[nodiscard]] const std::string& data() const { return data_; }             ///< "8 steady states with phases"
+
+  [[nodiscard]] virtual std::unique_ptr<NearbyOrbits> no_orbits() const = 0;
+  /// Readings less their predictions; nothing where the law has none there.
+  [[nodiscard]] virtual std::optional<Eigen::VectorXd> residuals(const LawAt& law, const Eigen::VectorXd& unknowns,
+                                                                 NearbyOrbits& near) const = 0;
+  /// Derivatives of the predictions by the unknowns, next to the last residuals, which were those at `unknowns`.
+  [[nodiscard]] virtual std::optional<Eigen::MatrixXd> derivatives(const LawAt& law,
+                                                                   const Eigen::VectorXd& unknowns,
+                                                                   const Eigen::VectorXd& residuals,
+                                                                   NearbyOrbits& near) const = 0;
+
+ protected:
+  std::vector<Nuisance> nuisances_;
+  Eigen::VectorXd start_;
+  double F0_unit_ = 0.0;
+  double c_unit_ = 0.0;
+  bench::ReferenceMotion reference_;
+  Eigen::VectorXd readings_;
+  std::vector<int> channels_;
+  std::vector<double> known_deviations_;
+  std::vector<double> least_deviations_;
+  Eigen::MatrixXd smooth_curve_;
+  bool driven_ = true;
+  std::vector<int> numbers_;
+  std::string data_;
+};
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,37 @@
+#pragma once
+/// What a law makes of zeta's c and of F0, over its severity: fits at some severities, interpolated between them,
+/// and the region that they span.
+
+#include <array>
+#include <vector>
+
+#include "identify/methods/any_law/law_profile.hpp"
+#include "identify/methods/any_law/reading_model.hpp"
+
+namespace dualdamp::identify {
+
+using Interval = std::array<double, 2>;
+
+/// The fit at one severity, as far as regions need it.
+struct SeverityPoint {
+  double severity = 0.0;
+  double chi2 = 0.0;
+  double F0 = 0.0;  ///< N
+  double c = 0.0;   ///< N.s/m
+  double F0_deviation = 0.0;
+  double c_deviation = 0.0;
+  double log_volume = 0.0;  ///< half the logarithm of the determinant of the unknowns' covariance
+};
+
+/// Fits by increasing severity, and points interpolated between them (makima from four fits on, else linear). chi2
+/// follows from interpolated residuals, so that it is a sum of squares between the fits, too.
+[[nodiscard]] std::vector<SeverityPoint> severity_curve(const ReadingModel& model, const std::vector<LawFit>& fits);
+
+/// The least chi2 of the points.
+[[nodiscard]] const SeverityPoint& best_of(const std::vector<SeverityPoint>& points);
+
+/// Ends of the region chi2 <= least chi2 + reach of the profile likelihood; not below zero.
+[[nodiscard]] Interval region_of(const std::vector<SeverityPoint>& points, double reach,
+                                 double SeverityPoint::* value, double SeverityPoint::* deviation);
+
+}  // namespace dualdamp::identify

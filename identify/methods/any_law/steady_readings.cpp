@@ -1,0 +1,239 @@
+#include "identify/methods/any_law/steady_readings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "identify/methods/amplitudes/den_hartog_fit.hpp"
+#include "identify/methods/amplitudes/harmonic_balance.hpp"
+#include "identify/methods/amplitudes/steady_states.hpp"
+#include "sim/orbits/steady_state_near.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Error of steps and closure of orbits; noise is a hundred times larger at least.
+constexpr double accuracy = 1e-7;
+/// A motion that has not settled by then is no steady state that a laboratory waits for.
+constexpr int patience = 300;
+/// Of differences, relative to F0 and c.
+constexpr double step = 2e-3;
+
+/// No amplitude is believed to a smaller share of the largest, no phase to a smaller angle [rad].
+constexpr double least_amplitude_deviation = 1e-4;
+constexpr double least_phase_deviation = 1e-4;
+
+constexpr const char* no_plain_motion =
+    "plain Coulomb and viscous friction fits with a negative force or damping: there is no motion to begin with";
+
+constexpr double stiffness_deviation = 0.05;
+constexpr double hardening_deviation = 0.1;
+constexpr Index stiffness_unknown = 2;
+
+struct SteadyOrbits final : NearbyOrbits {
+  std::vector<std::optional<sim::KnownOrbit>> orbits;
+};
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+class SteadyReadings final : public ReadingModel {
+ public:
+  SteadyReadings(std::vector<Pair> states, const KnownConstants& constants, const ParameterSet& begin,
+                 const KnownDeviations& known)
+      : states_(std::move(states)), constants_(constants) {
+    const auto [low, high] = std::ranges::minmax_element(states_, {}, &Pair::x);
+    const auto fastest =
+        std::ranges::max_element(states_, {}, [](const Pair& state) { return state.omega * state.x; });
+    reference_ = {.amplitude = 0.5 * (low->x + high->x), .frequency = fastest->omega, .Y = fastest->Y};
+    count_states();
+    if (phases_ < 2) phases_ = 0;
+    if (phases_ > 0 || several_) nuisances_ = spring_nuisances();
+    F0_unit_ = begin.F0;
+    c_unit_ = begin.c;
+    start_ = VectorXd::Zero(unknowns());
+    start_.head(2).setOnes();
+    take_readings(known);
+    data_ = std::to_string(states_.size()) + " steady states" + (phases_ > 0 ? " with phases" : "");
+  }
+
+  /// States that are planned.
+  SteadyReadings(const ReadingModel& record, std::vector<Pair> states, const KnownConstants& constants,
+                 const std::array<double, 2>& deviations)
+      : states_(std::move(states)), constants_(constants) {
+    reference_ = record.reference();
+    F0_unit_ = record.F0_unit();
+    c_unit_ = record.c_unit();
+    count_states();
+    nuisances_ = spring_nuisances();
+    take_readings({});
+    known_deviations_ = {deviations[0], deviations[1]};
+  }
+
+  [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits() const override {
+    auto none = std::make_unique<SteadyOrbits>();
+    none->orbits.resize(states_.size());
+    return none;
+  }
+
+  [[nodiscard]] std::optional<VectorXd> residuals(const LawAt& law, const VectorXd& p,
+                                                  NearbyOrbits& near) const override {
+    auto& orbits = static_cast<SteadyOrbits&>(near).orbits;
+    VectorXd result(readings_.size());
+    Index phase_row = amplitudes();
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const sim::Model model = model_of(law, p, states_[i]);
+      const sim::SteadyState state = found(model, orbits[i]);
+      if (!state.outcome.ok()) return std::nullopt;
+      if (orbits[i])
+        orbits[i]->start = state.start;
+      else
+        orbits[i] = sim::known_orbit(model, state);
+      result[static_cast<Index>(i)] = states_[i].x - state.amplitude;
+      if (has_phase(states_[i])) result[phase_row++] = wrapped(states_[i].phase - state.phase);
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::optional<Eigen::MatrixXd> derivatives(const LawAt& law, const VectorXd& p,
+                                                           const VectorXd& here,
+                                                           NearbyOrbits& near) const override {
+    Eigen::MatrixXd jacobian(here.size(), unknowns());
+    const double damping = 2.0 * p[1] * c_unit_ / (2.0 * std::sqrt(constants_.mass * constants_.stiffness));
+    for (Index j = 0; j < std::min<Index>(unknowns(), stiffness_unknown + 1); ++j) {
+      const double h = j == stiffness_unknown ? step * std::clamp(damping, 1e-3, 0.5) : step * std::abs(p[j]);
+      VectorXd moved = p;
+      moved[j] += h;
+      SteadyOrbits neighbours = static_cast<SteadyOrbits&>(near);
+      const std::optional<VectorXd> there = residuals(law, moved, neighbours);
+      if (!there) return std::nullopt;
+      jacobian.col(j) = (here - *there) / h;
+      for (Index i = amplitudes(); i < here.size(); ++i) jacobian(i, j) = wrapped(here[i] - (*there)[i]) / h;
+    }
+    if (unknowns() > stiffness_unknown + 1) {
+      Index phase_row = amplitudes();
+      for (std::size_t i = 0; i < states_.size(); ++i) {
+        const double share = share_of_hardening(states_[i]);
+        const auto row = static_cast<Index>(i);
+        jacobian(row, stiffness_unknown + 1) = share * jacobian(row, stiffness_unknown);
+        if (!has_phase(states_[i])) continue;
+        jacobian(phase_row, stiffness_unknown + 1) = share * jacobian(phase_row, stiffness_unknown);
+        ++phase_row;
+      }
+    }
+    return jacobian;
+  }
+
+ private:
+  [[nodiscard]] Index amplitudes() const { return static_cast<Index>(states_.size()); }
+  [[nodiscard]] bool has_phase(const Pair& state) const { return phases_ > 0 && !std::isnan(state.phase); }
+
+  /// Stiffness of a cubic spring for the fundamental, over k3 X^2.
+  [[nodiscard]] double share_of_hardening(const Pair& state) const {
+    const double in_phase = std::isnan(state.phase) ? 0.0 : std::cos(state.phase);
+    const double square = state.x * state.x + state.Y * state.Y - 2.0 * state.x * state.Y * in_phase;
+    return 0.75 * square / (reference_.amplitude * reference_.amplitude);
+  }
+
+  static std::vector<Nuisance> spring_nuisances() {
+    return {{"stiffness", stiffness_deviation}, {"cubic stiffness", hardening_deviation}};
+  }
+
+  void count_states() {
+    unit_ = std::ranges::max_element(states_, {}, &Pair::x)->x;
+    for (const Pair& state : states_) {
+      numbers_.push_back(state.number);
+      phases_ += std::isnan(state.phase) ? 0 : 1;
+      several_ = several_ || !is_same_frequency(state.omega, states_.front().omega);
+    }
+  }
+
+  void take_readings(const KnownDeviations& known) {
+    const Index count = amplitudes() + phases_;
+    readings_.resize(count);
+    channels_.assign(static_cast<std::size_t>(count), 0);
+    const Index columns = several_ ? 6 : 3;
+    smooth_curve_.setZero(count, phases_ > 0 ? 2 * columns : columns);
+    Index phase_row = amplitudes();
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const Pair& state = states_[i];
+      const double x = state.x / unit_;
+      const double r = state.omega / reference_.frequency - 1.0;
+      Eigen::RowVectorXd curve(columns);
+      curve.head(3) << 1.0, x, x * x;
+      if (several_) curve.tail(3) << r, r * r, r * r * r;
+      const auto row = static_cast<Index>(i);
+      readings_[row] = state.x;
+      smooth_curve_.row(row).head(columns) = curve;
+      if (!has_phase(state)) continue;
+      readings_[phase_row] = state.phase;
+      channels_[static_cast<std::size_t>(phase_row)] = 1;
+      smooth_curve_.row(phase_row).tail(columns) = curve;
+      ++phase_row;
+    }
+    // An error of Y looks like one of x, by the slope of x over Y.
+    double slope = 0.0;
+    for (const Pair& state : states_) slope += state.x / state.Y / static_cast<double>(states_.size());
+    known_deviations_ = {std::hypot(known.sigma_x, slope * known.sigma_Y), 0.0};
+    least_deviations_ = {least_amplitude_deviation * unit_, least_phase_deviation};
+  }
+
+  [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, const Pair& state) const {
+    bench::Truth truth;
+    double k = constants_.stiffness;
+    if (unknowns() > stiffness_unknown)
+      k *= 1.0 + p[stiffness_unknown] + p[stiffness_unknown + 1] * share_of_hardening(state);
+    truth.model.oscillator.mass = constants_.mass;
+    truth.model.oscillator.stiffness = k;
+    truth.model.oscillator.damping = p[1] * c_unit_;
+    // The base moves as it does: another stiffness changes the force that it makes.
+    truth.model.excitation = {
+        .type = sim::ExcitationType::base_harmonic, .amplitude = state.Y, .frequency = state.omega};
+    truth.F0 = p[0] * F0_unit_;
+    sim::Model model = law.departure == nullptr ? bench::undisturbed(truth)
+                                                : bench::departed(*law.departure, truth, reference_, law.severity);
+    model.solver.tolerance = accuracy;
+    return model;
+  }
+
+  [[nodiscard]] sim::SteadyState found(const sim::Model& model, const std::optional<sim::KnownOrbit>& near) const {
+    const sim::SteadyStateOptions options{
+        .tolerance = accuracy, .max_periods = patience, .full_account = phases_ > 0};
+    return near ? sim::steady_state_near(*near, model, options) : sim::steady_state(model, options);
+  }
+
+  std::vector<Pair> states_;
+  KnownConstants constants_;
+  double unit_ = 1.0;  ///< the largest amplitude [m]
+  Index phases_ = 0;
+  bool several_ = false;
+};
+
+}  // namespace
+
+std::variant<std::unique_ptr<const ReadingModel>, std::string> steady_readings(const Record& record,
+                                                                               const KnownConstants& constants,
+                                                                               const KnownDeviations& known) {
+  Estimate plain = den_hartog_fit(record, constants, {});
+  if (!plain.outcome.ok()) plain = harmonic_balance(record, constants);
+  if (!plain.outcome.ok()) return plain.outcome.reason;
+  if (!(plain.value.F0 > 0.0 && plain.value.c > 0.0)) return no_plain_motion;
+  Estimate taken;
+  const std::optional<std::vector<Pair>> states = take_states(record, constants, false, taken);
+  if (!states) return taken.outcome.reason;
+  constexpr std::size_t fewest = 4;
+  if (states->size() < fewest) return "fewer than four steady states";
+  return std::make_unique<const SteadyReadings>(*states, constants, plain.value, known);
+}
+
+std::unique_ptr<const ReadingModel> planned_states(const ReadingModel& record, std::vector<Pair> states,
+                                                   const KnownConstants& constants,
+                                                   const std::array<double, 2>& deviations) {
+  return std::make_unique<const SteadyReadings>(record, std::move(states), constants, deviations);
+}
+
+}  // namespace dualdamp::identify

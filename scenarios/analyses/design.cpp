@@ -1,0 +1,130 @@
+#include "scenarios/analyses/design.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "identify/methods/any_law/any_law.hpp"
+#include "scenarios/analyses/identify_options.hpp"
+#include "scenarios/format/values.hpp"
+#include "scenarios/measurements/measured_data.hpp"
+#include "scenarios/measurements/measurement.hpp"
+#include "scenarios/results/cells.hpp"
+#include "scenarios/results/laws.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+using identify::Advice;
+
+Section keys() {
+  std::vector<Field> fields = data_fields();
+  std::ranges::move(measurement_fields(), std::back_inserter(fields));
+  for (Field& field : method_option_fields()) {
+    const auto options = identify::any_law_method.options();
+    if (std::ranges::any_of(options, [&](const identify::Option* option) { return option->name == field.name; }))
+      fields.push_back(std::move(field));
+  }
+  return {std::move(fields), {{{"data", "measurement"}, true}}};
+}
+
+std::vector<Needs> needs() {
+  const std::string base = "the states are those of a mass that its base drives";
+  return {{"xy_curve", {"base_harmonic"}, {}, true, base},
+          {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
+          {"data", {"base_harmonic"}, {"frequency"}, false, base}};
+}
+
+void check(CheckedFile& file) {
+  check_measurement(file);
+  read_data(file);
+}
+
+std::unique_ptr<const Question> ask(CheckedValues&& values) {
+  const auto options =
+      identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(method_options(values.analysis)));
+  return std::make_unique<DesignQuestion>(
+      record_question(std::move(values)), options,
+      identify::LawIntervalOptions{options.largest_severity, options.severity_deviation});
+}
+
+Json shrinkage_json(const identify::Shrinkage& shrinkage) {
+  return {{"zeta", finite_or_null(shrinkage.zeta)}, {"F0", finite_or_null(shrinkage.F0)}};
+}
+
+Json advice_json(const Advice& advice) {
+  return {{"measurement", advice.candidate.name},           {"cost", advice.candidate.cost},
+          {"hull_shrinks_to", shrinkage_json(advice.hull)}, {"average_shrinks_to", shrinkage_json(advice.average)},
+          {"power", finite_or_null(advice.power)},          {"text", advice.text}};
+}
+
+Table candidate_table(const std::vector<Advice>& list) {
+  const auto real = [&](const std::string& name, auto get) { return column(name, "", list, get); };
+  return {"candidates",
+          {text_column("measurement", list, [](const Advice& advice) { return advice.candidate.name; }),
+           real("cost", [](const Advice& advice) { return advice.candidate.cost; }),
+           real("hull_zeta", [](const Advice& advice) { return advice.hull.zeta; }),
+           real("hull_F0", [](const Advice& advice) { return advice.hull.F0; }),
+           real("average_zeta", [](const Advice& advice) { return advice.average.zeta; }),
+           real("average_F0", [](const Advice& advice) { return advice.average.F0; }),
+           real("power", [](const Advice& advice) { return advice.power; })}};
+}
+
+ResultFields fields() {
+  return {
+      {"candidates[].measurement", "", "what could be measured next, the best first"},
+      {"candidates[].cost", "1", "states to be measured, or releases"},
+      {"candidates[].hull_shrinks_to.zeta", "1", "expected width of the hull of zeta over that of now"},
+      {"candidates[].hull_shrinks_to.F0", "1", "the same of the friction force"},
+      {"candidates[].average_shrinks_to.zeta", "1", "expected deviation of the average over laws over that of now"},
+      {"candidates[].average_shrinks_to.F0", "1", "the same of the friction force"},
+      {"candidates[].power", "1", "mean probability to reject a wrong law at 5 %"},
+      {"candidates[].text", "", "the advice in words"},
+      {"hull95.zeta[]", "1", "ends of the hull of zeta as it is now"},
+      {"hull95.F0[]", "N", "ends of the hull of the friction force as it is now"},
+      {"power_now", "1", "mean probability with which the record itself rejects a wrong law"},
+      {"advice", "", "the best candidate in words, or that none helps"}};
+}
+
+std::string summary_of(const identify::Design& design) {
+  const Advice& best = design.advice.front();
+  constexpr double little = 0.9;
+  if (best.hull.zeta > little && best.hull.F0 > little) return "nothing on the list narrows the ranges by a tenth";
+  return best.text;
+}
+
+}  // namespace
+
+Answer DesignQuestion::run(const RunContext& context) const {
+  std::vector<std::string> warnings;
+  const identify::Record record = record_->record(context, warnings);
+  const auto found = identify::design_after(record, record_->methods().constants, known_, options_);
+  if (const auto* why = std::get_if<std::string>(&found)) return failed(*why);
+  const auto& design = std::get<identify::Design>(found);
+  Answer answer;
+  answer.warnings = std::move(warnings);
+  Json& result = answer.result;
+  result["advice"] = summary_of(design);
+  result["hull95"] = {{"zeta", design.now.zeta_hull}, {"F0", design.now.F0_hull}};
+  result["power_now"] = finite_or_null(design.power_now);
+  result["candidates"] = Json::array();
+  for (const Advice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
+  answer.tables.push_back(candidate_table(design.advice));
+  for (Table& table : law_tables(design.now, record_->methods().constants))
+    answer.tables.push_back(std::move(table));
+  return answer;
+}
+
+const Analysis& design_analysis() {
+  static const Analysis analysis = {.name = "design",
+                                    .summary = "what to measure next, so that the ranges over friction laws narrow",
+                                    .keys = keys(),
+                                    .needs = needs(),
+                                    .results = fields(),
+                                    .check = check,
+                                    .ask = ask};
+  return analysis;
+}
+
+}  // namespace dualdamp::scenarios

@@ -1,0 +1,175 @@
+#include "identify/methods/any_law/any_law.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "identify/methods/any_law/law_intervals.hpp"
+#include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "sim/rigs/rigs.hpp"
+#include "tests/identify/records.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr double mass = 1.042;
+constexpr double stiffness = 1568.0;
+const double natural = std::sqrt(stiffness / mass);
+constexpr double zeta = 0.08;
+constexpr double F0 = 3.0;
+constexpr double X = 0.01;
+
+const KnownConstants known{mass, stiffness, natural};
+
+bench::Truth truth() {
+  bench::Truth truth;
+  truth.model.oscillator.mass = mass;
+  truth.model.oscillator.stiffness = stiffness;
+  truth.model.oscillator.damping = 2.0 * zeta * std::sqrt(mass * stiffness);
+  truth.F0 = F0;
+  return truth;
+}
+
+sim::Model departed(const bench::Truth& truth, const char* law, double severity) {
+  if (law == nullptr) return bench::undisturbed(truth);
+  const bench::ReferenceMotion reference{
+      .amplitude = X, .frequency = natural, .Y = 2.0 * zeta * X + 4.0 / std::numbers::pi * F0 / stiffness};
+  return bench::departed(*bench::find_departure(law), truth, reference, severity);
+}
+
+/// Eight levels at resonance, with an error of 0.3 % of X and of a radian.
+Record states(const char* law, double severity, bool phases, Normal& normal) {
+  constexpr double sigma = 0.003;
+  Record record;
+  record.pairs.emplace();
+  for (int i = 0; i < 8; ++i) {
+    bench::Truth rig = truth();
+    const double x = X * (0.5 + i / 7.0);
+    rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                            .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
+                            .frequency = natural};
+    const sim::SteadyState state = sim::steady_state(departed(rig, law, severity));
+    REQUIRE(state.outcome.ok());
+    Pair pair{.Y = rig.model.excitation.amplitude, .x = state.amplitude + sigma * X * normal(), .number = i + 1};
+    pair.omega = natural;
+    if (phases) pair.phase = state.phase + sigma * normal();
+    record.pairs->pairs.push_back(pair);
+  }
+  return record;
+}
+
+const LawAnswer& law_of(const Estimate& estimate, const std::string& name) {
+  REQUIRE(estimate.laws);
+  const auto found = std::ranges::find(estimate.laws->laws, name, &LawAnswer::name);
+  REQUIRE(found != estimate.laws->laws.end());
+  return *found;
+}
+
+bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
+
+double width(const Interval& interval) { return interval[1] - interval[0]; }
+
+}  // namespace
+
+TEST_CASE("any_law: under plain friction the hull holds the truth, and the plain region") {
+  Normal normal(11);
+  const Estimate estimate = any_law(states(nullptr, 0.0, true, normal), known);
+  REQUIRE(estimate.outcome.ok());
+  CHECK(estimate.usable);
+  const LawAnswer& plain = law_of(estimate, "coulomb_viscous");
+  CHECK_FALSE(plain.rejected);
+  CHECK(plain.value.zeta == Approx(zeta).epsilon(0.02));
+  CHECK(plain.value.F0 == Approx(F0).epsilon(0.03));
+  CHECK(holds(estimate.interval95->zeta, zeta));
+  CHECK(holds(estimate.interval95->F0, F0));
+  CHECK(estimate.laws->zeta_hull[0] <= plain.zeta_interval95[0]);
+  CHECK(estimate.laws->zeta_hull[1] >= plain.zeta_interval95[1]);
+  // Friction that falls over position is a smaller damping, exactly, at one frequency.
+  const LawAnswer& slope = law_of(estimate, "position_slope");
+  CHECK_FALSE(slope.rejected);
+  CHECK(width(slope.zeta_interval95) > 3.0 * width(plain.zeta_interval95));
+  double weights = 0.0;
+  for (const LawAnswer& law : estimate.laws->laws) weights += law.weight;
+  CHECK(weights == Approx(1.0));
+}
+
+TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull holds the truth that it misses") {
+  Normal normal(12);
+  const Estimate estimate = any_law(states("contact_compliance", 0.2, true, normal), known);
+  REQUIRE(estimate.outcome.ok());
+  const LawAnswer& plain = law_of(estimate, "coulomb_viscous");
+  CHECK(plain.rejected);
+  CHECK_FALSE(holds(plain.F0_interval95, F0));
+  CHECK(holds(estimate.laws->F0_hull, F0));
+  CHECK(holds(estimate.laws->zeta_hull, zeta));
+  CHECK_FALSE(law_of(estimate, "contact_compliance").rejected);
+  CHECK(law_of(estimate, "contact_compliance").severity == Approx(0.2).margin(0.08));
+  CHECK(estimate.laws->inflation == 1.0);
+  // A bound below the truth's severity is the user's word against the data.
+  const Estimate bounded =
+      any_law(states("contact_compliance", 0.2, true, normal), known, {.largest_severity = 0.02});
+  REQUIRE(bounded.outcome.ok());
+  CHECK(std::abs(law_of(bounded, "contact_compliance").severity) <= 0.02);
+}
+
+TEST_CASE("any_law: amplitudes alone allow more laws than amplitudes and phases") {
+  Normal normal(13);
+  const Record record = states("contact_compliance", 0.15, false, normal);
+  const Estimate estimate = any_law(record, known);
+  REQUIRE(estimate.outcome.ok());
+  CHECK_FALSE(law_of(estimate, "coulomb_viscous").rejected);
+  CHECK_FALSE(law_of(estimate, "detuning").rejected);
+  CHECK(holds(estimate.laws->zeta_hull, zeta));
+  REQUIRE_FALSE(estimate.laws->aliases.empty());
+  CHECK(estimate.laws->aliases.front().size() > 3);
+}
+
+TEST_CASE("any_law: extremes of a free vibration") {
+  Normal normal(14);
+  bench::Truth rig = truth();
+  rig.F0 = 0.4;
+  rig.model.oscillator.damping *= 0.25;
+  rig.model.initial.position = 2.0 * X;
+  constexpr double severity = 0.2;
+  const bench::ReferenceMotion reference{.amplitude = X, .frequency = natural, .Y = X};
+  sim::Model model = bench::departed(*bench::find_departure("viscous_power"), rig, reference, severity);
+  const sim::FreeDecay motion = sim::free_decay(model, 14);
+  Record record;
+  record.decay.emplace();
+  for (const sim::Extreme& peak : motion.peaks) record.decay->extremes.push_back(peak.x + 2e-5 * normal());
+  REQUIRE(record.decay->extremes.size() >= 8);
+  const Estimate estimate = any_law(record, {mass, stiffness});
+  REQUIRE(estimate.outcome.ok());
+  CHECK(holds(estimate.laws->zeta_hull, 0.25 * zeta));
+  CHECK(holds(estimate.laws->F0_hull, rig.F0));
+  // What lies in the drive does not exist here.
+  CHECK(std::ranges::find(estimate.laws->laws, "base_distortion", &LawAnswer::name) == estimate.laws->laws.end());
+}
+
+TEST_CASE("any_law: what it cannot read is refused with a reason") {
+  Normal normal(15);
+  Record few = states(nullptr, 0.0, true, normal);
+  few.pairs->pairs.resize(3);
+  CHECK_FALSE(any_law(few, known).outcome.ok());
+  CHECK_FALSE(any_law({}, known).outcome.ok());
+  CHECK_FALSE(any_law(states(nullptr, 0.0, true, normal), {mass, unknown, natural}).outcome.ok());
+}
+
+TEST_CASE("any_law: uncertain constants widen its ranges as they widen another estimate's") {
+  Estimate stated;
+  stated.interval95 = {{0.1 - 0.003, 0.1 + 0.003}, {}, {}, {2.0, 2.2}};
+  Estimate uncertain = stated;
+  uncertain.interval95->zeta = {0.1 - 0.005, 0.1 + 0.005};
+  Estimate estimate;
+  estimate.value = {0.1, 0.0, 0.0, 2.1};
+  estimate.interval95 = {{0.097, 0.103}, {}, {}, {2.0, 2.2}};
+  add_uncertainty_of(stated, uncertain, estimate);
+  CHECK(estimate.interval95->zeta[1] - 0.1 == Approx(0.005));
+  CHECK(0.1 - estimate.interval95->zeta[0] == Approx(0.005));
+  CHECK(estimate.interval95->F0[1] == Approx(2.2));
+}
