@@ -54,6 +54,7 @@ class Parser {
     add_run();
     add_check();
     add_identify();
+    add_next();
     add_fit();
     add_predict();
     add_report();
@@ -166,6 +167,27 @@ class Parser {
         "Bounds the influence of readings that do not belong to the others (Huber), and replaces spikes");
     add_file_options(command, identify_);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
+  }
+
+  void add_next() {
+    next_command_ = app_.add_subcommand("next", "Say which measurement would narrow the ranges over friction laws");
+    CLI::App& command = *next_command_;
+    command
+        .add_option("DATA", next_.data,
+                    "Data file with steady states (docs/data-files.md), or a scenario of the analysis identify or "
+                    "design")
+        ->required()
+        ->type_name("");
+    const auto add = [&command](const char* name, std::string& value, const char* text) {
+      command.add_option(name, value, text)->type_name("QUANTITY");
+    };
+    add("--mass", next_.mass, "Mass, such as '1.042 kg'");
+    add("--stiffness", next_.stiffness, "Stiffness, such as '1568 N/m'");
+    add("--frequency", next_.frequency, "Forcing frequency, such as '6.17 Hz', where the data do not state it");
+    add("--sigma-x", next_.sigma_x, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
+    add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
+    add_file_options(command, next_);
+    add_output_options(command, next_.out, next_.json, next_.quiet);
   }
 
   /// What a data file does not say of itself.
@@ -307,6 +329,7 @@ class Parser {
     if (run_command_->parsed()) return run_;
     if (check_command_->parsed()) return check_;
     if (identify_command_->parsed()) return identify_;
+    if (next_command_->parsed()) return next_;
     if (fit_command_->parsed()) return fit_;
     if (predict_command_->parsed()) return predict_;
     if (report_command_->parsed()) return report_;
@@ -321,6 +344,7 @@ class Parser {
   CLI::App* run_command_ = nullptr;
   CLI::App* check_command_ = nullptr;
   CLI::App* identify_command_ = nullptr;
+  CLI::App* next_command_ = nullptr;
   CLI::App* fit_command_ = nullptr;
   CLI::App* predict_command_ = nullptr;
   CLI::App* report_command_ = nullptr;
@@ -332,6 +356,7 @@ class Parser {
   RunCommand run_;
   CheckCommand check_;
   IdentifyCommand identify_;
+  NextCommand next_;
   FitCommand fit_;
   PredictCommand predict_;
   ReportCommand report_;

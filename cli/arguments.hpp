@@ -65,6 +65,16 @@ struct IdentifyCommand : FileOptions {
   bool quiet = false;
 };
 
+/// What to measure next, after data or a scenario.
+struct NextCommand : FileOptions {
+  std::string data;  ///< a data file, or a scenario
+  std::string mass, stiffness, frequency;
+  std::string sigma_x, sigma_Y;
+  std::string out;
+  bool json = false;
+  bool quiet = false;
+};
+
 struct FitCommand : FileOptions {
   std::string law;  ///< several with commas
   std::vector<std::string> data;
@@ -106,7 +116,7 @@ struct Leave {
 };
 
 using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, AnalysesCommand, SchemaCommand,
-                             IdentifyCommand, FitCommand, PredictCommand, ReportCommand, Leave>;
+                             IdentifyCommand, NextCommand, FitCommand, PredictCommand, ReportCommand, Leave>;
 
 /// A command line.
 struct Call {

@@ -359,6 +359,17 @@ int execute_on_records(const RecordCommand& command) {
              style);
 }
 
+int execute(const NextCommand& command) {
+  const Style style{command.json, command.quiet};
+  return say(guarded([&] {
+               const fs::path standard = fs::path("results") / (fs::path(command.data).stem().string() + "_next");
+               return run_and_write(scenario_of(command),
+                                    {.directory = command.out.empty() ? standard.string() : command.out},
+                                    command.quiet);
+             }),
+             style);
+}
+
 int execute(const FitCommand& command) { return execute_on_records(command); }
 
 int execute(const PredictCommand& command) { return execute_on_records(command); }

@@ -17,7 +17,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// Options like `--unit x=mm`, which fill a map.
-void add_maps(const IdentifyCommand& command, scenarios::LoadOptions& options) {
+void add_maps(const FileOptions& command, scenarios::LoadOptions& options) {
   for (const auto& [option, key, list] : {std::tuple{"--unit", "units", &command.units},
                                           {"--column", "columns", &command.columns},
                                           {"--scale", "scale", &command.scales}})
@@ -28,6 +28,15 @@ void add_maps(const IdentifyCommand& command, scenarios::LoadOptions& options) {
                              option});
     }
 }
+
+/// What every data file may need.
+void add_file_options(const FileOptions& command, scenarios::LoadOptions& options) {
+  if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
+  if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
+  add_maps(command, options);
+}
+
+bool is_scenario(const std::string& file) { return file.ends_with(".yaml") || file.ends_with(".yml"); }
 
 }  // namespace
 
@@ -45,12 +54,10 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
         {"analysis.sigma_x", &command.sigma_x, "--sigma-x"},
         {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
     if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
-  if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
-  if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
   if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
   for (const std::string& text : command.gain_uncertainties)
     options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
-  add_maps(command, options);
+  add_file_options(command, options);
   if (!command.methods.empty()) {
     std::string names;
     for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);
@@ -58,6 +65,27 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
   }
   scenarios::Scenario scenario = scenarios::parse_scenario(
       "schema: dualdamp/1\nsystem: {}\nanalysis: {type: identify}\n", "command line", options);
+  scenario.file = command.data;
+  return scenario;
+}
+
+scenarios::Scenario scenario_of(const NextCommand& command) {
+  scenarios::LoadOptions options;
+  const bool from_scenario = is_scenario(command.data);
+  options.data_anywhere = !from_scenario;
+  if (from_scenario) options.set.push_back({"analysis.type=design", "next"});
+  if (!from_scenario) options.set.push_back({"analysis.data=" + quoted(command.data), "DATA"});
+  if (!from_scenario) options.set.push_back({"excitation.type=base_harmonic", "next"});
+  for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},
+                                            {"system.stiffness", &command.stiffness, "--stiffness"},
+                                            {"excitation.frequency", &command.frequency, "--frequency"},
+                                            {"analysis.sigma_x", &command.sigma_x, "--sigma-x"},
+                                            {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
+    if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
+  add_file_options(command, options);
+  if (from_scenario) return scenarios::load_scenario(command.data, options);
+  scenarios::Scenario scenario = scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {}\nanalysis: {type: design}\n", "command line", options);
   scenario.file = command.data;
   return scenario;
 }
