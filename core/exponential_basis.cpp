@@ -51,7 +51,45 @@ int ExponentialBasis::add(Complex exponent, int parent) {
   return size_++;
 }
 
+/// Chains of zeros.
+void ExponentialBasis::find_powers() {
+  power_.assign(index(size_), 0);
+  for (int k = 0; k < size_; ++k) {
+    const int p = parent(k);
+    if (p == no_parent || exponent(k) != 0.0 || exponent(p) != 0.0) continue;
+    const bool is_first = parent(p) == no_parent;
+    if (is_first || power_[index(p)] > 0) power_[index(k)] = is_first ? 1 : power_[index(p)] + 1;
+  }
+}
+
+/// A chain that begins with two exponents whose sum and product are real and goes on with zeros.
+void ExponentialBasis::find_short_chain() {
+  short_order_.assign(index(size_), -1);
+  for (int k = 0; k < size_; ++k) {
+    const int root = parent(k);
+    if (root == no_parent || parent(root) != no_parent || exponent(k) == 0.0) continue;
+    const Complex sum = exponent(root) + exponent(k);
+    const Complex product = exponent(root) * exponent(k);
+    if (sum.imag() != 0.0 || product.imag() != 0.0) continue;
+    std::size_t count = 1;
+    for (int child = k + 1, last = k; child < size_ && count < ShortChain::most; ++child) {
+      if (parent(child) != last || exponent(child) != 0.0) continue;
+      short_order_[index(child)] = static_cast<int>(++count);
+      last = child;
+    }
+    if (count == 1) continue;
+    short_order_[index(root)] = 0;
+    short_order_[index(k)] = 1;
+    short_chain_ = ShortChain(sum.real(), product.real(), count);
+    short_rate_ = std::max(modulus_bound(exponent(root).real(), exponent(root).imag()),
+                           modulus_bound(exponent(k).real(), exponent(k).imag()));
+    return;
+  }
+}
+
 void ExponentialBasis::finish(double expected) {
+  find_powers();
+  find_short_chain();
   panel_ = fastest_ > 0.0 ? panel_angle / fastest_ : 1.0;
   if (!has_chains_) evaluate(panel_, rotor_);
   relative_square_.clear();
@@ -84,14 +122,22 @@ void ExponentialBasis::start(Values& values) const {
 
 void ExponentialBasis::evaluate(double s, Values& values) const {
   values.fit(index(size_));
+  const bool is_short = short_rate_ * s <= 1.0;
+  std::array<double, ShortChain::most> responses{};
+  if (is_short) responses = short_chain_.at(s);
   for (std::size_t k = 0; k < index(size_); ++k) {
-    if (parent_[k] != no_parent) {
-      const Complex value = chain_value(static_cast<int>(k), s);
-      values.re[k] = value.real();
-      values.im[k] = value.imag();
-      continue;
+    Complex value;
+    if (is_short && short_order_[k] >= 0) {
+      const int order = short_order_[k];
+      value =
+          order > 0 ? responses[index(order - 1)] : short_chain_.exponential(Complex(re_[k], im_[k]), responses);
+    } else if (parent_[k] == no_parent) {
+      value = exponential({re_[k], im_[k]}, s);
+    } else if (!power_.empty() && power_[k] > 0) {
+      value = values.re[index(parent_[k])] * s / power_[k];
+    } else {
+      value = chain_value(static_cast<int>(k), s);
     }
-    const Complex value = exponential({re_[k], im_[k]}, s);
     values.re[k] = value.real();
     values.im[k] = value.imag();
   }

@@ -17,14 +17,17 @@
 /// Any number of elements. Where some of them grow, one that has left the range of double precision has no part in
 /// a sum unless its coefficient differs from zero.
 ///
-/// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. No allocation for functions
-/// on up to 40 elements (`core/element_numbers.hpp`).
+/// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. Less: powers of s (chains
+/// of zeros), and one chain on two exponents and zeros for times that are short beside both
+/// (`core/short_chain.hpp`). No allocation for functions on up to 40 elements (`core/element_numbers.hpp`).
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "core/element_numbers.hpp"
+#include "core/short_chain.hpp"
 
 namespace dualdamp::core {
 
@@ -68,8 +71,9 @@ class ExponentialBasis {
   /// E_k(panel()), likewise.
   [[nodiscard]] const Values& over_panel() const { return rotor_; }
 
-  /// Fixes the panel; call once after the last add(). `expected`: the time [s] after which a guard that starts at
-  /// zero most likely crosses, 0 for none. It saves the search work and has no part in what the search proves.
+  /// Fixes the panel and finds the quick ways to evaluate; call once after the last add(). `expected`: the time [s]
+  /// after which a guard that starts at zero most likely crosses, 0 for none. It saves the search work and has no
+  /// part in what the search proves.
   void finish(double expected = 0.0);
   /// That time on an even basis, else 0; and E_k there.
   [[nodiscard]] double expected() const { return expected_; }
@@ -89,12 +93,19 @@ class ExponentialBasis {
  private:
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
   [[nodiscard]] Complex chain_value(int k, double s) const;
+  void find_powers();
+  void find_short_chain();
 
   std::vector<double> re_;
   std::vector<double> im_;
   std::vector<int> parent_;
   std::vector<double> square_;
   std::vector<double> relative_square_;
+  std::vector<int> power_;        ///< n of s^n/n!, 0 for all else
+  std::vector<int> short_order_;  ///< in the short chain: 0 of exp(a s), m of G_m; else -1
+  ShortChain short_chain_;
+  double short_rate_ =
+      std::numeric_limits<double>::infinity();  ///< it serves while this times s is at most 1 [1/s]
   Values rotor_;
   Values expected_values_;
   double panel_ = 0.0;

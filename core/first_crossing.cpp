@@ -18,6 +18,7 @@ namespace {
 double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
                    const ExponentialBasis::Values& values, double a, double longest) {
   if (basis.even()) return basis.fastest() > 0.0 ? basis.panel() : std::numeric_limits<double>::infinity();
+  if (longest <= basis.panel()) return basis.panel();
   ElementNumbers here;
   bound_elements(basis, values, a, 0.0, here);
   const bool varies = basis.has_chains() || basis.grows();

@@ -69,7 +69,7 @@ std::vector<std::pair<std::string, std::string>> lines(const Provenance& provena
   result.emplace_back("source", provenance.source);
   result.emplace_back("source_sha256", provenance.source_sha256);
   for (const std::string& text : provenance.overrides) result.emplace_back("set", text);
-  if (!provenance.data_sha256.empty()) result.emplace_back("data_sha256", provenance.data_sha256);
+  for (const std::string& sum : provenance.data_sha256) result.emplace_back("data_sha256", sum);
   result.emplace_back("scenario", provenance.scenario);
   result.emplace_back("scenario_sha256", provenance.scenario_sha256);
   result.emplace_back("tolerance", format_number(provenance.tolerance));

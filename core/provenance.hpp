@@ -32,13 +32,13 @@ struct Plugin {
 
 /// Where an artefact comes from, beside the program itself (`core::build_info()`, `libraries()`).
 struct Provenance {
-  std::string source;                  ///< the scenario file as named by the user
-  std::string source_sha256;           ///< of its bytes
-  std::string scenario;                ///< the resolved scenario as JSON on one line
-  std::string scenario_sha256;         ///< of `scenario`
-  std::string data_sha256;             ///< of the measured data, when there is any
-  std::vector<std::string> overrides;  ///< `--set` texts in order
-  std::vector<Plugin> plugins;         ///< loaded, whether or not their laws are used
+  std::string source;                    ///< the scenario file as named by the user
+  std::string source_sha256;             ///< of its bytes
+  std::string scenario;                  ///< the resolved scenario as JSON on one line
+  std::string scenario_sha256;           ///< of `scenario`
+  std::vector<std::string> data_sha256;  ///< of the files with measured data
+  std::vector<std::string> overrides;    ///< `--set` texts in order
+  std::vector<Plugin> plugins;           ///< loaded, whether or not their laws are used
   double tolerance = 0.0;
   std::string started;    ///< UTC
   double duration = 0.0;  ///< s

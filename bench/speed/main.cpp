@@ -8,10 +8,12 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/speed/contender.hpp"
 #include "bench/speed/identification.hpp"
+#include "bench/speed/sampled_drive.hpp"
 #include "bench/speed/smooth_table.hpp"
 #include "bench/speed/steady_states.hpp"
 #include "bench/speed/timing.hpp"
@@ -101,6 +103,11 @@ void print_figures(const StandardCase& work, const std::vector<Row>& rows) {
              seconds_for_steady_state(work) / rows.front().time.median, 25.0);
   fmt::print("{:60}{:>14.3f}{:>14.3f}\n", "seconds for an x-Y curve of 10,000 points, one core, at most",
              seconds_for_curve(work, 10'000), 0.1);
+  for (const auto& [name, interpolation] :
+       {std::pair{"linear", dualdamp::sim::Interpolation::linear}, {"cubic", dualdamp::sim::Interpolation::cubic}})
+    fmt::print("{:60}{:>14.2f}{:>14.2f}\n",
+               fmt::format("seconds for 1,000,000 samples of a drive, {}, at most", name),
+               seconds_for_sampled_drive(work, 1'000'000, interpolation), 2.0);
 }
 
 void print_identification() {

@@ -47,8 +47,10 @@ class ExactEngine::ExactInterval final : public Interval {
 
   [[nodiscard]] Sample at(double s) const override {
     const core::ExponentialBasis& basis = engine_.mode_->basis();
-    core::ExponentialBasis::Values values;
-    basis.evaluate(s, values);
+    core::ExponentialBasis::Values room;
+    const bool is_end = s == duration;  // whose values are known
+    if (!is_end) basis.evaluate(s, room);
+    const core::ExponentialBasis::Values& values = is_end ? engine_.crossing_.values : room;
     const Drive::Value drive = engine_.drive_.at(s - duration);
     Sample sample{.t = begin + s, .y = drive.y, .y_rate = drive.y_rate, .external = drive.external};
     sample.x = core::evaluate(basis, engine_.motion_, values);

@@ -41,8 +41,7 @@ class ExactEngine final : public Engine {
   struct ModeKey {
     double damping = 0.0;
     double stiffness = 0.0;
-    int degree = 0;
-    std::vector<double> decays;
+    LinearMode::Layout layout;
 
     friend auto operator<=>(const ModeKey&, const ModeKey&) = default;
   };

@@ -72,23 +72,26 @@ void ExactEngine::add_transient(double size, double decay) {
 }
 
 const LinearMode& ExactEngine::mode_for(double damping, double stiffness) {
+  const double mass = model_.oscillator.mass;
+  // Most pieces of a drive are short beside the oscillator's own times.
+  const bool is_brief = drive_.has_pieces() &&
+                        drive_.period() * (std::abs(damping) / mass + std::sqrt(std::abs(stiffness) / mass)) <= 1.0;
   const auto fits = [&](const LinearMode& mode) {
-    return mode.damping() == damping && mode.stiffness() == stiffness && mode.degree() == total_->degree &&
-           mode.decays() == total_->decays;
+    const LinearMode::Layout& layout = mode.layout();
+    return mode.damping() == damping && mode.stiffness() == stiffness && layout.degree == total_->degree &&
+           layout.is_brief == is_brief && layout.decays == total_->decays;
   };
   if (mode_ != nullptr && fits(*mode_)) return *mode_;
   key_.damping = damping;
   key_.stiffness = stiffness;
-  key_.degree = total_->degree;
-  key_.decays = total_->decays;
+  key_.layout.degree = total_->degree;
+  key_.layout.is_brief = is_brief;
+  key_.layout.decays = total_->decays;
   const auto known = modes_.find(key_);
   if (known != modes_.end()) return known->second;
   // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& entry) { return &entry.second != mode_; });
-  return modes_
-      .try_emplace(key_, model_.oscillator.mass, damping, stiffness, drive_.frequencies(), total_->degree,
-                   total_->decays)
-      .first->second;
+  return modes_.try_emplace(key_, mass, damping, stiffness, drive_.frequencies(), key_.layout).first->second;
 }
 
 /// forcing_ = drive + extra - the laws' parts that do not move with the mass.

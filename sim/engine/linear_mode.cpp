@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace dualdamp::sim {
 
@@ -33,24 +34,30 @@ void add(ModeFunction& f, int k, Complex coefficient) {
 }  // namespace
 
 LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies,
-                       int degree, std::span<const double> decays)
-    : mass_(mass),
-      damping_(damping),
-      stiffness_(stiffness),
-      decays_(decays.begin(), decays.end()),
-      degree_(degree) {
+                       Layout layout)
+    : mass_(mass), damping_(damping), stiffness_(stiffness), layout_(std::move(layout)) {
   for (const double frequency : frequencies) fastest_drive_ = std::max(fastest_drive_, frequency);
   lay_own_motion();
-  for (int n = 0; n <= degree; ++n) {
-    const int source = n == 0 ? basis_.add(0.0) : basis_.add(0.0, powers_.back().source);
-    powers_.push_back(drive(0.0, source, power_slow_beside_decay[at(n)]));
-  }
+  lay_powers();
   for (const double frequency : frequencies) {
     const Complex z(0.0, frequency);
     harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
   }
-  for (const double decay : decays) transients_.push_back(drive(-decay, basis_.add(-decay), slow_beside_decay));
+  for (const double decay : layout_.decays)
+    transients_.push_back(drive(-decay, basis_.add(-decay), slow_beside_decay));
   basis_.finish(expected_reversal(frequencies));
+}
+
+void LinearMode::lay_powers() {
+  for (int n = 0; n <= layout_.degree; ++n) {
+    const int source = n == 0 ? basis_.add(0.0) : basis_.add(0.0, powers_.back().source);
+    if (layout_.is_brief) {
+      const int target = basis_.add(0.0, n == 0 ? own_second_ : powers_.back().target);
+      powers_.push_back({source, target, 1.0 / mass_, Near::both});
+    } else {
+      powers_.push_back(drive(0.0, source, power_slow_beside_decay[at(n)]));
+    }
+  }
 }
 
 /// A periodic motion mostly reverses twice a forcing period, a free one twice a period of its own.
@@ -74,7 +81,7 @@ void LinearMode::lay_own_motion() {
   }
   own_first_ = basis_.add(first_);
   const bool slow = discriminant <= 0.0 && beat <= slow_beside_drive * fastest_drive_;
-  if (slow || !(beat > closeness * std::abs(half))) {
+  if (layout_.is_brief || slow || !(beat > closeness * std::abs(half))) {
     own_form_ = OwnForm::chain;
     own_second_ = basis_.add(second_, own_first_);
   } else if (discriminant > 0.0) {
@@ -205,7 +212,7 @@ Eigen::Vector2d LinearMode::response(std::size_t source, const ExponentialBasis:
   if (source == 0) {
     forcing.polynomial[0] = 1.0;
   } else {
-    forcing.transients.assign(decays_.size(), 0.0);
+    forcing.transients.assign(layout_.decays.size(), 0.0);
     forcing.transients[source - 1] = 1.0;
   }
   ModeFunction x;

@@ -6,7 +6,9 @@
 /// each interval then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's
 /// own (resonance with little damping, vanishing stiffness), or those two lie close to each other (critical
 /// damping), the solution is written on divided differences of these, so that nothing cancels. Exponents that are
-/// far from each other are never on one chain: there derivatives would cancel, and their bounds be useless.
+/// far from each other are never on one chain: there derivatives would cancel, and their bounds be useless. In a
+/// mode that is brief beside the oscillator's own times no exponents are far from each other: all are on one chain,
+/// whose elements are the responses to powers of time.
 
 #include <Eigen/Core>
 #include <array>
@@ -26,15 +28,22 @@ struct ModeForcing {
 
 class LinearMode {
  public:
-  /// `degree`: the highest power of s in the forcing, 0 to 3.
-  LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies, int degree,
-             std::span<const double> decays = {});
+  /// What besides m, C and K determines a mode.
+  struct Layout {
+    int degree = 0;         ///< the highest power of s in the forcing, 0 to 3
+    bool is_brief = false;  ///< it is used for times within 1/(|C|/m + sqrt(|K|/m)); without frequencies
+    std::vector<double> decays = {};
+
+    friend auto operator<=>(const Layout&, const Layout&) = default;
+  };
+  LinearMode(double mass, double damping, double stiffness, std::span<const double> frequencies, Layout layout);
 
   [[nodiscard]] const core::ExponentialBasis& basis() const { return basis_; }
-  [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] int degree() const { return layout_.degree; }
   [[nodiscard]] double damping() const { return damping_; }
   [[nodiscard]] double stiffness() const { return stiffness_; }
-  [[nodiscard]] const std::vector<double>& decays() const { return decays_; }
+  [[nodiscard]] const std::vector<double>& decays() const { return layout_.decays; }
 
   /// The element exp(i w_j s) of frequency j.
   [[nodiscard]] int harmonic_element(std::size_t j) const { return harmonics_[j].source; }
@@ -68,6 +77,7 @@ class LinearMode {
   };
 
   void lay_own_motion();
+  void lay_powers();
   [[nodiscard]] double expected_reversal(std::span<const double> frequencies) const;
   [[nodiscard]] bool close(core::Complex z, core::Complex own, double slow) const;
   [[nodiscard]] Near near_own(core::Complex z, double slow) const;
@@ -77,7 +87,7 @@ class LinearMode {
   double mass_;
   double damping_;
   double stiffness_;
-  std::vector<double> decays_;
+  Layout layout_;
   double fastest_drive_ = 0.0;  ///< rad/s
   core::Complex first_;         ///< the oscillator's own exponents
   core::Complex second_;
@@ -86,7 +96,6 @@ class LinearMode {
   int own_first_ = 0;           ///< exp(first_ s)
   int own_second_ = -1;         ///< exp(second_ s), or the divided difference; unused when oscillating
   std::vector<Driven> powers_;  ///< s^n/n!
-  int degree_;
   std::vector<Driven> harmonics_;
   std::vector<Driven> transients_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sim/engine/closed_form.hpp"
@@ -25,17 +26,32 @@ void for_panels(const Interval& interval, const Visit& visit) {
   }
 }
 
-/// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval.
+/// Calls visit(sample, weight) with the nodes of Gauss and Legendre's rule on a panel.
+template <unsigned points, class Visit>
+void apply_rule(const Interval& interval, double begin, double width, const Visit& visit) {
+  using Rule = boost::math::quadrature::gauss<double, points>;
+  const double half = 0.5 * width;
+  for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+    const double offset = half * Rule::abscissa()[i];
+    const double weight = half * Rule::weights()[i];
+    visit(interval.at(begin + half + offset), weight);
+    if (offset != 0.0) visit(interval.at(begin + half - offset), weight);
+  }
+}
+
+/// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval, f a product of two
+/// quantities. On a panel of the resolution these are exp(z s) with |z s| <= 1.6; on an eighth of it five points
+/// leave out 4e-17, on a 128th three points 1.2e-16.
 template <class Visit>
 void quadrature(const Interval& interval, const Visit& visit) {
-  using Rule = boost::math::quadrature::gauss<double, 15>;
   for_panels(interval, [&](double begin, double width) {
-    const double half = 0.5 * width;
-    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-      const double offset = half * Rule::abscissa()[i];
-      const double weight = half * Rule::weights()[i];
-      visit(interval.at(begin + half + offset), weight);
-      if (offset != 0.0) visit(interval.at(begin + half - offset), weight);
+    const double resolution = interval.resolution(begin);
+    if (128.0 * width <= resolution) {
+      apply_rule<3>(interval, begin, width, visit);
+    } else if (8.0 * width <= resolution) {
+      apply_rule<5>(interval, begin, width, visit);
+    } else {
+      apply_rule<15>(interval, begin, width, visit);
     }
   });
 }
@@ -158,10 +174,15 @@ struct Ends {
 
 }  // namespace
 
+double Sampler::next() const {
+  const std::size_t taken = samples_.size();
+  if (rate_ > 0.0) return static_cast<double>(taken) / rate_;
+  return taken < times_.size() ? times_[taken] : std::numeric_limits<double>::infinity();
+}
+
 void Sampler::observe(const Interval& interval) {
-  if (rate_ <= 0.0) return;
   for (;;) {
-    const double t = static_cast<double>(samples_.size()) / rate_;
+    const double t = next();
     if (t >= interval.end()) return;
     Sample sample = interval.state_at(std::max(t, interval.begin));
     sample.t = t;
@@ -170,9 +191,9 @@ void Sampler::observe(const Interval& interval) {
 }
 
 void Sampler::finish(const Sample& final) {
-  if (rate_ <= 0.0) return;
-  const double t = static_cast<double>(samples_.size()) / rate_;
-  if (std::abs(t - final.t) > 1e-9 / rate_) return;
+  const double t = next();
+  const double spacing = rate_ > 0.0 ? 1.0 / rate_ : final.t;
+  if (!(std::abs(t - final.t) <= 1e-9 * spacing)) return;
   samples_.push_back(final);
   samples_.back().t = t;
 }

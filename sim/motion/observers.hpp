@@ -2,6 +2,7 @@
 /// Observers of a stream of intervals: written once, for both engines.
 
 #include <complex>
+#include <span>
 #include <vector>
 
 #include "sim/engine/interval.hpp"
@@ -10,11 +11,13 @@
 
 namespace dualdamp::sim {
 
-/// Samples at 0, 1/rate, 2/rate, ... [s].
+/// Samples at 0, 1/rate, 2/rate, ... [s], or at times of the caller's own.
 class Sampler {
  public:
   /// rate in Hz; 0 takes none.
   explicit Sampler(double rate) : rate_(rate) {}
+  /// Ascending times >= 0, which outlive this.
+  explicit Sampler(std::span<const double> times) : times_(times) {}
 
   void observe(const Interval& interval);
   /// Takes the sample that falls on the very end of the last interval, if one does.
@@ -22,7 +25,11 @@ class Sampler {
   [[nodiscard]] std::vector<Sample>& samples() { return samples_; }
 
  private:
-  double rate_;
+  /// Of the sample to come [s]; infinite when there is none.
+  [[nodiscard]] double next() const;
+
+  double rate_ = 0.0;
+  std::span<const double> times_;
   std::vector<Sample> samples_;
 };
 

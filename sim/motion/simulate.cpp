@@ -15,7 +15,7 @@ History simulate(const Model& model, const SimulateOptions& options) {
   History history;
   const std::unique_ptr<Engine> owned = make_engine(model);
   Engine& engine = *owned;
-  Sampler sampler(options.sample_rate);
+  Sampler sampler = options.sample_rate > 0.0 ? Sampler(options.sample_rate) : Sampler(options.times);
   EnergyAudit energy(model.oscillator);
   while (const Interval* interval = engine.next(options.duration)) {
     sampler.observe(*interval);

@@ -1,6 +1,7 @@
 #pragma once
 /// Time histories: a motion from its initial state, with its events, samples and energy account.
 
+#include <span>
 #include <vector>
 
 #include "core/outcome.hpp"
@@ -21,7 +22,7 @@ struct Event {
 struct History {
   core::Outcome outcome;
   std::vector<Event> events;
-  std::vector<Sample> samples;  ///< at 0, 1/sample_rate, ...; empty when sample_rate is 0
+  std::vector<Sample> samples;  ///< at 0, 1/sample_rate, ... or at given times
   Sample final;
   Energy energy;
   core::SearchCount certificate;  ///< of the searches for events
@@ -29,7 +30,9 @@ struct History {
 
 struct SimulateOptions {
   double duration = 0.0;     ///< s
-  double sample_rate = 0.0;  ///< Hz; 0: no samples
+  double sample_rate = 0.0;  ///< Hz; 0: no samples, or those at `times`
+  /// Ascending times of the samples, >= 0 [s]; those behind the end are not reached.
+  std::span<const double> times = {};
   long max_events = 10'000'000;
 };
 

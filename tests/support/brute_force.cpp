@@ -5,7 +5,11 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "sim/sampled_signal.hpp"
 #include "tests/support/plain_interval.hpp"
 
 namespace dualdamp::test {
@@ -56,7 +60,7 @@ class Walk {
     if (mass_.direction == 0) take_place(model_, {}, friction_, mass_);
     while (mass_.t < duration) {
       const double h = mass_.t < fine_until_ ? step_ / 64.0 : step_;
-      step(std::min(h, duration - mass_.t));
+      step(std::min({h, duration - mass_.t, left_in_piece()}));
     }
     result_.x = mass_.x;
     result_.v = mass_.v;
@@ -64,6 +68,14 @@ class Walk {
   }
 
  private:
+  /// To the next node of a sampled drive, which is not yet ahead of the mass by rounding only.
+  [[nodiscard]] double left_in_piece() {
+    if (model_.excitation.samples == nullptr) return step_;
+    const std::vector<double>& nodes = model_.excitation.samples->times();
+    while (piece_ + 1 < nodes.size() && nodes[piece_ + 1] - mass_.t < 1e-13 * nodes[piece_ + 1]) ++piece_;
+    return piece_ + 1 < nodes.size() ? nodes[piece_ + 1] - mass_.t : step_;
+  }
+
   /// Force of base and excitation on the mass.
   [[nodiscard]] double drive(double t) const {
     const sim::Oscillator& o = model_.oscillator;
@@ -78,11 +90,14 @@ class Walk {
       };
       add(1, e.amplitude, e.phase);
       for (const sim::Harmonic& h : e.harmonics) add(h.order, h.amplitude, h.phase);
+    } else if (e.samples != nullptr) {
+      std::tie(level, rate) = sampled_drive(*e.samples, piece_, t);
     } else {
       level = e.slope * t;
       rate = e.slope;
     }
-    const bool base = e.type == sim::ExcitationType::base_harmonic || e.type == sim::ExcitationType::base_ramp;
+    const bool base = e.type == sim::ExcitationType::base_harmonic || e.type == sim::ExcitationType::base_ramp ||
+                      e.type == sim::ExcitationType::base_samples;
     if (!base) return level + e.offset;
     return o.stiffness * level + (o.damper_to == sim::DamperTo::base ? o.damping * rate : 0.0);
   }
@@ -204,6 +219,7 @@ class Walk {
   MassState mass_;
   double step_ = 0.0;
   double fine_until_ = 0.0;
+  std::size_t piece_ = 0;              ///< of a sampled drive
   double speed_ = std::abs(mass_.v);   ///< the largest so far [m/s]
   double length_ = std::abs(mass_.x);  ///< of the position [m]
   std::vector<Guard> before_;

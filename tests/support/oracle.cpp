@@ -106,8 +106,8 @@ Complex divided_exponential(std::span<const Complex> nodes, double s) {
 }
 
 State solve(const LinearProblem& p, double s) {
-  // z = (x, v, 1, s, transients..., (cos, sin)...); z' = A z.
-  const std::size_t n = 4 + p.transients.size() + 2 * p.harmonics.size();
+  // z = (x, v, 1, s, s^2/2, s^3/6, transients..., (cos, sin)...); z' = A z.
+  const std::size_t n = 6 + p.transients.size() + 2 * p.harmonics.size();
   const Digits50 mass = p.mass;
   Matrix<Digits50> a(n);
   std::vector<Digits50> z(n);
@@ -119,8 +119,10 @@ State solve(const LinearProblem& p, double s) {
   a(1, 1) = -Digits50(p.damping) / mass;
   a(1, 2) = Digits50(p.constant) / mass;
   a(1, 3) = Digits50(p.ramp) / mass;
-  a(3, 2) = 1;
-  std::size_t i = 4;
+  a(1, 4) = Digits50(p.second) / mass;
+  a(1, 5) = Digits50(p.third) / mass;
+  a(3, 2) = a(4, 3) = a(5, 4) = 1;
+  std::size_t i = 6;
   for (const auto& transient : p.transients) {
     a(i, i) = -Digits50(transient.decay);
     a(1, i) = Digits50(transient.amplitude) / mass;

@@ -14,7 +14,8 @@ using Complex = std::complex<double>;
 /// the bidiagonal matrix with the nodes on its diagonal and ones above it (Opitz).
 [[nodiscard]] Complex divided_exponential(std::span<const Complex> nodes, double s);
 
-/// m x'' + C x' + K x = constant + ramp s + sum a_i exp(-d_i s) + Re sum p_j exp(i w_j s)
+/// m x'' + C x' + K x = constant + ramp s + second s^2/2 + third s^3/6 + sum a_i exp(-d_i s) + Re sum p_j exp(i w_j
+/// s)
 struct LinearProblem {
   struct Harmonic {
     double frequency = 0.0;
@@ -30,6 +31,8 @@ struct LinearProblem {
   double stiffness = 0.0;
   double constant = 0.0;
   double ramp = 0.0;
+  double second = 0.0;
+  double third = 0.0;
   std::vector<Harmonic> harmonics{};
   std::vector<Transient> transients{};
   double x0 = 0.0;
@@ -41,7 +44,7 @@ struct State {
   double v = 0.0;
 };
 
-/// The state at s, from the exponential of the matrix of (x, v, 1, s, transients, harmonics).
+/// The state at s, from the exponential of the matrix of (x, v, 1, s, s^2/2, s^3/6, transients, harmonics).
 [[nodiscard]] State solve(const LinearProblem& problem, double s);
 
 /// A mass that slips from rest at s = 0 under  m x'' + c x' + k x = Re sum p_j exp(i w_j s) - friction, with

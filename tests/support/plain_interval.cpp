@@ -19,6 +19,15 @@ constexpr double at_zero = 1e-12;
 
 }  // namespace
 
+std::pair<double, double> sampled_drive(const sim::SampledSignal& samples, std::size_t piece, double t) {
+  const double value = samples.values()[piece];
+  if (samples.interpolation() == sim::Interpolation::step || piece + 1 == samples.times().size())
+    return {value, 0.0};
+  const double from = samples.times()[piece];
+  const double rate = (samples.values()[piece + 1] - value) / (samples.times()[piece + 1] - from);
+  return {value + rate * (t - from), rate};
+}
+
 sim::EventKind take_place(const sim::Model& model, const NextEvent& event, PlainFriction& friction,
                           MassState& mass) {
   switch (event.what) {
@@ -83,8 +92,16 @@ PlainInterval::PlainInterval(const sim::Model& model, const PlainFriction& frict
 void PlainInterval::set_drive() {
   const sim::Oscillator& o = model_.oscillator;
   const sim::Excitation& e = model_.excitation;
-  const bool base = e.type == sim::ExcitationType::base_harmonic;
+  const bool base = e.moves_base();
   const double damper = o.damper_to == sim::DamperTo::base ? o.damping : 0.0;
+  if (e.samples != nullptr) {
+    const std::vector<double>& times = e.samples->times();
+    const auto next = std::ranges::upper_bound(times, from_.t);
+    const auto [level, rate] =
+        sampled_drive(*e.samples, static_cast<std::size_t>(next - times.begin()) - 1, from_.t);
+    problem_.constant += base ? o.stiffness * level + damper * rate : level;
+    return;
+  }
   const auto add = [&](int order, double amplitude, double phase) {
     const Real w = Real(order) * static_cast<Real>(e.frequency);
     const Real angle =

@@ -7,6 +7,7 @@
 
 #include "sim/engine/interval.hpp"
 #include "sim/model.hpp"
+#include "sim/sampled_signal.hpp"
 #include "tests/support/exponential_sum.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/plain_friction.hpp"
@@ -30,6 +31,10 @@ struct NextEvent {
   double s = 0.0;          ///< after the start of the interval [s]
   double uncertainty = 0;  ///< what rounding of state, places and drive moves it by [s]
 };
+
+/// Level and rate at t of a drive with steps or straight lines from sample to sample, as that piece has them.
+[[nodiscard]] std::pair<double, double> sampled_drive(const sim::SampledSignal& samples, std::size_t piece,
+                                                      double t);
 
 /// What the event does to friction and direction, by the equations of the laws. A mass that has come to rest stays
 /// while the pull is within the static level.

@@ -32,11 +32,12 @@ struct Case {
     std::vector<double> decays;
     for (const auto& harmonic : problem.harmonics) frequencies.push_back(harmonic.frequency);
     for (const auto& transient : problem.transients) decays.push_back(transient.decay);
-    return {problem.mass, problem.damping, problem.stiffness, frequencies, problem.ramp != 0.0 ? 1 : 0, decays};
+    const int degree = problem.third != 0.0 ? 3 : problem.second != 0.0 ? 2 : problem.ramp != 0.0 ? 1 : 0;
+    return {problem.mass, problem.damping, problem.stiffness, frequencies, {.degree = degree, .decays = decays}};
   }
 
   [[nodiscard]] ModeForcing forcing() const {
-    ModeForcing f{.polynomial = {problem.constant, problem.ramp}};
+    ModeForcing f{.polynomial = {problem.constant, problem.ramp, problem.second, problem.third}};
     for (const auto& harmonic : problem.harmonics) f.phasors.push_back(harmonic.phasor);
     for (const auto& transient : problem.transients) f.transients.push_back(transient.amplitude);
     return f;
