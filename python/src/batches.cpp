@@ -18,7 +18,7 @@ namespace {
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Shape = std::vector<py::ssize_t>;
 
-/// A number, or an array of them.
+/// A number, or an array of them that is read as one of a larger shape.
 class Input {
  public:
   explicit Input(const py::object& value) {
@@ -35,19 +35,51 @@ class Input {
     return array_ ? Shape(array_.shape(), array_.shape() + array_.ndim()) : Shape{};
   }
 
-  /// Its numbers for every place of the shape that all inputs have together.
-  [[nodiscard]] std::vector<double> spread(const Shape& shape, std::size_t size) const {
-    if (!array_ || array_.ndim() == 0) return std::vector<double>(size, number_);
-    Numbers whole = array_;
-    if (this->shape() != shape) {
-      whole = Numbers::ensure(py::module_::import("numpy").attr("broadcast_to")(array_, py::cast(shape)));
+  /// From now on it is read as an array of this shape, which its own can be broadcast to.
+  void broadcast(const Shape& shape) {
+    const Shape own = this->shape();
+    shape_ = shape;
+    strides_.assign(shape.size(), 0);
+    py::ssize_t stride = 1;
+    for (std::size_t i = own.size(); i-- > 0;) {
+      if (own[i] != 1) strides_[shape.size() - own.size() + i] = stride;
+      stride *= own[i];
     }
-    return {whole.data(), whole.data() + size};
+  }
+
+  /// Numbers `first` to `first + out.size()` of the flattened shape. Needs no lock of the interpreter.
+  void read(std::size_t first, std::vector<double>& out) const {
+    if (!array_ || array_.ndim() == 0) {
+      std::ranges::fill(out, number_);
+      return;
+    }
+    const auto length = static_cast<std::size_t>(shape_.back());
+    for (std::size_t done = 0; done < out.size();) {
+      // A row of the last dimension, or what is left of it.
+      const std::size_t column = (first + done) % length;
+      const std::size_t count = std::min(length - column, out.size() - done);
+      const double* place = start_of_row((first + done) / length);
+      for (std::size_t i = 0; i < count; ++i)
+        out[done + i] = place[static_cast<py::ssize_t>(column + i) * strides_.back()];
+      done += count;
+    }
   }
 
  private:
+  [[nodiscard]] const double* start_of_row(std::size_t row) const {
+    py::ssize_t offset = 0;
+    for (std::size_t i = shape_.size() - 1; i-- > 0;) {
+      const auto length = static_cast<std::size_t>(shape_[i]);
+      offset += static_cast<py::ssize_t>(row % length) * strides_[i];
+      row /= length;
+    }
+    return array_.data() + offset;
+  }
+
   Numbers array_{py::reinterpret_steal<Numbers>(py::handle())};
   double number_ = 0.0;
+  Shape shape_;
+  Shape strides_;
 };
 
 Shape common_shape(const std::vector<Input>& inputs) {
@@ -76,43 +108,67 @@ py::object output(std::vector<Number> numbers, const Shape& shape) {
   return py::array_t<Number>(shape, kept->data(), owner);
 }
 
-/// Numbers of a steady state that does not exist mean nothing.
-void blank(sim::BatchSteadyStates& states) {
-  for (std::size_t i = 0; i < states.outcome.size(); ++i)
-    if (states.outcome[i] != core::OutcomeKind::done)
-      for (std::vector<double>* numbers : {&states.peak, &states.trough, &states.lag, &states.radius})
-        (*numbers)[i] = std::numeric_limits<double>::quiet_NaN();
+/// What is returned, one entry for each oscillator. NaN where there is no steady state.
+struct Output {
+  explicit Output(std::size_t size)
+      : peak(size), trough(size), lag(size), radius(size), stops(size), outcome(size) {}
+
+  void take(const sim::BatchSteadyStates& states, std::size_t first) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < states.outcome.size(); ++i) {
+      const bool is_done = states.outcome[i] == core::OutcomeKind::done;
+      peak[first + i] = is_done ? states.peak[i] : none;
+      trough[first + i] = is_done ? states.trough[i] : none;
+      lag[first + i] = is_done ? states.lag[i] : none;
+      radius[first + i] = is_done ? states.radius[i] : none;
+      stops[first + i] = states.stops[i];
+      outcome[first + i] = static_cast<unsigned char>(states.outcome[i]);
+    }
+  }
+
+  std::vector<double> peak, trough, lag, radius;
+  std::vector<int> stops;
+  std::vector<unsigned char> outcome;
+};
+
+/// Many oscillators are handed over in chunks, whose numbers stay in the cache of the processor.
+constexpr std::size_t chunk_size = 32'768;
+
+sim::OscillatorBatch chunk_of(const std::vector<Input>& inputs, sim::ExcitationType type, sim::DamperTo damper_to,
+                              std::size_t first, std::size_t count) {
+  sim::OscillatorBatch chunk{.type = type, .damper_to = damper_to};
+  std::vector<double>* const columns[] = {&chunk.mass,         &chunk.damping,   &chunk.stiffness, &chunk.kinetic,
+                                          &chunk.static_level, &chunk.amplitude, &chunk.frequency};
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    columns[i]->resize(count);
+    inputs[i].read(first, *columns[i]);
+  }
+  return chunk;
 }
 
 /// `values`: mass, damping, stiffness, kinetic, static, amplitude, frequency.
 py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const py::tuple& values) {
   std::vector<Input> inputs;
   for (const py::handle value : values) inputs.emplace_back(py::reinterpret_borrow<py::object>(value));
+  constexpr std::size_t columns = 7;
+  if (inputs.size() != columns) throw py::value_error("seven values are needed");
   const Shape shape = common_shape(inputs);
   std::size_t size = 1;
   for (const py::ssize_t length : shape) size *= static_cast<std::size_t>(length);
-  const auto column = [&](std::size_t i) { return inputs.at(i).spread(shape, size); };
-  const sim::OscillatorBatch batch{
-      .type = moves_base ? sim::ExcitationType::base_harmonic : sim::ExcitationType::force_harmonic,
-      .damper_to = damper_to_base ? sim::DamperTo::base : sim::DamperTo::ground,
-      .mass = column(0),
-      .damping = column(1),
-      .stiffness = column(2),
-      .kinetic = column(3),
-      .static_level = column(4),
-      .amplitude = column(5),
-      .frequency = column(6)};
-  sim::BatchSteadyStates states = interruptible([&] {
-    sim::BatchSteadyStates found = sim::steady_states(batch, {.threads = threads});
-    blank(found);
-    return found;
+  for (Input& input : inputs) input.broadcast(shape);
+  const auto type = moves_base ? sim::ExcitationType::base_harmonic : sim::ExcitationType::force_harmonic;
+  const auto damper_to = damper_to_base ? sim::DamperTo::base : sim::DamperTo::ground;
+  Output found = interruptible([&] {
+    Output all(size);
+    for (std::size_t first = 0; first < size; first += chunk_size)
+      all.take(sim::steady_states(chunk_of(inputs, type, damper_to, first, std::min(chunk_size, size - first)),
+                                  {.threads = threads}),
+               first);
+    return all;
   });
-  std::vector<unsigned char> outcome(size);
-  std::ranges::transform(states.outcome, outcome.begin(),
-                         [](core::OutcomeKind kind) { return static_cast<unsigned char>(kind); });
-  return py::make_tuple(output(std::move(states.peak), shape), output(std::move(states.trough), shape),
-                        output(std::move(states.lag), shape), output(std::move(states.radius), shape),
-                        output(std::move(states.stops), shape), output(std::move(outcome), shape));
+  return py::make_tuple(output(std::move(found.peak), shape), output(std::move(found.trough), shape),
+                        output(std::move(found.lag), shape), output(std::move(found.radius), shape),
+                        output(std::move(found.stops), shape), output(std::move(found.outcome), shape));
 }
 
 }  // namespace
