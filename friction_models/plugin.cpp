@@ -204,7 +204,7 @@ std::string bytes_of(const Refusal& refuse, const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The library's table, of the right version. dlopen looks a bare name up elsewhere: `path` is absolute.
+/// The library's table. dlopen looks a bare name up elsewhere: `path` is absolute.
 const Table& table_of(const Refusal& refuse, const std::string& path) {
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
@@ -221,12 +221,24 @@ const Table& table_of(const Refusal& refuse, const std::string& path) {
     refuse("dualdamp_law() threw an exception, which no C function may");
   }
   refuse.unless(table != nullptr, "dualdamp_law() returned no table");
-  refuse.unless(table->abi == DUALDAMP_LAW_ABI, "it was built for another version of the interface",
-                "version " + std::to_string(DUALDAMP_LAW_ABI), "version " + std::to_string(table->abi));
-  refuse.unless(table->size == sizeof(Table),
-                "its table has another size than version " + std::to_string(DUALDAMP_LAW_ABI) + " of the interface",
-                std::to_string(sizeof(Table)) + " bytes", std::to_string(table->size) + " bytes");
   return *table;
+}
+
+void check_version(const Refusal& refuse, const Table& table) {
+  refuse.unless(table.abi == DUALDAMP_LAW_ABI, "it was built for another version of the interface",
+                "version " + std::to_string(DUALDAMP_LAW_ABI), "version " + std::to_string(table.abi));
+  refuse.unless(table.size == sizeof(Table),
+                "its table has another size than version " + std::to_string(DUALDAMP_LAW_ABI) + " of the interface",
+                std::to_string(sizeof(Table)) + " bytes", std::to_string(table.size) + " bytes");
+}
+
+/// Checks the table and adds its law.
+void add(const Refusal& refuse, const Table& table, const std::string& origin, const std::string& sha256) {
+  check_version(refuse, table);
+  check_texts(refuse, table);
+  check_counts(refuse, table);
+  check_functions(refuse, table);
+  add_law(entry_of(refuse, table, {table.name, table.version, origin, sha256}));
 }
 
 }  // namespace
@@ -237,11 +249,11 @@ void load_plugin(const std::string& file) {
   const std::string path = fs::canonical(file).string();
   const auto is_loaded = [&](const LawEntry& entry) { return entry.plugin && entry.plugin->file == path; };
   if (std::ranges::any_of(laws(), is_loaded)) return;
-  const Table& table = table_of(refuse, path);
-  check_texts(refuse, table);
-  check_counts(refuse, table);
-  check_functions(refuse, table);
-  add_law(entry_of(refuse, table, {table.name, table.version, path, core::sha256(bytes)}));
+  add(refuse, table_of(refuse, path), path, core::sha256(bytes));
+}
+
+void add_plugin(const dualdamp_law_table& table, const std::string& origin, const std::string& sha256) {
+  add(Refusal(origin), table, origin, sha256);
 }
 
 }  // namespace dualdamp::friction

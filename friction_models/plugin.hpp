@@ -10,10 +10,17 @@
 
 #include <string>
 
+#include "friction_models/dualdamp_law.h"
+
 namespace dualdamp::friction {
 
 /// Loads the library `file` and adds its law; does nothing for a file that is loaded already. As add_law, to be
 /// called before laws() is used.
 void load_plugin(const std::string& file);
+
+/// The same of a table in memory, for laws written in another language. `table` and its functions live as long as
+/// the program; `origin` stands for the file in messages and in the provenance of results, `sha256` is that of the
+/// law's source.
+void add_plugin(const dualdamp_law_table& table, const std::string& origin, const std::string& sha256);
 
 }  // namespace dualdamp::friction

@@ -60,6 +60,10 @@ void add_law(LawEntry entry) {
   list.insert(place, std::move(entry));
 }
 
+void remove_added_law(std::string_view name) {
+  std::erase_if(all_laws(), [&](const LawEntry& entry) { return entry.plugin && entry.name == name; });
+}
+
 const LawEntry* find_law(std::string_view name) {
   const auto& list = laws();
   const auto found =

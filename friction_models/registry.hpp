@@ -15,6 +15,9 @@ namespace dualdamp::friction {
 /// in memory: call it when the program starts, before any other use of laws() and while no other thread runs.
 void add_law(LawEntry entry);
 
+/// Takes away a law that was added; nothing where there is none of that name. When: as add_law().
+void remove_added_law(std::string_view name);
+
 /// nullptr when there is no such law.
 [[nodiscard]] const LawEntry* find_law(std::string_view name);
 

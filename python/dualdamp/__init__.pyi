@@ -1,7 +1,7 @@
 # Written by scripts/lib/python_stubs.py from the tables of the format.
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, TypeAlias, overload
+from typing import Any, Literal, TypeAlias, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,6 +85,33 @@ class SteadyStates:
     def shape(self) -> tuple[int, ...]: ...
     def to_pandas(self) -> Any: ...
 
+class Instant:
+    t: float
+    x: float
+    v: float
+    direction: int
+    def limit(self, nominal: float) -> float: ...
+
+class Parameter:
+    unit: str
+    meaning: str
+
+_Kind = TypeVar("_Kind", bound=type)
+
+def parameter(
+    unit: str,
+    meaning: str,
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    default: float | None = None,
+    is_limit: bool = False,
+) -> Parameter: ...
+def friction_law(kind: _Kind) -> _Kind: ...
+def compile_law(source: str | os.PathLike[str], *, compiler: str | None = None) -> None: ...
+def include_directory() -> str: ...
+
 class Law:
     def replace(self, **parameters: Any) -> Law: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -137,6 +164,21 @@ def steady_state(
     damper_to: Literal["ground", "base"] = "ground",
     threads: int = 0,
 ) -> SteadyStates: ...
+@overload
+def law(
+    name: Literal["asymmetric_coulomb"],
+    *,
+    kinetic_forward: Quantity,
+    kinetic_backward: Quantity,
+    static_forward: Quantity | None = None,
+    static_backward: Quantity | None = None,
+    viscous_forward: Quantity | None = None,
+    viscous_backward: Quantity | None = None,
+    drift: Quantity | None = None,
+    position_slope: Quantity | None = None,
+    fluctuation: Mapping[str, Any] | None = None,
+    warming: Mapping[str, Any] | None = None,
+) -> Law: ...
 @overload
 def law(
     name: Literal["bouc_wen"],
@@ -251,6 +293,19 @@ def law(
     limit: Quantity | None = None,
     count: int | None = None,
     distribution: Literal["uniform"] | None = None,
+    drift: Quantity | None = None,
+    fluctuation: Mapping[str, Any] | None = None,
+) -> Law: ...
+@overload
+def law(
+    name: Literal["iwan_four_parameter"],
+    *,
+    stiffness: Quantity,
+    limit: Quantity,
+    exponent: Quantity,
+    beta: Quantity,
+    count: int | None = None,
+    smallest: Quantity | None = None,
     drift: Quantity | None = None,
     fluctuation: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -627,6 +682,20 @@ class _Laws:
     def __iter__(self) -> Iterator[str]: ...
     def __contains__(self, name: str) -> bool: ...
     def __len__(self) -> int: ...
+    def asymmetric_coulomb(
+        self,
+        *,
+        kinetic_forward: Quantity,
+        kinetic_backward: Quantity,
+        static_forward: Quantity | None = None,
+        static_backward: Quantity | None = None,
+        viscous_forward: Quantity | None = None,
+        viscous_backward: Quantity | None = None,
+        drift: Quantity | None = None,
+        position_slope: Quantity | None = None,
+        fluctuation: Mapping[str, Any] | None = None,
+        warming: Mapping[str, Any] | None = None,
+    ) -> Law: ...
     def bouc_wen(
         self,
         *,
@@ -732,6 +801,18 @@ class _Laws:
         limit: Quantity | None = None,
         count: int | None = None,
         distribution: Literal["uniform"] | None = None,
+        drift: Quantity | None = None,
+        fluctuation: Mapping[str, Any] | None = None,
+    ) -> Law: ...
+    def iwan_four_parameter(
+        self,
+        *,
+        stiffness: Quantity,
+        limit: Quantity,
+        exponent: Quantity,
+        beta: Quantity,
+        count: int | None = None,
+        smallest: Quantity | None = None,
         drift: Quantity | None = None,
         fluctuation: Mapping[str, Any] | None = None,
     ) -> Law: ...

@@ -75,12 +75,10 @@ def identify(
     Examples
     --------
     >>> import dualdamp as dd
-    >>> import numpy as np
-    >>> Y = np.linspace(0.04, 0.1, 7)
-    >>> x = 2.5 * Y - 0.0637                                # zeta 0.2, F0 2 N
-    >>> found = dd.identify({"Y": Y, "x": x}, mass="1 kg", stiffness="100 N/m", frequency="10 rad/s", methods=["resonance_least_squares"])
-    >>> round(found.estimates[0].zeta, 3)
-    0.2
+    >>> pairs = {"Y [mm]": [4.5, 5.0, 5.5, 6.0, 6.5], "x [mm]": [4.70, 7.21, 9.76, 12.25, 14.82]}
+    >>> found = dd.identify(pairs, mass="1.042 kg", stiffness="1568 N/m", frequency="6.17 Hz")
+    >>> round(found.answer.zeta, 3), round(found.answer.F0, 1)
+    (0.099, 4.4)
     """
     texts = {}
     if isinstance(data, (str, os.PathLike)):

@@ -127,6 +127,9 @@ def source_of(scenario, changes=None, data=None):
 
 def run_source(source, *, out=None, threads=0, resume=False, progress=None):
     report = _Progress() if progress is True else progress
+    laws = sys.modules.get(__package__ + "._python_laws")  # where no law is written in Python, none can fail
+    if laws is not None:
+        laws.last_error = None
     try:
         done = core.run(source, "" if out is None else os.fspath(out), threads, resume, report)
     finally:
@@ -137,7 +140,7 @@ def run_source(source, *, out=None, threads=0, resume=False, progress=None):
         for message in done.save(os.fspath(out)):
             warnings.warn(message, stacklevel=3)
     if done.numbers == "null":
-        raise NumericalFailure(done.failure, result)
+        raise NumericalFailure(done.failure, result) from (laws and laws.last_error)
     if result.status == 1:
         raise CheckFailed(_failed_checks(result), result)
     if result.status != 0:

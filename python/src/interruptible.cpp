@@ -2,8 +2,6 @@
 
 #include <signal.h>
 
-#include <thread>
-
 namespace dualdamp::python {
 
 namespace py = pybind11;
@@ -13,8 +11,10 @@ namespace {
 /// Python's handler while ours stands in its place.
 struct sigaction before;
 bool is_watching = false;
+volatile sig_atomic_t was_pressed = 0;
 
 extern "C" void cancel_and_pass_on(int number) {
+  was_pressed = 1;
   core::request_cancellation();
   before.sa_handler(number);
 }
@@ -32,6 +32,7 @@ InterruptWatch::InterruptWatch() {
   if (::sigaction(SIGINT, nullptr, &before) != 0) return;
   // Without a handler of Python's the signal ends the process, or is ignored, as its owner wants it.
   if ((before.sa_flags & SA_SIGINFO) != 0 || before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN) return;
+  was_pressed = 0;
   struct sigaction ours = before;
   ours.sa_handler = cancel_and_pass_on;
   is_watching = is_set_ = ::sigaction(SIGINT, &ours, nullptr) == 0;
@@ -47,6 +48,10 @@ InterruptWatch::~InterruptWatch() {
 void InterruptWatch::raise() const {
   if (PyErr_CheckSignals() == 0) PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw py::error_already_set();
+}
+
+void InterruptWatch::raise_if_pressed() const {
+  if (is_set_ && was_pressed != 0) raise();
 }
 
 void CallbackError::keep() {

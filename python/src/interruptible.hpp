@@ -27,6 +27,8 @@ class InterruptWatch {
 
   /// Throws what the cancellation means in Python.
   [[noreturn]] void raise() const;
+  /// The same once Ctrl-C was pressed: a function of the user's may have ended the computation with its error.
+  void raise_if_pressed() const;
 
  private:
   bool is_set_ = false;
@@ -44,11 +46,20 @@ class CallbackError {
 };
 
 template <typename Work>
+auto unlocked(Work& work) {
+  const pybind11::gil_scoped_release release;
+  return work();
+}
+
+template <typename Work>
 auto interruptible(Work work, const CallbackError* callbacks = nullptr) {
   const InterruptWatch watch;
   try {
-    const pybind11::gil_scoped_release unlocked;
-    return work();
+    auto result = unlocked(work);
+    // A run that was nearly over does not notice a cancellation.
+    if (callbacks != nullptr) callbacks->rethrow_if_any();
+    watch.raise_if_pressed();
+    return result;
   } catch (const core::Cancelled&) {
     // The lock is back by now.
   }

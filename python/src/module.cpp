@@ -1,6 +1,9 @@
+#include <cstdint>
+
 #include "core/build_info.hpp"
 #include "core/provenance.hpp"
 #include "friction_models/plugin.hpp"
+#include "friction_models/registry.hpp"
 #include "python/src/parts.hpp"
 
 PYBIND11_MODULE(_core, module) {
@@ -10,6 +13,17 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = std::string(build.version);
   module.attr("commit") = std::string(build.commit);
   module.def("load_plugin", &friction::load_plugin, pybind11::arg("file"));
+  module.def(
+      "add_law",
+      [](std::uintptr_t table, const std::string& origin, const std::string& source) {
+        // The address of a table that the caller keeps (dualdamp/_python_laws.py).
+        const auto* const law =
+            reinterpret_cast<const dualdamp_law_table*>(table);  // NOLINT(performance-no-int-to-ptr)
+        friction::remove_added_law(law->name == nullptr ? "" : law->name);
+        friction::add_plugin(*law, origin, core::sha256(source));
+      },
+      pybind11::arg("table"), pybind11::arg("origin"), pybind11::arg("source"));
+  module.def("remove_law", &friction::remove_added_law, pybind11::arg("name"));
   python::add_errors(module);
   python::add_runs(module);
   python::add_tables(module);

@@ -50,14 +50,6 @@ Choice make_excitations() {
            {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}}}};
 }
 
-Choice make_laws() {
-  Choice result{"law", {}};
-  for (const friction::LawEntry& law : friction::laws()) {
-    result.variants.push_back({std::string(law.name), std::string(law.summary), {fields_of(law.parameters)}});
-  }
-  return result;
-}
-
 }  // namespace
 
 const Choice& excitations() {
@@ -65,9 +57,12 @@ const Choice& excitations() {
   return choice;
 }
 
-const Choice& friction_laws() {
-  static const Choice choice = make_laws();
-  return choice;
+Choice friction_laws() {
+  Choice result{"law", {}};
+  for (const friction::LawEntry& law : friction::laws()) {
+    result.variants.push_back({std::string(law.name), std::string(law.summary), {fields_of(law.parameters)}});
+  }
+  return result;
 }
 
 }  // namespace dualdamp::scenarios

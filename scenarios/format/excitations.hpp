@@ -6,6 +6,6 @@
 namespace dualdamp::scenarios {
 
 [[nodiscard]] const Choice& excitations();
-[[nodiscard]] const Choice& friction_laws();
+[[nodiscard]] Choice friction_laws();
 
 }  // namespace dualdamp::scenarios

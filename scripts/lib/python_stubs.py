@@ -13,7 +13,7 @@ from dualdamp._tables import entry, tables
 HEAD = '''# Written by scripts/lib/python_stubs.py from the tables of the format.
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, TypeAlias, overload
+from typing import Any, Literal, TypeAlias, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,6 +96,33 @@ class SteadyStates:
     @property
     def shape(self) -> tuple[int, ...]: ...
     def to_pandas(self) -> Any: ...
+
+class Instant:
+    t: float
+    x: float
+    v: float
+    direction: int
+    def limit(self, nominal: float) -> float: ...
+
+class Parameter:
+    unit: str
+    meaning: str
+
+_Kind = TypeVar("_Kind", bound=type)
+
+def parameter(
+    unit: str,
+    meaning: str,
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    default: float | None = None,
+    is_limit: bool = False,
+) -> Parameter: ...
+def friction_law(kind: _Kind) -> _Kind: ...
+def compile_law(source: str | os.PathLike[str], *, compiler: str | None = None) -> None: ...
+def include_directory() -> str: ...
 
 class Law:
     def replace(self, **parameters: Any) -> Law: ...

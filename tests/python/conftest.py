@@ -18,6 +18,20 @@ def in_source_tree(monkeypatch):
     monkeypatch.chdir(ROOT)
 
 
+@pytest.fixture(autouse=True)
+def no_law_stays():
+    """Laws that a test adds are gone behind it."""
+    import dualdamp as dd
+    from dualdamp import _tables
+
+    before = set(dd.laws)
+    yield
+    for name in set(dd.laws) - before:
+        _tables.core.remove_law(name)
+        vars(dd.laws).pop(name, None)
+    _tables.tables.cache_clear()
+
+
 @pytest.fixture
 def program():
     """Runs the program; returns (status, stdout, stderr)."""

@@ -51,7 +51,7 @@ def test_a_part_is_checked_when_it_is_made():
         dd.law("coulomb", kinetik=2)
     with pytest.raises(dd.InvalidScenario, match="'system.mass' is out of range"):
         dd.System(mass=0, stiffness=1, damping=0)
-    with pytest.raises(ValueError, match="there is no law 'kulomb'; there are: bouc_wen"):
+    with pytest.raises(ValueError, match="there is no law 'kulomb'; there are: .*bouc_wen"):
         dd.law("kulomb")
     with pytest.raises(TypeError, match="excitation 'base_harmonic' has no key 'amplitud'; it has: amplitude"):
         dd.excitation("base_harmonic", amplitud=1)

@@ -1,0 +1,358 @@
+"""Friction laws written in Python or C.
+
+A law crosses the border as a table of C functions (friction_models/dualdamp_law.h), the same as that of a plugin; here the
+functions are Python's, or compiled from a C text. Names and layout of the structures are those of the header.
+"""
+
+from __future__ import annotations
+
+import ctypes as c
+import inspect
+import math
+import os
+import subprocess
+import tempfile
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import _tables
+from ._library import core
+
+_ABI = 1
+_IS_ODD, _IS_PASSIVE = 1, 2
+_REFUSED = 1
+_Doubles = c.POINTER(c.c_double)
+
+
+class Instant(c.Structure):
+    """The mass at one instant, as a law of Python sees it.
+
+    Attributes
+    ----------
+    t, x, v : float
+        Time [s], position [m], velocity [m/s].
+    direction : int
+        Of slip: -1 or 1; 0 while the mass sticks. Write ``direction * v`` where the formula has the absolute value of v.
+    """
+
+    _fields_ = [
+        ("t", c.c_double),
+        ("x", c.c_double),
+        ("v", c.c_double),
+        ("direction", c.c_int),
+        ("limit_factor", c.c_double),
+        ("limit_offset", c.c_double),
+        ("limit_vanished", c.c_double),
+    ]
+
+    def limit(self, nominal):
+        """The force limit that is `nominal` without modifiers (drift, fluctuation, ...), at this instant."""
+        return 0.0 if nominal <= self.limit_vanished else self.limit_factor * nominal + self.limit_offset
+
+
+class _Parameter(c.Structure):
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("unit", c.c_char_p),
+        ("meaning", c.c_char_p),
+        ("low", c.c_double),
+        ("high", c.c_double),
+        ("low_is_open", c.c_int),
+        ("high_is_open", c.c_int),
+        ("has_default", c.c_int),
+        ("fallback", c.c_double),
+        ("is_limit", c.c_int),
+    ]
+
+
+_Now = c.POINTER(Instant)
+_FUNCTIONS = {
+    "create": c.CFUNCTYPE(c.c_int, _Doubles, c.POINTER(c.c_void_p), c.POINTER(c.c_char), c.c_uint),
+    "destroy": c.CFUNCTYPE(None, c.c_void_p),
+    "respond": c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, _Doubles, _Now, _Doubles, _Doubles),
+    "scales": c.CFUNCTYPE(c.c_int, c.c_void_p, _Doubles),
+    "start": c.CFUNCTYPE(c.c_int, c.c_void_p, _Now, c.POINTER(c.c_int), _Doubles),
+    "static_limit": c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, _Doubles, _Now, _Doubles),
+    "guard": c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, _Doubles, _Now, _Doubles),
+    "jump": c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, _Now, c.POINTER(c.c_int), _Doubles),
+    "dissipation": c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, _Doubles, _Now, _Doubles),
+}
+
+
+class _Table(c.Structure):
+    _fields_ = [
+        *((name, c.c_uint) for name in ("size", "abi", "abilities", "modes", "states", "guards", "parameter_count")),
+        ("parameters", c.POINTER(_Parameter)),
+        *((name, c.c_char_p) for name in ("name", "version", "summary", "equation", "remembers", "caution", "sources")),
+        *_FUNCTIONS.items(),
+    ]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a law that is written in Python. `parameter` makes one."""
+
+    unit: str
+    meaning: str
+    low: float = -math.inf
+    high: float = math.inf
+    low_is_open: bool = False
+    default: float | None = None
+    is_limit: bool = False
+
+    def _row(self, name):
+        default = 0.0 if self.default is None else self.default
+        texts = [text.encode() for text in (name, self.unit, self.meaning)]
+        return _Parameter(*texts, self.low, self.high, self.low_is_open, False, self.default is not None, default, self.is_limit)
+
+
+def parameter(unit, meaning, *, above=None, at_least=None, at_most=None, default=None, is_limit=False):
+    """A parameter of a law that is written in Python.
+
+    Parameters
+    ----------
+    unit : str
+        SI, ``"1"`` for a plain number.
+    meaning : str
+        One line.
+    above, at_least, at_most : float, optional
+        Its range.
+    default : float, optional
+        Without one it is required.
+    is_limit : bool, optional
+        A force limit, or what multiplies the whole force: modifiers act on it, if the law asks ``now.limit(value)``.
+
+    Returns
+    -------
+    Parameter
+    """
+    low = -math.inf if above is None and at_least is None else above if above is not None else at_least
+    return Parameter(unit, meaning, low, math.inf if at_most is None else at_most, above is not None, default, is_limit)
+
+
+def friction_law(kind):
+    """Make a friction law of a class; a decorator.
+
+    The law then is one like any other: `law` and scenarios take it by the name of the class, its parameters are checked, all
+    analyses run it with the smooth engine. A call into Python takes about two microseconds, and a motion makes thousands of them;
+    `compile_law` has full speed.
+
+    Parameters
+    ----------
+    kind : type
+        A class with
+
+        * a docstring, whose first line is the summary;
+        * ``equation``: the formula as text;
+        * ``parameters``: dict of name to `parameter`; ``__init__`` gets their values in SI numbers, by name, and raises
+          ValueError for values that do not go together;
+        * ``force(self, now)``: the force [N], > 0 opposing v > 0; `now` is an `Instant`;
+        * or, of a law that remembers: ``states``, their number; ``scales(self)``, the size of each in a motion that slips; and
+          ``respond(self, now, states)``, which returns the force and the rate of each state;
+        * optional: ``start(self, now)``, the states at the start; ``static_limit(self, now)`` or ``static_limit(self, now, states)``,
+          the force up to which the law makes the mass stick; ``dissipation(self, now, states)``, the power turned to heat [W], of a
+          law that stores energy;
+        * optional: ``is_odd``, ``is_passive`` (default: True), ``version``, ``sources``, ``caution``.
+
+        Its functions are pure: several threads call them, and the same arguments give the same results.
+
+    Returns
+    -------
+    type
+        The class itself.
+
+    Raises
+    ------
+    InvalidScenario
+        The class is not what a law needs.
+
+    Notes
+    -----
+    Define laws before other threads run scenarios. A class of the same name replaces the law. An exception in a function of the
+    law ends the run, and is the cause of the `NumericalFailure`. Between events the direction of slip is frozen: write
+    ``now.direction`` for the sign of v, and ``now.direction * now.v`` for its absolute value.
+
+    Examples
+    --------
+    >>> import math
+    >>> import dualdamp as dd
+    >>> @dd.friction_law
+    ... class smooth_coulomb:
+    ...     '''Coulomb friction without a jump.'''
+    ...     equation = "F = level tanh(v/speed)"
+    ...     parameters = {
+    ...         "level": dd.parameter("N", "force at high speed", at_least=0, is_limit=True),
+    ...         "speed": dd.parameter("m/s", "speed at which it is three quarters of that", above=0),
+    ...     }
+    ...     def __init__(self, level, speed):
+    ...         self.level, self.speed = level, speed
+    ...     def force(self, now):
+    ...         return now.limit(self.level) * math.tanh(now.v / self.speed)
+    >>> dd.law("smooth_coulomb", level="2 N", speed="1 mm/s")
+    law('smooth_coulomb', level='2 N', speed='1 mm/s')
+    """
+    table = _LawTable(kind)
+    core.add_law(c.addressof(table.table), table.origin, table.source)
+    _KEPT.append(table)
+    _tables.tables.cache_clear()
+    vars(_tables.laws).pop(kind.__name__, None)
+    return kind
+
+
+def compile_law(source, *, compiler=None):
+    """Compile a friction law in C and load it: the interface of docs/plugins.md, at full speed.
+
+    Parameters
+    ----------
+    source : str or path
+        The C text, which has more than one line, or the name of a file of it. It includes ``dualdamp_law.h``.
+    compiler : str, optional
+        Default: the environment variable ``CC``, or ``cc``.
+
+    Raises
+    ------
+    InvalidScenario
+        The library is no law; or its name is taken.
+    RuntimeError
+        The compiler refuses the text; its messages.
+    """
+    text = source if isinstance(source, str) and "\n" in source else Path(source).read_text(encoding="utf-8")
+    # The library stays loaded, and provenance names its file.
+    directory = Path(tempfile.mkdtemp(prefix="dualdamp-law-"))
+    (directory / "law.c").write_text(text, encoding="utf-8")
+    command = [compiler or os.environ.get("CC", "cc"), "-O2", "-shared", "-fPIC", f"-I{include_directory()}", "law.c", "-lm", "-o", "law.so"]
+    done = subprocess.run(command, cwd=directory, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)}:\n{done.stderr}")
+    core.load_plugin(str(directory / "law.so"))
+    _tables.tables.cache_clear()
+
+
+def include_directory():
+    """The directory of ``dualdamp_law.h``, for laws in C.
+
+    Returns
+    -------
+    str
+    """
+    return str(Path(__file__).with_name("include"))
+
+
+# Tables and functions that the libraries call; a law that was replaced may still be in use.
+_KEPT: list[_LawTable] = []
+# The exception that ended the last call of a law.
+last_error: BaseException | None = None
+
+
+class _LawTable:
+    """The C table of a class."""
+
+    def __init__(self, kind):
+        self._kind = kind
+        self._laws = {}
+        self._states = int(getattr(kind, "states", 0))
+        parameters = getattr(kind, "parameters", {})
+        self._names = list(parameters)
+        self._rows = (_Parameter * max(len(parameters), 1))(*(value._row(name) for name, value in parameters.items()))
+        self._functions = {name: _FUNCTIONS[name](getattr(self, "_" + name)) for name in self._present()}
+        try:
+            self.source = inspect.getsource(kind)
+            self.origin = inspect.getsourcefile(kind) or "Python"
+        except (OSError, TypeError):
+            self.source, self.origin = repr(kind), "Python"
+        self.table = self._filled()
+
+    def _present(self):
+        yield from ("create", "destroy", "respond")
+        if self._states > 0:
+            yield "scales"
+        for name in ("start", "static_limit", "dissipation"):
+            if hasattr(self._kind, name):
+                yield name
+
+    def _filled(self):
+        kind = self._kind
+        summary = (inspect.getdoc(kind) or "").split("\n")[0].rstrip(".")
+        texts = {
+            "name": kind.__name__,
+            "version": str(getattr(kind, "version", "1")),
+            "summary": summary,
+            "equation": getattr(kind, "equation", ""),
+            "remembers": f"{self._states} states" if self._states > 0 else None,
+            "caution": getattr(kind, "caution", None),
+            "sources": getattr(kind, "sources", None),
+        }
+        table = _Table(size=c.sizeof(_Table), abi=_ABI, modes=1, states=self._states, guards=0, parameter_count=len(self._names))
+        table.abilities = _IS_ODD * bool(getattr(kind, "is_odd", True)) + _IS_PASSIVE * bool(getattr(kind, "is_passive", True))
+        table.parameters = c.cast(self._rows, c.POINTER(_Parameter))
+        for name, text in texts.items():
+            setattr(table, name, None if text is None else text.encode())
+        for name, function in self._functions.items():
+            setattr(table, name, function)
+        return table
+
+    def _create(self, values, law, message, size):
+        try:
+            made = self._kind(**{name: values[i] for i, name in enumerate(self._names)})
+        except ValueError as error:
+            text = str(error).encode("ascii", "replace")[: size - 1]
+            c.memmove(message, text + b"\0", len(text) + 1)
+            return _REFUSED
+        except BaseException as error:
+            text = "".join(traceback.format_exception_only(error)).strip().encode("ascii", "replace")[: size - 1]
+            c.memmove(message, text + b"\0", len(text) + 1)
+            return _REFUSED
+        # The address of the object stands for it; it is never 0.
+        self._laws[id(made)] = made
+        law[0] = id(made)
+        return 0
+
+    def _destroy(self, law):
+        self._laws.pop(law, None)
+
+    def _guarded(self, work):
+        try:
+            work()
+        except BaseException as error:  # noqa: BLE001 - no exception may cross the border; KeyboardInterrupt is raised behind it
+            global last_error
+            last_error = error
+            return _REFUSED
+        return 0
+
+    def _respond(self, law, mode, states, now, force, rates):
+        def work():
+            if self._states == 0:
+                force[0] = self._laws[law].force(now[0])
+                return
+            force[0], found = self._laws[law].respond(now[0], states[: self._states])
+            self._fill(rates, found, "rates")
+
+        return self._guarded(work)
+
+    def _fill(self, place, values, what):
+        if len(values) != self._states:
+            raise ValueError(f"{self._kind.__name__} gave {len(values)} {what}, and has {self._states} states")
+        for i, value in enumerate(values):
+            place[i] = value
+
+    def _scales(self, law, scales):
+        return self._guarded(lambda: self._fill(scales, self._laws[law].scales(), "scales"))
+
+    def _start(self, law, now, mode, states):
+        return self._guarded(lambda: self._fill(states, self._laws[law].start(now[0]), "states"))
+
+    def _with_states(self, function, now, states):
+        return function(now[0], states[: self._states]) if self._states > 0 else function(now[0])
+
+    def _static_limit(self, law, mode, states, now, limit):
+        def work():
+            limit[0] = self._with_states(self._laws[law].static_limit, now, states)
+
+        return self._guarded(work)
+
+    def _dissipation(self, law, mode, states, now, power):
+        def work():
+            power[0] = self._with_states(self._laws[law].dissipation, now, states)
+
+        return self._guarded(work)

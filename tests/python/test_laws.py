@@ -1,0 +1,231 @@
+"""Friction laws written in Python and compiled from C: the numbers of the built-in law with the same formula."""
+
+import math
+import shutil
+import subprocess
+
+import dualdamp as dd
+import pytest
+from dualdamp import _python_laws
+
+RIG = {"mass": "1 kg", "stiffness": "100 N/m", "damping": "4 N.s/m"}
+VALUES = {"limit": "2 N", "stiffness": "2000 N/m"}
+
+
+def dahl_class():
+    """Dahl's law, the program's `dahl` with exponent 1: F = stiffness z, z' = v - stiffness |v| z/limit."""
+
+    class python_dahl:
+        """Dahl's law in Python."""
+
+        equation = "F = k z; z' = v - k |v| z/limit"
+        states = 1
+        parameters = {
+            "limit": dd.parameter("N", "force limit", above=0, is_limit=True),
+            "stiffness": dd.parameter("N/m", "stiffness of the bristles", above=0),
+            "bias": dd.parameter("N", "constant force", default=0.0),
+        }
+
+        def __init__(self, limit, stiffness, bias):
+            if bias > limit:
+                raise ValueError("a bias above the limit moves the mass by itself")
+            self.limit, self.stiffness, self.bias = limit, stiffness, bias
+
+        def scales(self):
+            return [self.limit / self.stiffness]
+
+        def respond(self, now, states):
+            (z,) = states
+            force = self.stiffness * z
+            return force + self.bias, [now.v - now.direction * now.v * force / now.limit(self.limit)]
+
+    return python_dahl
+
+
+def dahl():
+    return dd.law("dahl", kinetic="2 N", sigma0="2000 N/m")
+
+
+def test_layout_is_that_of_the_header(tmp_path):
+    """Sizes and offsets as the C compiler has them."""
+    compiler = shutil.which("cc") or pytest.skip("there is no C compiler")
+    structures = {"dualdamp_instant": _python_laws.Instant, "dualdamp_parameter": _python_laws._Parameter, "dualdamp_law_table": _python_laws._Table}
+    lines = [f'printf("%zu\\n", sizeof(struct {name}));' for name in structures]
+    expected = [_python_laws.c.sizeof(kind) for kind in structures.values()]
+    for name, kind in structures.items():
+        for field in kind._fields_:
+            lines.append(f'printf("%zu\\n", offsetof(struct {name}, {field[0]}));')
+            expected.append(getattr(kind, field[0]).offset)
+    (tmp_path / "layout.c").write_text('#include <stddef.h>\n#include <stdio.h>\n#include "dualdamp_law.h"\nint main(void) {' + "\n".join(lines) + "return 0; }")
+    subprocess.run([compiler, f"-I{dd.include_directory()}", "layout.c", "-o", "layout"], cwd=tmp_path, check=True)
+    found = subprocess.run([tmp_path / "layout"], capture_output=True, text=True, check=True).stdout.split()
+    assert [int(number) for number in found] == expected
+
+
+def test_a_law_of_python_moves_as_the_built_in_one(drive):
+    dd.friction_law(dahl_class())
+    assert "python_dahl" in dd.laws and "\nbias : " in dd.laws.python_dahl.__doc__
+    ours = dd.System(**RIG, friction=dd.law("python_dahl", **VALUES)).steady_state(drive)
+    theirs = dd.System(**RIG, friction=dahl()).steady_state(drive)
+    assert ours.amplitude == pytest.approx(theirs.amplitude, rel=1e-9)
+    assert ours.phase == pytest.approx(theirs.phase, rel=1e-9)
+    (plugin,) = ours.document.provenance.plugins
+    assert plugin.law == "python_dahl" and plugin.file.endswith("test_laws.py")
+
+
+def test_threads_call_a_law_of_python(drive):
+    """A curve is computed by several threads, which take the interpreter's lock in turn."""
+    dd.friction_law(dahl_class())
+    amplitudes = [0.05, 0.1, 0.15, 0.2]
+    ours = dd.System(**RIG, friction=dd.law("python_dahl", **VALUES)).xy_curve(drive.replace(amplitude=None), amplitudes=amplitudes)
+    theirs = dd.System(**RIG, friction=dahl()).xy_curve(drive.replace(amplitude=None), amplitudes=amplitudes)
+    assert ours.points["x"] == pytest.approx(theirs.points["x"], rel=1e-9)
+
+
+def test_modifiers_act_on_a_law_of_python(drive):
+    dd.friction_law(dahl_class())
+    rig = dd.System(**RIG, friction=dd.law("python_dahl", **VALUES, drift="0.01 1/s"))
+    theirs = dd.System(**RIG, friction=dahl().replace(drift="0.01 1/s"))
+    last = [system.simulate(drive, cycles=3, sample_rate="50 Hz").history["x"][-1] for system in (rig, theirs)]
+    assert last[0] == pytest.approx(last[1], rel=1e-7)
+
+
+def test_a_law_that_makes_the_mass_stick(drive):
+    @dd.friction_law
+    class python_coulomb:
+        """Coulomb's law in Python."""
+
+        equation = "F = level sgn v"
+        parameters = {"level": dd.parameter("N", "kinetic and static force", at_least=0, is_limit=True)}
+
+        def __init__(self, level):
+            self.level = level
+
+        def force(self, now):
+            return now.direction * now.limit(self.level)
+
+        def static_limit(self, now):
+            return now.limit(self.level)
+
+    small = drive.replace(amplitude="0.03 m")
+    ours = dd.System(**RIG, friction=dd.law("python_coulomb", level=2)).steady_state(small)
+    theirs = dd.System(**RIG, friction=dd.law("coulomb", kinetic=2)).steady_state(small)
+    assert theirs.stops_per_cycle > 0 and len(theirs.sticks) > 0
+    assert ours.amplitude == pytest.approx(theirs.amplitude, rel=1e-8)
+    assert ours.stops_per_cycle == theirs.stops_per_cycle
+
+
+def test_values_are_checked():
+    dd.friction_law(dahl_class())
+    with pytest.raises(dd.InvalidScenario, match="> 0 N"):
+        dd.law("python_dahl", limit=-1, stiffness=1)
+    with pytest.raises(dd.InvalidScenario, match="the plugin refuses these values: a bias above the limit moves the mass by itself"):
+        dd.law("python_dahl", limit=1, stiffness=1, bias=2)
+
+
+def test_a_class_that_is_no_law():
+    class nothing:
+        pass
+
+    with pytest.raises(dd.InvalidScenario, match="plugin refused: the table has no summary"):
+        dd.friction_law(nothing)
+
+    class Capital:
+        """A law."""
+
+    with pytest.raises(dd.InvalidScenario, match="the law's name is no key of a scenario"):
+        dd.friction_law(Capital)
+
+    class coulomb:
+        """A law."""
+
+        equation = "F = 0"
+
+    with pytest.raises(dd.InvalidScenario, match="there is a law 'coulomb' already"):
+        dd.friction_law(coulomb)
+
+
+def test_a_law_is_replaced_by_the_next_of_its_name(drive):
+    def define(factor):
+        @dd.friction_law
+        class changing:
+            """A viscous law."""
+
+            equation = "F = factor v"
+
+            def force(self, now):
+                return factor * now.v
+
+        return dd.System(**RIG, friction=dd.law("changing")).steady_state(drive).amplitude
+
+    # Viscous damping of 4 N.s/m and as much again, at resonance: x = k Y / (c w).
+    assert define(0.0) == pytest.approx(0.25, rel=1e-9)
+    assert define(4.0) == pytest.approx(0.125, rel=1e-9)
+
+
+def test_an_exception_of_the_law_is_the_cause(drive):
+    @dd.friction_law
+    class failing:
+        """A law that fails once it is fast."""
+
+        equation = "F = sqrt(1 - v)"
+
+        def force(self, now):
+            return math.sqrt(0.5 - now.v)
+
+    with pytest.raises(dd.NumericalFailure, match="law 'failing' of a plugin: respond\\(\\) returned status 1") as caught:
+        dd.System(**RIG, friction=dd.law("failing")).steady_state(drive)
+    assert isinstance(caught.value.__cause__, ValueError)
+
+
+C_LAW = """
+#include <math.h>
+#include <stdlib.h>
+#include "dualdamp_law.h"
+struct law { double level, speed; };
+static const struct dualdamp_parameter parameters[] = {
+  {"level", "N", "force at high speed", 0.0, INFINITY, 0, 0, 0, 0.0, 1},
+  {"speed", "m/s", "width of the step", 0.0, INFINITY, 1, 0, 0, 0.0, 0}};
+static int create(const double* values, void** law, char* message, unsigned size) {
+  struct law* made = malloc(sizeof *made);
+  (void)message; (void)size;
+  made->level = values[0]; made->speed = values[1];
+  *law = made;
+  return 0;
+}
+static int respond(const void* self, int mode, const double* states, const struct dualdamp_instant* now, double* force, double* rates) {
+  const struct law* law = self;
+  (void)mode; (void)states; (void)rates;
+  *force = dualdamp_limit(now, law->level) * tanh(now->v / law->speed);
+  return 0;
+}
+static const struct dualdamp_law_table table = {
+  .size = sizeof table, .abi = DUALDAMP_LAW_ABI, .abilities = DUALDAMP_IS_ODD | DUALDAMP_IS_PASSIVE, .modes = 1,
+  .parameter_count = 2, .parameters = parameters, .name = "c_tanh", .version = "1", .summary = "smooth Coulomb friction",
+  .equation = "F = level tanh(v/speed)", .create = create, .destroy = free, .respond = respond};
+const struct dualdamp_law_table* dualdamp_law(void) { return &table; }
+"""
+
+
+def test_a_law_in_c(drive):
+    shutil.which("cc") or pytest.skip("there is no C compiler")
+    dd.compile_law(C_LAW)
+
+    @dd.friction_law
+    class python_tanh:
+        """Smooth Coulomb friction."""
+
+        equation = "F = level tanh(v/speed)"
+        parameters = {"level": dd.parameter("N", "force", at_least=0, is_limit=True), "speed": dd.parameter("m/s", "width", above=0)}
+
+        def __init__(self, level, speed):
+            self.level, self.speed = level, speed
+
+        def force(self, now):
+            return now.limit(self.level) * math.tanh(now.v / self.speed)
+
+    values = {"level": "2 N", "speed": "0.05 m/s"}
+    results = [dd.System(**RIG, friction=dd.law(name, **values)).steady_state(drive) for name in ("c_tanh", "python_tanh")]
+    assert results[0].amplitude == pytest.approx(results[1].amplitude, rel=1e-12)
+    with pytest.raises(RuntimeError, match="error"):
+        dd.compile_law("no C\nat all\n")
