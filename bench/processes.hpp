@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 
-#include "scenarios/analyses/run_options.hpp"
+#include "scenarios/analyses/shared/run_options.hpp"
 
 namespace dualdamp::bench {
 

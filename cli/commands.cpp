@@ -105,16 +105,6 @@ const std::shared_ptr<bench::Processes>& processes() {
   return all;
 }
 
-/// A line on a terminal that is written over and over.
-void show(const scenarios::Progress& progress) {
-  std::cerr << "\r\x1b[K" << progress.done << " of " << progress.all << " cases, "
-            << core::format_number(progress.rate, 3) << " a second";
-  if (progress.done < progress.all)
-    std::cerr << ", " << core::format_number(std::ceil(progress.remaining), 3) << " s left" << std::flush;
-  else
-    std::cerr << "\n";
-}
-
 /// Of several processes only the first has anything to say.
 bool is_silent() { return bench::Processes::several() && processes()->rank() != 0; }
 
@@ -335,23 +325,12 @@ int execute(const CheckCommand& command) {
   return finish(reports.worst());
 }
 
-int execute(const IdentifyCommand& command) {
-  const Style style{command.json, command.quiet};
-  return say(guarded([&] {
-               const fs::path standard = fs::path("results") / fs::path(command.data).stem();
-               return run_and_write(scenario_of(command),
-                                    {.directory = command.out.empty() ? standard.string() : command.out},
-                                    command.quiet);
-             }),
-             style);
-}
-
-/// A fit or a prediction.
+/// Of records: results go beside the name of the first data file.
 template <typename RecordCommand>
-int execute_on_records(const RecordCommand& command) {
+int execute_on_records(const RecordCommand& command, const std::string& data, const char* suffix = "") {
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
-               const fs::path standard = fs::path("results") / fs::path(command.data.front()).stem();
+               const fs::path standard = fs::path("results") / (fs::path(data).stem().string() + suffix);
                return run_and_write(scenario_of(command),
                                     {.directory = command.out.empty() ? standard.string() : command.out},
                                     command.quiet);
@@ -359,20 +338,13 @@ int execute_on_records(const RecordCommand& command) {
              style);
 }
 
-int execute(const NextCommand& command) {
-  const Style style{command.json, command.quiet};
-  return say(guarded([&] {
-               const fs::path standard = fs::path("results") / (fs::path(command.data).stem().string() + "_next");
-               return run_and_write(scenario_of(command),
-                                    {.directory = command.out.empty() ? standard.string() : command.out},
-                                    command.quiet);
-             }),
-             style);
-}
+int execute(const IdentifyCommand& command) { return execute_on_records(command, command.data); }
 
-int execute(const FitCommand& command) { return execute_on_records(command); }
+int execute(const NextCommand& command) { return execute_on_records(command, command.data, "_next"); }
 
-int execute(const PredictCommand& command) { return execute_on_records(command); }
+int execute(const FitCommand& command) { return execute_on_records(command, command.data.front()); }
+
+int execute(const PredictCommand& command) { return execute_on_records(command, command.data.front()); }
 
 int execute(const ReportCommand& command) {
   ExitStatus worst = ExitStatus::done;

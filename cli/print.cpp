@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include "core/numbers.hpp"
@@ -130,6 +131,15 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
   if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
   if (result.verification) text += "\n" + folded(verification_text(*result.verification)) + "\n";
   return text;
+}
+
+void show(const scenarios::Progress& progress) {
+  std::cerr << "\r\x1b[K" << progress.done << " of " << progress.all << " cases, "
+            << core::format_number(progress.rate, 3) << " a second";
+  if (progress.done < progress.all)
+    std::cerr << ", " << core::format_number(std::ceil(progress.remaining), 3) << " s left" << std::flush;
+  else
+    std::cerr << "\n";
 }
 
 }  // namespace dualdamp::cli

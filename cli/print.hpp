@@ -14,4 +14,7 @@ namespace dualdamp::cli {
 /// Rows of texts in columns two blanks apart.
 [[nodiscard]] std::string columns(const std::vector<std::vector<std::string>>& rows);
 
+/// How far a long run is: a line on a terminal that is written over and over.
+void show(const scenarios::Progress& progress);
+
 }  // namespace dualdamp::cli

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "identify/readers/record_reader.hpp"
-#include "scenarios/analyses/run_options.hpp"
+#include "scenarios/analyses/shared/run_options.hpp"
 #include "scenarios/format/checked_file.hpp"
 #include "scenarios/format/keys.hpp"
 #include "scenarios/format/needs.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "identify/methods/any_law/any_law.hpp"
-#include "scenarios/analyses/identify_options.hpp"
+#include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
 #include "scenarios/measurements/measurement.hpp"

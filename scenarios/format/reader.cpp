@@ -327,7 +327,7 @@ class Reader {
   Json map_or_list(const Node& node, const Field& field, const std::string& path) {
     if (node.kind == Node::Kind::map && !field.only_listed) return one_map(node, field, path);
     if (node.kind == Node::Kind::scalar && !field.short_for.empty())
-      return one_map(in_full(node, field), field, path);
+      return one_map(map_of(field.short_for, node), field, path);
     if (node.kind != Node::Kind::sequence || !field.listed) return wrong_kind(node, field, path);
     if (!has_allowed_size(node, field, path)) return nullptr;
     Json values = Json::array();
@@ -336,7 +336,7 @@ class Reader {
       const std::string item_path = path + "[" + std::to_string(i) + "]";
       reading_.places.emplace(item_path, item.place);
       if (item.kind == Node::Kind::scalar && !field.short_for.empty()) {
-        values.push_back(one_map(in_full(item, field), field, item_path));
+        values.push_back(one_map(map_of(field.short_for, item), field, item_path));
         continue;
       }
       if (item.kind == Node::Kind::scalar || item.kind == Node::Kind::sequence)
@@ -345,15 +345,6 @@ class Reader {
       values.push_back(item.kind == Node::Kind::map ? one_map(item, field, item_path) : Json(nullptr));
     }
     return values;
-  }
-
-  /// The map that a text is short for.
-  static Node in_full(const Node& node, const Field& field) {
-    Node map;
-    map.kind = Node::Kind::map;
-    map.place = node.place;
-    map.entries.push_back({field.short_for, node.place, node});
-    return map;
   }
 
   Json one_map(const Node& node, const Field& field, const std::string& path) {

@@ -19,6 +19,14 @@ std::string shortened(std::string_view text) {
   return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
 }
 
+Node map_of(const std::string& key, const Node& value) {
+  Node map;
+  map.kind = Node::Kind::map;
+  map.place = value.place;
+  map.entries.push_back({key, value.place, value});
+  return map;
+}
+
 const Entry* Node::find(std::string_view key) const {
   const auto found = std::ranges::find(entries, key, &Entry::key);
   return found == entries.end() ? nullptr : &*found;

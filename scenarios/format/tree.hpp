@@ -57,6 +57,9 @@ struct Entry {
   Node value;
 };
 
+/// The map {key: value}, at the place of the value.
+[[nodiscard]] Node map_of(const std::string& key, const Node& value);
+
 /// The file and the `--set` texts applied to it.
 class Document {
  public:

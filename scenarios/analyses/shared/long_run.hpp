@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-#include "scenarios/analyses/run_options.hpp"
+#include "scenarios/analyses/shared/run_options.hpp"
 #include "scenarios/results/case_file.hpp"
 
 namespace dualdamp::scenarios {
