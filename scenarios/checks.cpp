@@ -8,6 +8,7 @@
 #include "scenarios/check_expectations.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
+#include "scenarios/measurements/drives.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -41,7 +42,7 @@ void resolve_gravity(CheckedFile& file) {
   if (file.coordinate() != core::Coordinate::angle)
     file.complain(path, "'" + path + "' is of a pendulum, and the coordinate is no angle",
                   "with coordinate: angle, or with the units of rotation");
-  if (file.text_at("excitation", "type").starts_with("base"))
+  if (moves_base(file.text_at("excitation", "type")))
     file.complain(path, "'" + path + "' does not work with a base in motion: gravity has a direction of its own",
                   "excitation type none, or one of force");
   const auto stiffness = file.number_at("system", "stiffness");
@@ -207,6 +208,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   if (file.needs() != nullptr) check_uncertainties(file, *analysis, analyses);
   resolve_damping(file);
   resolve_frequency(file);
+  if (file.needs() != nullptr && !file.needs()->excitations.empty()) read_drive(file);
   if (analysis->check != nullptr) analysis->check(file);
   if (file.values().contains("expect"))
     check_expectations(file, {result_fields(*analysis, file.values().at("analysis")),
@@ -216,7 +218,16 @@ Checked check(const Document& document, Reading& reading, const Section& format,
                               }});
   const std::size_t rows = result_rows(file, *analysis);
   resolve_coordinate(file);
-  return {analysis, std::move(file.data), rows, std::move(file.files)};
+  if (file.data) file.sha256.push_back(file.data->sha256);
+  for (const DataFile& data : file.files) file.sha256.push_back(data.data.sha256);
+  return {.analysis = analysis,
+          .data = std::move(file.data),
+          .result_rows = rows,
+          .files = std::move(file.files),
+          .compared = std::move(file.compared),
+          .drive = std::move(file.drive),
+          .sha256 = std::move(file.sha256),
+          .warnings = std::move(file.warnings)};
 }
 
 }  // namespace dualdamp::scenarios

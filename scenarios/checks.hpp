@@ -2,11 +2,15 @@
 /// What no table of keys can say: how the sections of a scenario fit together. Words that stand for numbers
 /// (`natural`, a damping ratio, all methods that fit) become numbers here, and measured data are read.
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "identify/readers/record_reader.hpp"
 #include "scenarios/analyses/analysis.hpp"
 #include "scenarios/format/reader.hpp"
+#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -15,6 +19,10 @@ struct Checked {
   std::optional<identify::MeasuredRecord> data;  ///< of `analysis.data`, if it is there
   std::size_t result_rows = 0;                   ///< items of the result's lists, as far as they are known
   std::vector<DataFile> files;                   ///< of an analysis that takes several
+  std::optional<identify::MeasuredSignal> compared;
+  std::shared_ptr<const sim::SampledSignal> drive;
+  std::vector<std::string> sha256;  ///< of the files read
+  std::vector<std::string> warnings;
 };
 
 /// Adds problems to `reading`, which was read by `format`, and completes its values.

@@ -23,7 +23,9 @@ Json program_json() {
 Json provenance_json(const core::Provenance& provenance) {
   Json json = {{"source", provenance.source}, {"source_sha256", provenance.source_sha256}};
   if (!provenance.overrides.empty()) json["set"] = provenance.overrides;
-  if (!provenance.data_sha256.empty()) json["data_sha256"] = provenance.data_sha256;
+  // One file is the rule: its sum stands there as it is.
+  const std::vector<std::string>& sums = provenance.data_sha256;
+  if (!sums.empty()) json["data_sha256"] = sums.size() == 1 ? Json(sums.front()) : Json(sums);
   for (const core::Plugin& plugin : provenance.plugins)
     json["plugins"].push_back(
         {{"law", plugin.law}, {"version", plugin.version}, {"file", plugin.file}, {"sha256", plugin.sha256}});

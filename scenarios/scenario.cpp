@@ -12,6 +12,7 @@
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/reader.hpp"
 #include "scenarios/format/values.hpp"
+#include "scenarios/measurements/drives.hpp"
 #include "scenarios/results/files.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
@@ -58,7 +59,13 @@ sim::Excitation excitation(const Json& section) {
       {"base_ramp", sim::ExcitationType::base_ramp},
       {"force_ramp", sim::ExcitationType::force_ramp},
       {"base_noise", sim::ExcitationType::base_noise},
-      {"force_noise", sim::ExcitationType::force_noise}};
+      {"force_noise", sim::ExcitationType::force_noise},
+      {"base_chirp", sim::ExcitationType::base_chirp},
+      {"force_chirp", sim::ExcitationType::force_chirp},
+      {"base_table", sim::ExcitationType::base_samples},
+      {"force_table", sim::ExcitationType::force_samples},
+      {"measured_base", sim::ExcitationType::base_samples},
+      {"measured_force", sim::ExcitationType::force_samples}};
   sim::Excitation result;
   result.type =
       std::ranges::find(types, section.at("type").get<std::string>(), &decltype(types)::value_type::first)->second;
@@ -67,6 +74,7 @@ sim::Excitation excitation(const Json& section) {
   result.phase = number_or(section, "phase", 0.0);
   result.offset = number_or(section, "offset", 0.0);
   result.slope = number_or(section, "velocity", number_or(section, "rate", 0.0));
+  if (result.is_chirp()) result.chirp = chirp_of(section);
   if (result.is_noise())
     result.noise = {number(section.at("intensity")), number(section.at("bandwidth")),
                     section.at("seed").get<std::uint64_t>()};
@@ -174,14 +182,14 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   const bool sought = checked.analysis->seeks_laws;
   Scenario scenario;
   scenario.file = name;
-  if (checked.data) scenario.data_sha256 = checked.data->sha256;
-  for (const DataFile& data : checked.files)
-    scenario.data_sha256 += (scenario.data_sha256.empty() ? "" : " ") + data.data.sha256;
+  scenario.data_sha256 = std::move(checked.sha256);
   scenario.resolved = values.dump();
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
   if (values.contains("system")) scenario.model = model(values, !sought);
+  scenario.model.excitation.samples = checked.drive;
   if (!sought && values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"), scenario.model.oscillator.coordinate);
+  std::ranges::move(checked.warnings, std::back_inserter(scenario.warnings));
   scenario.tolerance = tolerance_of(values, scenario.model);
   scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
   const Json& section = values.at("analysis");
@@ -192,7 +200,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
   scenario.question = checked.analysis->ask(
       {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
-       std::move(checked.data), std::move(checked.files), values.contains("initial")});
+       std::move(checked.data), std::move(checked.files), values.contains("initial"), std::move(checked.compared)});
   scenario.expect = expectations(values, document, reading);
   return scenario;
 }

@@ -42,12 +42,12 @@ struct Scenario {
   std::vector<Expectation> expect;
   double tolerance = 0.0;
   bool verify = false;                ///< the result is to be computed again in another way
-  std::vector<std::string> warnings;  ///< of the laws, about their parameters
+  std::vector<std::string> warnings;  ///< of parameters of laws, and of the drive
 
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario
   std::string file_sha256;  ///< of the bytes of the file
-  std::string data_sha256;  ///< of the bytes of its data file; empty without one
-  std::vector<std::string> overrides;  ///< `--set` texts
+  std::vector<std::string> data_sha256;  ///< of the bytes of its data files
+  std::vector<std::string> overrides;    ///< `--set` texts
 };
 
 /// One `PATH=VALUE`, and what stands for its file in messages.

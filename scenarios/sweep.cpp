@@ -299,7 +299,8 @@ class Sweep {
     Json expected;
     if (expect) first_.expect = expectations_of(std::move(*expect), expected);
     first_.resolved = resolved(expected).dump();
-    std::string inputs = first_.data_sha256;
+    std::string inputs;
+    for (const std::string& sum : first_.data_sha256) inputs += " " + sum;
     for (const friction::LawEntry& law : friction::laws())
       if (law.plugin) inputs += " " + law.plugin->sha256;
     std::vector<std::string_view> main = find_analysis(options_.analyses, first_.analysis_name)->main;

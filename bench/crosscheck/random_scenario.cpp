@@ -58,13 +58,51 @@ Json noise(Draws& draws, const Sizes& sizes) {
           {"seed", draws.pick(1'000'000)}};
 }
 
-Json excitation(Draws& draws, const Sizes& sizes) {
+/// Samples from node to node; a base with a damper to it may not jump.
+Json table(Draws& draws, const Sizes& sizes, bool may_jump) {
+  const bool moves_base = draws.chance(0.5);
+  const double natural_period = 2.0 * std::numbers::pi / sizes.natural;
+  const double spacing = natural_period * draws.logarithmic(0.01, 1.0);
+  const double size = moves_base ? sizes.length() : sizes.force;
+  Json times = {0.0};
+  Json values = {size * draws.uniform(-1.0, 1.0)};
+  const int count = 2 + draws.pick(100);
+  for (int i = 0; i < count; ++i) {
+    times.push_back(times.back().get<double>() + spacing * draws.uniform(0.1, 1.9));
+    values.push_back(size * draws.uniform(-1.0, 1.0));
+  }
+  const bool jumps = may_jump || !moves_base;
+  const int kind = draws.pick(jumps ? 3 : 2);
+  return {{"type", moves_base ? "base_table" : "force_table"},
+          {"times", times},
+          {"values", values},
+          {"interpolation", kind == 0   ? "linear"
+                            : kind == 1 ? "cubic"
+                                        : "step"},
+          {"repeat", jumps && draws.chance(0.5)}};
+}
+
+/// A sweep through a decade or two, within the time that the motion is followed.
+Json chirp(Draws& draws, const Sizes& sizes) {
+  const bool moves_base = draws.chance(0.5);
+  const double from = sizes.natural * draws.logarithmic(0.1, 10.0);
+  return {{"type", moves_base ? "base_chirp" : "force_chirp"},
+          {"amplitude", moves_base ? sizes.length() : sizes.force},
+          {"from", frequency(from)},
+          {"to", frequency(from * draws.logarithmic(0.1, 10.0))},
+          {"duration", 2.0 * std::numbers::pi / sizes.natural * draws.logarithmic(0.5, 20.0)},
+          {"spacing", draws.chance(0.5) ? "linear" : "log"},
+          {"phase", draws.angle()}};
+}
+
+Json excitation(Draws& draws, const Sizes& sizes, bool may_jump) {
   const int kind = draws.pick(20);
   if (kind < 10) return harmonic(draws, sizes, "base_harmonic");
   if (kind < 14) return harmonic(draws, sizes, "force_harmonic");
   if (kind < 16) return ramp(draws, sizes, "base_ramp");
   if (kind < 17) return ramp(draws, sizes, "force_ramp");
   if (kind < 18) return noise(draws, sizes);
+  if (kind < 19) return draws.chance(0.7) ? table(draws, sizes, may_jump) : chirp(draws, sizes);
   return {{"type", "none"}};
 }
 
@@ -96,7 +134,7 @@ Json random_scenario(std::uint64_t seed, std::uint32_t index) {
     const double share = draws.chance(0.7) ? draws.logarithmic(1e-3, 10.0) : -draws.logarithmic(1e-3, 0.05);
     system["cubic_stiffness"] = share * sizes.stiffness / (sizes.length() * sizes.length());
   }
-  const Json drive = excitation(draws, sizes);
+  const Json drive = excitation(draws, sizes, !system.contains("damper_to"));
   system["friction"] = random_friction(draws, sizes);
   Json scenario = {{"schema", "dualdamp/1"}, {"system", system}, {"excitation", drive}};
   const bool is_free = drive.at("type") == "none";

@@ -59,7 +59,9 @@ void scale(Json& section, const char* key, std::string_view unit, const Scales& 
   if (!section.contains(key)) return;
   Json& value = section[key];
   const double by = factor(scales, unit);
-  if (value.is_string()) {  // a frequency: '10 rad/s'
+  if (value.is_array()) {
+    for (Json& item : value) item = item.get<double>() * by;
+  } else if (value.is_string()) {  // a frequency: '10 rad/s'
     const core::NumberText number = core::read_number(value.get<std::string>());
     value = core::format_number(*number.value * by) + " rad/s";
   } else {
@@ -88,6 +90,11 @@ void scale_excitation(Json& excitation, const Scales& scales) {
   const char* unit = is_base(excitation) ? "m" : "N";
   scale(excitation, "amplitude", unit, scales);
   scale(excitation, "frequency", "rad/s", scales);
+  scale(excitation, "from", "rad/s", scales);
+  scale(excitation, "to", "rad/s", scales);
+  scale(excitation, "duration", "s", scales);
+  scale(excitation, "times", "s", scales);
+  scale(excitation, "values", unit, scales);
   scale(excitation, "offset", "N", scales);
   scale(excitation, "velocity", "m/s", scales);
   scale(excitation, "rate", "N/s", scales);
@@ -135,6 +142,8 @@ Json mirrored(const Json& scenario) {
   if (excitation.contains("harmonics"))
     for (Json& harmonic : excitation["harmonics"]) turn(harmonic);
   for (const char* key : {"offset", "velocity", "rate"}) negate(excitation, key);
+  if (excitation.contains("values"))
+    for (Json& value : excitation["values"]) value = -value.get<double>();
   if (result.contains("initial"))
     for (const char* key : {"position", "velocity"}) negate(result["initial"], key);
   return result;

@@ -8,7 +8,7 @@ function scalars(value, path = "") {
     .flatMap(([key, item]) => scalars(item, path ? `${path}.${key}` : key));
 }
 
-const unitsOfScalars = { peak: "m", trough: "m", amplitude: "m", phase: "rad", period: "s", max_speed: "m/s", "final.t": "s", "final.x": "m", "final.v": "m/s" };
+const unitsOfScalars = { peak: "m", trough: "m", amplitude: "m", phase: "rad", period: "s", max_speed: "m/s", "final.t": "s", "final.x": "m", "final.v": "m/s", "residual.rms": "m", "residual.noise": "m" };
 const unitOfScalar = (path) => unitAt(path, unitsOfScalars[path] ?? (path.startsWith("energy.") ? "J" : ""));
 
 const verdicts = { 0: ["done", "good"], 1: ["a check failed", "bad"], 4: ["no result", "bad"], 5: ["some cases failed", "caution"] };

@@ -12,7 +12,7 @@ namespace dualdamp::cli {
 /// files of others stay, and so does a table that was this run's data. Returns what to tell: that the result of
 /// another input was replaced.
 [[nodiscard]] std::vector<std::string> write_results(const std::string& directory, const std::string& source,
-                                                     const std::string& data_sha256,
+                                                     const std::vector<std::string>& data_sha256,
                                                      const std::vector<scenarios::OutputFile>& files);
 
 }  // namespace dualdamp::cli

@@ -75,6 +75,10 @@ const std::string* find_for(const std::map<std::string, std::string>& map, const
   return nullptr;
 }
 
+bool is_wanted(const ReadOptions& options, const KnownColumn& known) {
+  return options.only.empty() || std::ranges::find(options.only, known.name) != options.only.end();
+}
+
 double ColumnFactors::refuse(const core::Diagnostic& where, std::string message, std::string allowed,
                              std::string suggestion) {
   problems_.add({where.place, std::move(message), std::move(allowed), where.found, std::move(suggestion)});

@@ -26,6 +26,9 @@ void check_names(const ReadOptions& options, Problems& problems);
 /// What the caller says of a column, under either of its names; nullptr: nothing.
 [[nodiscard]] const std::string* find_for(const std::map<std::string, std::string>& map, const KnownColumn& known);
 
+/// Whether the caller wants the column at all.
+[[nodiscard]] bool is_wanted(const ReadOptions& options, const KnownColumn& known);
+
 class ColumnFactors {
  public:
   ColumnFactors(const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)

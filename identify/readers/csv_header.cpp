@@ -134,11 +134,12 @@ class HeaderReader {
   void take_by_name(Heading& heading, CsvField& field) {
     const bool well_formed = heading.well_formed;
     const KnownColumn* known = named_column(heading);
+    const bool is_left_alone = !options_.only.empty() && (known == nullptr || !is_wanted(options_, *known));
     static constexpr std::array<std::string_view, 6> remarks = {"",     "Comment", "Comments",
                                                                 "Note", "Remark",  "comment"};
-    if (known == nullptr) {
+    if (known == nullptr || is_left_alone) {
       field.may_be_missing = std::ranges::find(remarks, heading.name) != remarks.end();
-      if (!heading.text.empty())
+      if (!heading.text.empty() && !is_left_alone)
         warnings_.push_back("column '" + excerpt(heading.text) + "' is not known and is ignored");
     } else if (find_for(options_.columns, *known) != nullptr) {
       warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
@@ -181,6 +182,7 @@ class HeaderReader {
       return field.known != nullptr && (field.known->is_signal || field.known->name == "Y");
     });
     const bool pairs_without_x = is_taken(*known_column("Y")) && !is_taken(*known_column("x"));
+    if (!options_.only.empty()) return;                           // the caller says what it misses
     if ((any && !pairs_without_x) || !problems_.empty()) return;  // a fault of a heading may be why it is missing
     const std::string other = ". Columns of other names: --column x=NAME";
     if (is_transposed())

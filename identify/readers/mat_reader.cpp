@@ -94,7 +94,7 @@ class Reader {
       const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
       listing_.push_back(name + " (" + describe(*variable) + ")");
       if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
-        warnings_.push_back("variable '" + name + "' is not known and is ignored");
+        if (options_.only.empty()) warnings_.push_back("variable '" + name + "' is not known and is ignored");
         continue;
       }
       if (size_of(*variable) > most_mat_values)
@@ -110,7 +110,8 @@ class Reader {
     const KnownColumn* known = named_column(heading);
     for (const auto& [column, called] : options_.columns)
       if (called == name) return {known_column(column), known == known_column(column) ? heading.unit : ""};
-    if (known == nullptr || find_for(options_.columns, *known) != nullptr) return {nullptr, {}};
+    if (known == nullptr || find_for(options_.columns, *known) != nullptr || !identify::is_wanted(options_, *known))
+      return {nullptr, {}};
     return {known, heading.unit};
   }
 
@@ -228,7 +229,8 @@ class Reader {
       if (is_sampling(entry.name)) {
         if (const auto value = scalar(entry)) step = entry.name == "dt" ? *value : 1.0 / *value;
       } else if (known == nullptr) {
-        warnings_.push_back("field '" + to_utf8(entry.name) + "' is not known and is ignored");
+        if (options_.only.empty())
+          warnings_.push_back("field '" + to_utf8(entry.name) + "' is not known and is ignored");
       } else if (known->unit.empty()) {
         take_label(entry, result);
       } else {

@@ -78,15 +78,87 @@ std::string load(const std::string& path, const std::string& name) {
   return bytes;
 }
 
-MeasuredRecord assemble(DataTable table, Problems& problems, std::vector<std::string> warnings,
-                        std::string_view bytes) {
+/// The columns of a data file, whatever its format.
+struct TableFile {
+  DataTable table;
+  std::shared_ptr<const std::string> text;  ///< lines of it are shown in messages; null for a binary file
+  std::string sha256;                       ///< of the bytes
+};
+
+TableFile parse_table(std::string_view text, const ReadOptions& options, Problems& problems,
+                      std::vector<std::string>& warnings) {
+  refuse_at_sight(text.substr(0, sample_size), options.name);
+  TableFile file{.table = {}, .text = nullptr, .sha256 = core::sha256(text)};
+  if (is_universal_file(text)) {
+    file.table = parse_universal_file(text, options, problems, warnings);
+    return file;
+  }
+  file.text = std::make_shared<const std::string>(decoded(text, options.name, warnings));
+  file.table = parse_csv(*file.text, options, problems, warnings);
+  return file;
+}
+
+TableFile read_table(const std::string& path, const ReadOptions& options, Problems& problems,
+                     std::vector<std::string>& warnings) {
+  const std::string bytes = load(path, options.name);
+  if (!is_mat(bytes)) return parse_table(bytes, options, problems, warnings);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    refuse_file(options.name, "a MATLAB file cannot be read from a pipe", "the name of a file");
+  check_mat(bytes, options.name);
+  return {read_mat(path, options, problems, warnings), nullptr, core::sha256(bytes)};
+}
+
+MeasuredRecord assemble(TableFile file, Problems& problems, std::vector<std::string> warnings) {
   MeasuredRecord result;
   result.warnings = std::move(warnings);
-  result.assumed = table.assumed;
-  result.record = record_of(std::move(table), problems, result.warnings);
+  result.assumed = file.table.assumed;
+  result.record = record_of(std::move(file.table), problems, result.warnings);
   problems.throw_if_any();
-  result.sha256 = core::sha256(bytes);
+  result.sha256 = std::move(file.sha256);
   return result;
+}
+
+void check_times(const DataTable& table, Problems& problems) {
+  const std::vector<double>& t = table.find("t")->values;
+  std::vector<std::size_t> faults;
+  for (std::size_t row = 1; row < t.size(); ++row)
+    if (!(t[row] > t[row - 1])) faults.push_back(row);
+  if (faults.empty()) return;
+  const std::size_t row = faults.front();
+  core::Diagnostic problem = table.show(row, *known_column("t"));
+  problem.message =
+      t[row] == t[row - 1] ? "the time does not increase: it stands there twice" : "the time does not increase";
+  problem.allowed = "a time after the row above";
+  problems.add(std::move(problem), faults.size() - 1, {});
+}
+
+/// The signal of a table that was read with `only` its columns.
+MeasuredSignal signal_of(TableFile file, std::string_view column, const std::string& name, Problems& problems) {
+  problems.throw_if_any();
+  for (const std::string_view wanted : {std::string_view("t"), column})
+    if (file.table.find(wanted) == nullptr)
+      refuse_file(name, "there is no column " + std::string(wanted),
+                  "a column of that name, or the name that the file has for it");
+  if (file.table.sweeps.size() > 1 || !file.table.restarts.empty())
+    refuse_file(name, "the file holds several tests", "one signal over its times");
+  if (file.table.rows() < 2)
+    refuse_file(name, "the signal has too few samples", "two or more", std::to_string(file.table.rows()));
+  check_times(file.table, problems);
+  problems.throw_if_any();
+  MeasuredSignal result;
+  result.sha256 = std::move(file.sha256);
+  for (DataColumn& found : file.table.columns) {
+    if (found.known->name == "t") result.times = std::move(found.values);
+    if (found.known->name == column) result.values = std::move(found.values);
+  }
+  return result;
+}
+
+ReadOptions with_only(std::string_view column, const ReadOptions& options) {
+  ReadOptions chosen = options;
+  chosen.only = {"t", std::string(column)};
+  return chosen;
 }
 
 }  // namespace
@@ -94,14 +166,8 @@ MeasuredRecord assemble(DataTable table, Problems& problems, std::vector<std::st
 MeasuredRecord parse_record(std::string_view text, const ReadOptions& options) {
   Problems problems;
   std::vector<std::string> warnings;
-  refuse_at_sight(text.substr(0, sample_size), options.name);
-  if (is_universal_file(text)) {
-    DataTable table = parse_universal_file(text, options, problems, warnings);
-    return assemble(std::move(table), problems, std::move(warnings), text);
-  }
-  const std::string utf8 = decoded(text, options.name, warnings);
-  DataTable table = parse_csv(utf8, options, problems, warnings);
-  return assemble(std::move(table), problems, std::move(warnings), text);
+  TableFile file = parse_table(text, options, problems, warnings);
+  return assemble(std::move(file), problems, std::move(warnings));
 }
 
 MeasuredRecord parse_record(std::string_view text, const std::string& name) {
@@ -111,16 +177,31 @@ MeasuredRecord parse_record(std::string_view text, const std::string& name) {
 MeasuredRecord read_record(const std::string& path, const ReadOptions& options) {
   ReadOptions named = options;
   if (named.name.empty()) named.name = path;
-  const std::string bytes = load(path, named.name);
-  if (!is_mat(bytes)) return parse_record(bytes, named);
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    refuse_file(named.name, "a MATLAB file cannot be read from a pipe", "the name of a file");
   Problems problems;
   std::vector<std::string> warnings;
-  check_mat(bytes, named.name);
-  DataTable table = read_mat(path, named, problems, warnings);
-  return assemble(std::move(table), problems, std::move(warnings), bytes);
+  TableFile file = read_table(path, named, problems, warnings);
+  return assemble(std::move(file), problems, std::move(warnings));
+}
+
+MeasuredSignal read_signal(const std::string& path, std::string_view column, const ReadOptions& options) {
+  ReadOptions chosen = with_only(column, options);
+  if (chosen.name.empty()) chosen.name = path;
+  Problems problems;
+  std::vector<std::string> warnings;
+  TableFile file = read_table(path, chosen, problems, warnings);
+  MeasuredSignal signal = signal_of(std::move(file), column, chosen.name, problems);
+  signal.warnings = std::move(warnings);
+  return signal;
+}
+
+MeasuredSignal parse_signal(std::string_view text, std::string_view column, const ReadOptions& options) {
+  const ReadOptions chosen = with_only(column, options);
+  Problems problems;
+  std::vector<std::string> warnings;
+  TableFile file = parse_table(text, chosen, problems, warnings);
+  MeasuredSignal signal = signal_of(std::move(file), column, chosen.name, problems);
+  signal.warnings = std::move(warnings);
+  return signal;
 }
 
 }  // namespace dualdamp::identify

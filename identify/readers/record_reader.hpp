@@ -37,6 +37,8 @@ struct ReadOptions {
   char decimal = '.';                                            ///< decimal mark of a CSV file: a point or a comma
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< what x is
   bool no_header = false;  ///< the first row of a CSV file holds numbers; `columns` says which is which
+  /// Columns to be read, by their first names; the others are left alone. Empty: all.
+  std::vector<std::string> only = {};
   /// Stands for the file in messages; empty: its path.
   std::string name = {};
 };
@@ -55,5 +57,23 @@ struct MeasuredRecord {
 
 /// With `name` for the file in messages.
 [[nodiscard]] MeasuredRecord parse_record(std::string_view text, const std::string& name);
+
+/// One signal over its own times, as it stands in the file: what drives an oscillator, or a motion beside a
+/// simulated one. The times need not be evenly spaced.
+struct MeasuredSignal {
+  std::vector<double> times;          ///< s, as in the file
+  std::vector<double> values;         ///< SI
+  std::vector<std::string> warnings;  ///< what was left out or taken for granted
+  std::string sha256;                 ///< of the bytes of the file
+};
+
+/// The column y, force, x, ...; `options.columns` says what the file calls it and the times t. Other columns are
+/// left alone. Errors, beside those of a record: fewer than two rows, a time that does not increase, several tests.
+[[nodiscard]] MeasuredSignal read_signal(const std::string& path, std::string_view column,
+                                         const ReadOptions& options = {});
+
+/// The same from text already in memory.
+[[nodiscard]] MeasuredSignal parse_signal(std::string_view text, std::string_view column,
+                                          const ReadOptions& options);
 
 }  // namespace dualdamp::identify

@@ -347,7 +347,8 @@ class Mapping {
       if (called == std::to_string(index + 1) || std::ranges::find(names, called) != names.end())
         return known_column(column);
     for (const std::string& name : names)
-      if (const KnownColumn* known = known_column(name); known != nullptr && known->is_signal && !is_chosen(*known))
+      if (const KnownColumn* known = known_column(name);
+          known != nullptr && known->is_signal && !is_chosen(*known) && is_wanted(options_, *known))
         return known;
     return by_quantity(functions, f);
   }
@@ -362,9 +363,10 @@ class Mapping {
         {{8, "x"}, {11, "v"}, {12, "a"}, {9, "force"}, {13, "force"}}};
     const auto* const row = std::ranges::find(table, f.ordinate.quantity, &std::pair<int, std::string_view>::first);
     const KnownColumn* known = row == table.end() ? nullptr : known_column(row->second);
-    if (known == nullptr || is_chosen(*known)) {
-      warnings_.push_back("data set '" + name_of(f) + "' at line " + std::to_string(f.line) +
-                          " is no signal that is asked for and is ignored");
+    if (known == nullptr || is_chosen(*known) || !is_wanted(options_, *known)) {
+      if (options_.only.empty())
+        warnings_.push_back("data set '" + name_of(f) + "' at line " + std::to_string(f.line) +
+                            " is no signal that is asked for and is ignored");
       return nullptr;
     }
     // The displacement of the base or of the mass: the file does not say which.

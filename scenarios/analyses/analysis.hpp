@@ -98,6 +98,7 @@ struct CheckedValues {
   std::optional<identify::MeasuredRecord> data;
   std::vector<DataFile> files;
   bool initial_is_stated = false;  ///< the scenario has a section `initial`
+  std::optional<identify::MeasuredSignal> compared = {};
 };
 
 struct Analysis {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "scenarios/format/keys.hpp"
 #include "scenarios/format/needs.hpp"
 #include "scenarios/format/reader.hpp"
+#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -44,6 +46,14 @@ class CheckedFile {
   std::optional<identify::MeasuredRecord> data;
   /// The records of an analysis that takes several files.
   std::vector<DataFile> files;
+  /// The samples of the excitation, once they have been read or listed.
+  std::shared_ptr<const sim::SampledSignal> drive;
+  /// A signal that the analysis compares its own with, once it has been read.
+  std::optional<identify::MeasuredSignal> compared;
+  /// Of the files read, beside that of `data`.
+  std::vector<std::string> sha256;
+  /// What there is to tell of a valid file.
+  std::vector<std::string> warnings;
 
   [[nodiscard]] const DataPlace& data_place() const { return data_place_; }
 

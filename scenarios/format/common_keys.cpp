@@ -48,6 +48,17 @@ Field range(std::string name, const std::vector<std::string>& units, std::string
       .required();
 }
 
+std::vector<Field> signal_file(const std::string& column, const std::string& si) {
+  return {
+      text("file", "data file (CSV, MATLAB, universal file) in the scenario's directory or below").required(),
+      text("column", "what the file calls the signal, or its number; default: " + column),
+      text("unit", "unit of the column where the file states none, such as that of " + si),
+      text("time_column", "what the file calls the times, or their number; default: t"),
+      text("scale", "what the numbers are multiplied by, such as the sensitivity of a sensor: 2.5 " + si + "/V"),
+      words("decimal", {".", ","}, "decimal mark of a CSV file"),
+      boolean("no_header", "the CSV file begins with numbers; the columns are named by theirs")};
+}
+
 Field optional(Field field) {
   field.is_required = false;
   return field;

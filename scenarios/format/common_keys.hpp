@@ -16,6 +16,9 @@ inline constexpr std::size_t max_sets = 100;
 [[nodiscard]] Field seed();
 /// {from, to}: where a branch begins and where it is left.
 [[nodiscard]] Field range(std::string name, const std::vector<std::string>& units, std::string meaning);
+/// One signal of a data file: file, column, unit and how to read them. `column`: its name where none is given;
+/// `si`: its unit.
+[[nodiscard]] std::vector<Field> signal_file(const std::string& column, const std::string& si);
 /// The field, no longer required.
 [[nodiscard]] Field optional(Field field);
 

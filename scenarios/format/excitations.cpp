@@ -3,6 +3,7 @@
 #include "friction_models/parameters.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/limits.hpp"
 #include "sim/excitation.hpp"
 
 namespace dualdamp::scenarios {
@@ -33,6 +34,51 @@ std::vector<Field> noise_fields(const std::string& unit) {
           seed()};
 }
 
+std::vector<Field> chirp_fields(const std::string& unit) {
+  return {quantity("amplitude", {unit}, "amplitude A").required().at_least(0),
+          quantity("from", {"rad/s"}, "frequency at t = 0").required().above(0),
+          quantity("to", {"rad/s"}, "frequency at the end").required().above(0),
+          quantity("duration", {"s"}, "time that the sweep takes; behind it the drive keeps its last value")
+              .required()
+              .above(0),
+          words("spacing", {"linear", "log"}, "the frequency grows by equal steps, or by equal ratios")
+              .with_fallback("linear"),
+          quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0)};
+}
+
+Field interpolation() {
+  return words("interpolation", {"linear", "cubic", "step"},
+               "between the samples: straight lines; a cubic spline; the sample before")
+      .with_fallback("linear");
+}
+
+Field repeat() {
+  return boolean("repeat", "the drive begins anew with its last sample; else it keeps that value")
+      .with_fallback(false);
+}
+
+std::vector<Field> measured_fields(const std::string& column, const std::string& unit) {
+  std::vector<Field> fields = signal_file(column, unit);
+  fields.push_back(interpolation());
+  fields.push_back(repeat());
+  fields.push_back(
+      words("detrend", {"none", "mean", "line"},
+            "what is taken off the samples: nothing, their mean, the straight line that fits them best")
+          .with_fallback("none"));
+  fields.push_back(quantity("offset", {unit}, "what is then added to them").with_fallback(0.0));
+  return fields;
+}
+
+std::vector<Field> table_fields(const std::string& unit) {
+  const auto most = static_cast<std::size_t>(max_table);
+  return {quantities("times", {"s"}, "times of the values; the first is 0, and they increase")
+              .required()
+              .at_least(0)
+              .items(2, most),
+          quantities("values", {unit}, "the drive at these times").required().items(2, most), interpolation(),
+          repeat()};
+}
+
 Choice make_excitations() {
   std::vector<Field> force = harmonic_fields("N");
   force.push_back(quantity("offset", {"N"}, "constant force added").with_fallback(0.0));
@@ -47,7 +93,13 @@ Choice make_excitations() {
             "force growing at constant rate, f(t) = R t",
             {{quantity("rate", {"N/s"}, "rate R").required()}}},
            {"base_noise", "base in random motion y(t), band-limited white", {noise_fields("m^2.s")}},
-           {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}}}};
+           {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}},
+           {"base_chirp", "base motion A cos(phi(t)) whose frequency sweeps", {chirp_fields("m")}, "m"},
+           {"force_chirp", "force on the mass A cos(phi(t)) whose frequency sweeps", {chirp_fields("N")}, "N"},
+           {"base_table", "base motion y(t) by a list of times and values", {table_fields("m")}},
+           {"force_table", "force on the mass f(t) by a list of times and values", {table_fields("N")}},
+           {"measured_base", "base motion y(t) from a data file", {measured_fields("y", "m")}},
+           {"measured_force", "force on the mass f(t) from a data file", {measured_fields("force", "N")}}}};
 }
 
 }  // namespace
@@ -56,6 +108,8 @@ const Choice& excitations() {
   static const Choice choice = make_excitations();
   return choice;
 }
+
+bool moves_base(std::string_view type) { return type.starts_with("base_") || type == "measured_base"; }
 
 Choice friction_laws() {
   Choice result{"law", {}};

@@ -274,6 +274,8 @@ sim::Model with_friction_times(double factor, sim::Model model) {
   for (double* part : {&excitation.amplitude, &excitation.offset, &excitation.slope}) *part /= factor;
   for (sim::Harmonic& harmonic : excitation.harmonics) harmonic.amplitude /= factor;
   excitation.noise.intensity /= factor * factor;
+  if (excitation.samples != nullptr)
+    excitation.samples = std::make_shared<sim::SampledSignal>(excitation.samples->scaled(1.0 / factor));
   return model;
 }
 

@@ -2,48 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/plausibility.hpp"
 #include "identify/records/spikes.hpp"
+#include "scenarios/measurements/data_path.hpp"
 
 namespace dualdamp::scenarios {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-/// The path of a data file, unless it leads out of the scenario's directory.
-std::optional<fs::path> safe_path(CheckedFile& file, const std::string& key, const std::string& name) {
-  fs::path path(name);
-  const std::string allowed = "a relative path inside the scenario's directory";
-  const Place place = file.place_of(key);
-  if (file.data_place().anywhere || file.data_place().texts.contains(name)) return path;
-  if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) {
-    file.complain(place, "'" + key + "' must stay inside the scenario's directory", allowed, name);
-    return std::nullopt;
-  }
-  std::error_code error;
-  const std::string& directory = file.data_place().directory;
-  const fs::path root = fs::canonical(directory.empty() ? "." : directory, error);
-  fs::path target = fs::canonical(root / path, error);
-  if (error) {
-    file.complain(place, "'" + key + "': " + name + " cannot be opened: " + error.message(), allowed);
-    return std::nullopt;
-  }
-  if (std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end()) {
-    file.complain(place, "'" + key + "' leads out of the scenario's directory through a link", allowed,
-                  target.string());
-    return std::nullopt;
-  }
-  if (!fs::is_regular_file(target, error)) {
-    file.complain(place, "'" + key + "': " + name + " is not a file", allowed);
-    return std::nullopt;
-  }
-  return target;
-}
 
 /// What the scenario says of columns that the file does not say.
 identify::ReadOptions read_options(const Json& section, core::Coordinate coordinate, const std::string& name) {
@@ -189,10 +157,10 @@ void read_data_list(CheckedFile& file, const std::string& name) {
     if (!list[i].contains("file")) continue;
     const std::string key = "analysis." + name + (is_list ? "[" + std::to_string(i) + "]" : "");
     const std::string data_name = list[i].at("file").get<std::string>();
-    const auto path = safe_path(file, key, data_name);
+    const auto path = path_of_data(file, key, data_name);
     if (!path) continue;
     try {
-      file.files.push_back({data_name, name, i, read_by_units(file, path->string(), data_name, list[i])});
+      file.files.push_back({data_name, name, i, read_by_units(file, *path, data_name, list[i])});
     } catch (const core::InputError& error) {
       file.take_over(error.diagnostics());
     }
@@ -208,11 +176,11 @@ void read_data(CheckedFile& file) {
     return;
   }
   const std::string name = file.text_at("analysis", "data");
-  const auto path = safe_path(file, "analysis.data", name);
+  const auto path = path_of_data(file, "analysis.data", name);
   if (!path) return;
   take_gain_uncertainties(file);
   try {
-    identify::MeasuredRecord data = read_by_units(file, path->string(), name, file.values().at("analysis"));
+    identify::MeasuredRecord data = read_by_units(file, *path, name, file.values().at("analysis"));
     const Json& analysis = file.values().at("analysis");
     for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
       data.warnings.push_back(std::move(sentence));

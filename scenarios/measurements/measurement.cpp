@@ -6,6 +6,7 @@
 
 #include "core/numbers.hpp"
 #include "scenarios/format/common_keys.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/sensors.hpp"
@@ -90,6 +91,16 @@ void check_lags(CheckedFile& file) {
                     "a phase lag needs a harmonic excitation: it is an angle at the forcing frequency", "a delay");
 }
 
+/// Amplitudes that no drive would have are not taken in silence.
+void check_amplitudes(CheckedFile& file) {
+  const Variant* drive = excitations().find(file.text_at("excitation", "type"));
+  if (drive == nullptr || !file.measurement()->contains("amplitudes")) return;
+  if (drive->section.find("amplitude") == nullptr)
+    file.complain("analysis.measurement.amplitudes",
+                  "'analysis.measurement.amplitudes' needs an excitation that has an amplitude",
+                  "base_harmonic, force_harmonic, base_chirp, force_chirp", drive->name);
+}
+
 /// Two frequencies are outlined as different, no more.
 identify::PairRecord outline_pairs(const CheckedFile& file) {
   const auto count = [&](const char* key) {
@@ -112,8 +123,10 @@ identify::PairRecord outline_pairs(const CheckedFile& file) {
 identify::History outline_history(const CheckedFile& file) {
   identify::History history{.sample_rate = 1.0};
   const auto type = file.text_at("excitation", "type");
-  if (type.starts_with("base_")) history.y = {0.0};
-  if (type.starts_with("force_")) history.force = {0.0};
+  if (moves_base(type))
+    history.y = {0.0};
+  else if (!type.empty() && type != "none")
+    history.force = {0.0};
   history.x = {0.0};
   const auto records = [&](const char* signal) {
     if (!file.measurement()->contains("signals")) return true;
@@ -171,6 +184,7 @@ void check_measurement(CheckedFile& file) {
                   "at most " + core::format_number(max_points, 7) + " in all sweeps",
                   core::format_number(tests(file), 7));
   check_lags(file);
+  check_amplitudes(file);
   const auto type = file.measurement()->at("type").get<std::string>();
   const auto rate = sensor_number(file, "sample_rate");
   if (type == "simulate") {

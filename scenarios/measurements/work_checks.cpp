@@ -7,20 +7,13 @@
 #include "core/numbers.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
+#include "scenarios/measurements/drives.hpp"
 
 namespace dualdamp::scenarios {
 
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-void check_noise(CheckedFile& file, double duration) {
-  const double nodes = duration * file.number_at("excitation", "bandwidth").value_or(0.0) / std::numbers::pi;
-  if (nodes > max_nodes)
-    file.complain("excitation.bandwidth", "the noise is too long",
-                  "at most " + core::format_number(max_nodes, 8) + " random values, 2 bandwidth a second",
-                  core::format_number(nodes, 6) + " of them");
-}
 
 }  // namespace
 
@@ -53,7 +46,7 @@ void check_work(CheckedFile& file, const Json& section, const std::string& path,
     file.complain(path + (by_cycles ? ".cycles" : ".duration"), "the simulation is too long",
                   "at most " + core::format_number(max_periods, 6) + " forcing or natural periods",
                   core::format_number(duration * fastest / two_pi, 6) + " periods");
-  check_noise(file, duration);
+  check_drive(file, duration);
   check_rows(file, sampling.path, recorded * sampling.rate.value_or(0.0) * sampling.tests);
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+/// Drives that a scenario takes from a file or lists itself, and signals of data files.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scenarios/format/checked_file.hpp"
+#include "sim/excitation.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Of the section of an excitation that sweeps.
+[[nodiscard]] sim::Chirp chirp_of(const Json& section);
+
+/// The signal that the section at `path` names by the keys of `signal_file()`; `column`: y, force or x. Nothing,
+/// and complaints, where it cannot be read.
+[[nodiscard]] std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std::string& path,
+                                                                  const Json& section, std::string_view column);
+
+/// Puts the samples of a measured or listed excitation into `file.drive`.
+void read_drive(CheckedFile& file);
+
+/// Whether the drive lasts as long as the motion, and how many pieces that takes. `duration` [s].
+void check_drive(CheckedFile& file, double duration);
+
+}  // namespace dualdamp::scenarios
