@@ -33,6 +33,8 @@ _PLACES = {
     "Instant": "_python_laws",
     "Parameter": "_python_laws",
     "identify": "_identification",
+    "fit": "_fitting",
+    "predict": "_fitting",
     "steady_state": "_batches",
     "SteadyStates": "_batches",
     "laws": "_tables",

@@ -85,13 +85,18 @@ def identify(
         name = os.fspath(data)
     else:
         name = _IN_MEMORY
-        texts[name] = core.csv_text(*_columns_of(data))
+        texts[name] = in_memory(data)
     system = {"mass": mass, "stiffness": stiffness, "gravity_stiffness": gravity_stiffness, "coordinate": coordinate}
     analysis = {"type": "identify", "data": name, "methods": methods, "units": units, "columns": columns, "scale": scale, **options}
     scenario = {"system": system, "analysis": analysis}
     if frequency is not None:
         scenario["excitation"] = {"type": "base_harmonic", "frequency": frequency}
     return run_source(source_of(scenario, data=texts), out=out, threads=threads)
+
+
+def in_memory(data):
+    """Data as the text of a CSV file."""
+    return core.csv_text(*_columns_of(data))
 
 
 def _columns_of(data):

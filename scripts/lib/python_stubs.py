@@ -245,6 +245,18 @@ def identify_function():
     return function("identify", ["data: Path | Mapping[str, Any] | NDArray[Any] | Any"], named, "Result")
 
 
+def fit_functions():
+    own = {"data", "laws", "validate"}
+    keys = [key for key in entry("analyses", "fit")["keys"] if key["name"] not in own]
+    named = [f"{name}: Quantity | None = None" for name in ("mass", "stiffness", "damping")]
+    named += ["frequency: str | None = None", "amplitude: Quantity | None = None"]
+    after = ["record: Mapping[str, Any] | None = None", "out: Path | None = None", "threads: int = 0"]
+    drive = "excitation: Excitation | Mapping[str, Any] | None = None"
+    named += [drive, "initial: Mapping[str, Any] | None = None", "validate: Any = None", *after, *parameters_of(keys)]
+    yield function("fit", ["law: str | Law | Mapping[str, Any] | Sequence[str]", "data: Any"], named, "Result")
+    yield function("predict", ["fitted: Result", "data: Any"], [drive, *after], "Result")
+
+
 def system_class():
     keys = list(parameters_of(tables()["system"][0]["keys"]))
     lines = ["class System:", function("__init__", ["self"], keys, "None", "    ")]
@@ -274,6 +286,7 @@ def main():
         *overloads("law", "name", laws, "Law"),
         *overloads("excitation", "type", drives, "Excitation"),
         identify_function(),
+        *fit_functions(),
         *(analysis_function(name, False) for name in OF_SYSTEMS),
         system_class(),
         names_class("_Laws", laws, "Law"),

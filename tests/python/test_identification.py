@@ -92,3 +92,38 @@ def test_a_round_trip(rig, drive):
         found = dd.identify(curve.points[["Y", "x"]], mass=1, stiffness=100, frequency="10 rad/s", methods=["den_hartog_fit"])
     assert found.estimates[0].zeta == pytest.approx(0.2, abs=1e-9)
     assert found.estimates[0].F0 == pytest.approx(2, abs=1e-9)
+
+
+RECORD = "scenarios/examples/free_run.csv"
+
+
+def test_fit_as_the_program(program, tmp_path):
+    import json
+
+    status, text, message = program("fit", "coulomb", RECORD, "--mass", "1 kg", "--stiffness", "1000 N/m", "--no-profile", "--json", "--out", tmp_path)
+    assert status == 0, message
+    found = dd.fit("coulomb", RECORD, mass="1 kg", stiffness="1000 N/m", profile=False)
+    assert found.result == json.loads(text)["result"]
+    damping, kinetic = found.result.parameters[:2]
+    assert (damping.name, kinetic.name) == ("damping", "kinetic")
+    assert kinetic.value == pytest.approx(1, abs=0.01)
+    assert dd.run(found.result.scenario).status == 0
+
+
+def test_fit_of_arrays_and_prediction():
+    rig = dd.System(mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", friction=dd.law("coulomb", kinetic="1 N"))
+    records = [rig.simulate(initial={"position": start}, duration="1 s", sample_rate="200 Hz").history[["t", "x"]] for start in ("20 mm", "30 mm")]
+    rng = np.random.default_rng(3)
+    noisy = [{"t": record["t"], "x": record["x"] + 2e-6 * rng.standard_normal(len(record))} for record in records]
+    found = dd.fit({"law": "coulomb"}, noisy[0], mass="1 kg", stiffness="1000 N/m", profile=False)
+    assert [row.value for row in found.result.parameters[:2]] == pytest.approx([1, 1], abs=0.01)
+    other = dd.predict(found, noisy[1])
+    assert other.analysis == "predict" and other.status == 0
+    with pytest.raises(TypeError, match="predict takes the result of a fit, not of predict"):
+        dd.predict(other, noisy[1])
+
+
+def test_sweep_is_a_key_of_the_scenario(rig, drive):
+    scenario = {"system": rig, "excitation": drive, "analysis": {"type": "steady_state"}, "sweep": {"excitation.amplitude": [0.1, 0.2]}}
+    result = dd.run(scenario)
+    assert [row.result.amplitude for row in result.result.sweep] == [rig.steady_state(drive.replace(amplitude=Y)).amplitude for Y in (0.1, 0.2)]
