@@ -317,7 +317,8 @@ class Sweep {
     const Section format = {{*points_.format().find("expect")}};
     Reading reading = read(document, format);
     const std::vector<Needs> none_needed;
-    CheckedFile file(document, reading, format, none_needed);
+    const DataTexts no_texts;
+    CheckedFile file(document, reading, format, none_needed, {.texts = no_texts});
     check_expectations(file, {first_.result_fields, "a sweep of analysis '" + first_.analysis_name + "'",
                               [&](std::string_view list) {
                                 return list == "sweep" ? std::optional(points_.size()) : std::nullopt;
