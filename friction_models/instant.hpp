@@ -15,14 +15,15 @@ enum class Direction : int { backward = -1, none = 0, forward = 1 };
 
 /// What modifiers do to the force limits of a law at one instant:
 ///
-///   force limit = factor nominal + slope x      [N]
+///   force limit = (factor + factor_slope x) nominal + slope x      [N]
 ///
 /// and 0 for a nominal force limit that is not above `vanished`.
 struct Modification {
   double factor = 1.0;
-  double factor_rate = 0.0;  ///< 1/s
-  double slope = 0.0;        ///< N/m, with the sign of x
-  double vanished = -1.0;    ///< N; below zero: no force limit is zero
+  double factor_rate = 0.0;   ///< of the factor at this x [1/s]
+  double factor_slope = 0.0;  ///< 1/m
+  double slope = 0.0;         ///< N/m, with the sign of x
+  double vanished = -1.0;     ///< N; below zero: no force limit is zero
 };
 
 struct Instant {
@@ -31,18 +32,20 @@ struct Instant {
   double v = 0.0;  ///< m/s
   Modification modification{};
   double past_velocity = 0.0;  ///< the velocity one `delay` of the law ago [m/s]; before the start: the initial one
+  double angle = 0.0;          ///< w t of a harmonic excitation, without its phase; else 0 [rad]
+  double angle_rate = 0.0;     ///< w [rad/s]
 
   /// The force limit [N] that is `nominal` without modifiers, as a function of time and position from now on.
   [[nodiscard]] constexpr Affine force_limit(double nominal) const {
     if (nominal <= modification.vanished) return {};
     return {.constant = modification.factor * nominal,
             .rate = modification.factor_rate * nominal,
-            .position = modification.slope};
+            .position = modification.slope + modification.factor_slope * nominal};
   }
   /// Its value at this instant [N].
   [[nodiscard]] constexpr double force_limit_now(double nominal) const {
     if (nominal <= modification.vanished) return 0.0;
-    return modification.factor * nominal + modification.slope * x;
+    return (modification.factor + modification.factor_slope * x) * nominal + modification.slope * x;
   }
 };
 

@@ -13,6 +13,7 @@ struct ModifierCourse {
   int cell = 0;              ///< cell of the fluctuation, counted over time or position
   double level = 0.0;        ///< of the fluctuation in this cell, in standard deviations
   int side = 1;              ///< sign of x, +1 or -1
+  bool unloaded = false;     ///< the load of the contact is gone
   int vanished = 0;          ///< number of force limits that are zero, the smallest nominal ones first
 
   friend bool operator==(const ModifierCourse&, const ModifierCourse&) = default;

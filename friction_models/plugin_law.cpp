@@ -143,7 +143,7 @@ class PluginLaw final : public LawModel,
             .x = now.x,
             .v = now.v,
             .direction = static_cast<int>(direction),
-            .limit_factor = m.factor,
+            .limit_factor = m.factor + m.factor_slope * now.x,
             .limit_offset = m.slope * now.x,
             .limit_vanished = m.vanished};
   }

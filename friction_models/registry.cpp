@@ -14,7 +14,9 @@
   LAW(coulomb)                  \
   LAW(dahl)                     \
   LAW(elasto_plastic)           \
+  LAW(free_play)                \
   LAW(friction_lag)             \
+  LAW(gap_spring)               \
   LAW(generalized_maxwell_slip) \
   LAW(iwan)                     \
   LAW(iwan_four_parameter)      \

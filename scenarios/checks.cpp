@@ -147,6 +147,49 @@ void resolve_frequency(CheckedFile& file) {
   frequency = core::format_number(value) + " rad/s";
 }
 
+/// Structural damping is that of one frequency; the system has one damper beside it.
+void check_loss_factor(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
+  const std::string path = "system.loss_factor";
+  if (file.number_at("system", "loss_factor").value_or(0.0) == 0.0) return;
+  if (!analysis.steady_vibrations) {
+    std::vector<std::string> names;
+    for (const Analysis* other : analyses)
+      if (other->steady_vibrations) names.emplace_back(other->name);
+    file.complain(path,
+                  "'" + path + "' does not work with " + file.subject() +
+                      ": structural damping is not causal, so it has no motion in time",
+                  joined(names));
+    return;
+  }
+  if (file.is_given("excitation.harmonics"))
+    file.complain(path,
+                  "'" + path + "' does not work with a drive of several harmonics: it is that of one frequency",
+                  "an excitation without harmonics");
+  const bool damped = file.number_at("system", "damping").value_or(0.0) != 0.0;
+  if (damped && file.text_at("excitation", "type").starts_with("base") &&
+      file.text_at("system", "damper_to") == "ground")
+    file.complain(path,
+                  "'" + path +
+                      "' acts between mass and base, and 'system.damping' between mass and ground: the "
+                      "system has one damper",
+                  "with damper_to: base, or damping: 0");
+}
+
+/// A load that follows the drive needs one.
+void check_load_modulation(CheckedFile& file) {
+  const Json& values = file.values();
+  if (!values.contains("system") || !values.at("system").contains("friction")) return;
+  if (file.text_at("excitation", "type").ends_with("_harmonic")) return;
+  const Json& friction = values.at("system").at("friction");
+  const Json list = friction.is_array() ? friction : Json::array({friction});
+  for (const Json& law : list)
+    if (law.is_object() && law.contains("load_modulation"))
+      file.complain("system.friction",
+                    "'load_modulation' follows a harmonic excitation, and there is none; a load that varies with "
+                    "position is a 'load_gradient'",
+                    joined(harmonic_excitations()));
+}
+
 /// What cannot be computed again in another way is not said to be verified.
 void check_verification(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
   const Json& values = file.values();
@@ -207,6 +250,8 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   }
   if (file.needs() != nullptr) check_uncertainties(file, *analysis, analyses);
   resolve_damping(file);
+  if (file.needs() != nullptr) check_loss_factor(file, *analysis, analyses);
+  check_load_modulation(file);
   resolve_frequency(file);
   if (file.needs() != nullptr && !file.needs()->excitations.empty()) read_drive(file);
   if (analysis->check != nullptr) analysis->check(file);

@@ -48,7 +48,8 @@ sim::Oscillator oscillator(const Json& system) {
           system.at("damper_to") == "base" ? sim::DamperTo::base : sim::DamperTo::ground,
           number_or(system, "cubic_stiffness", 0.0),
           number_or(system, "gravity_stiffness", 0.0),
-          coordinate_of(system)};
+          coordinate_of(system),
+          number_or(system, "loss_factor", 0.0)};
 }
 
 sim::Excitation excitation(const Json& section) {
@@ -95,6 +96,19 @@ std::vector<friction::Law> friction_of(const Json& section) {
   if (!section.is_array()) return laws(section);
   std::vector<friction::Law> result;
   for (const Json& item : section) std::ranges::copy(laws(item), std::back_inserter(result));
+  return result;
+}
+
+/// What there is to know of structural damping.
+std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
+  if (model.oscillator.loss_factor == 0.0) return {};
+  std::vector<std::string> result = {
+      "a constant loss factor is not causal: it describes steady vibrations, not motions in time"};
+  if (!model.friction.empty() || !sim::is_linear(model.oscillator))
+    result.emplace_back(
+        "the loss factor acts as a viscous damper eta k/w: it damps the harmonic of order n of this nonlinear "
+        "motion n "
+        "times as much as a complex stiffness would");
   return result;
 }
 
@@ -190,6 +204,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   if (!sought && values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"), scenario.model.oscillator.coordinate);
   std::ranges::move(checked.warnings, std::back_inserter(scenario.warnings));
+  std::ranges::move(loss_factor_warnings(scenario.model), std::back_inserter(scenario.warnings));
   scenario.tolerance = tolerance_of(values, scenario.model);
   scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
   const Json& section = values.at("analysis");
@@ -227,7 +242,8 @@ friction::ParameterValues law_parameters(const std::string& law, const std::vect
   for (const std::string& assignment : set) options.set.push_back({"system.friction." + assignment});
   const Scenario around =
       parse_scenario("schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
-                         "}}\nanalysis: {type: simulate, duration: 1}\n",
+                         "}}\nexcitation: {type: force_harmonic, amplitude: 1, frequency: 1 rad/s}\n"
+                         "analysis: {type: simulate, duration: 1}\n",
                      "command line", options);
   return law_values(friction::find_law(law)->parameters, Json::parse(around.resolved).at("system").at("friction"));
 }

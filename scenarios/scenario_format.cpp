@@ -29,6 +29,9 @@ Section system_section() {
                 "m g l of a pendulum: the part of the stiffness whose torque is m g l sin(x); without 'stiffness' "
                 "it is the whole of it. For an angle x, and no excitation or a torque")
            .above(0),
+       quantity("loss_factor", {"1"},
+                "structural damping eta: stiffness k (1 + i eta); for steady vibrations under one harmonic")
+           .at_least(0),
        words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
        std::move(friction)},
       {{{"damping", "damping_ratio"}, false}}};

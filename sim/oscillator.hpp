@@ -22,6 +22,8 @@ struct Oscillator {
   double cubic_stiffness = 0.0;    ///< k3 [N/m^3] on the elongation y - x, any sign
   double gravity_stiffness = 0.0;  ///< G [N.m], the part of k that gravity makes, of an angle
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in messages, nothing else
+  double loss_factor =
+      0.0;  ///< eta >= 0, structural damping: the stiffness is k (1 + i eta); steady vibrations only
 };
 
 /// The spring follows Hooke's law.

@@ -55,6 +55,7 @@ class Check {
     in(any, "system.damping", o.damping, "N.s/m");
     in(any, "system.cubic_stiffness", o.cubic_stiffness, "N/m^3");
     in(not_negative, "system.gravity_stiffness", o.gravity_stiffness, "N.m");
+    in(not_negative, "system.loss_factor", o.loss_factor, "1");
   }
 
   void excitation(const Excitation& e) {

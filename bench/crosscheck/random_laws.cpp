@@ -174,8 +174,8 @@ class RandomLaws {
 
   void add_modifiers(Json& law) {
     const friction::LawEntry* entry = friction::find_law(law.at("law").get<std::string>());
-    for (const std::string_view modifier : entry->modifiers) {
-      if (!draws_.chance(0.07)) continue;
+    for (const std::string_view modifier : drawn_modifiers) {
+      if (std::ranges::find(entry->modifiers, modifier) == entry->modifiers.end() || !draws_.chance(0.07)) continue;
       if (modifier == "drift") {
         law["drift"] = draws_.uniform(-0.03, 0.03) / time();
       } else if (modifier == "position_slope" && !law.contains("contact_damping")) {
@@ -191,6 +191,10 @@ class RandomLaws {
       }
     }
   }
+
+  /// Not those of the list of modifiers: a further one there would change all cases.
+  static constexpr std::array<std::string_view, 4> drawn_modifiers = {"drift", "position_slope", "fluctuation",
+                                                                      "warming"};
 
   Draws& draws_;
   const Sizes& sizes_;

@@ -154,6 +154,7 @@ bool has_mirror(const Json& scenario) {
   for (const Json& law : scenario.at("system").value("friction", Json::array())) {
     const friction::LawEntry* entry = friction::find_law(law.at("law").get<std::string>());
     if (entry->is_random || !entry->is_odd) return false;
+    if (law.contains("load_gradient")) return false;
     if (law.contains("fluctuation") && law.at("fluctuation").contains("correlation_length")) return false;
   }
   return true;

@@ -190,7 +190,8 @@ LawEntry contact_compliance_entry() {
               "stuck: F = contact_stiffness (x - a) + contact_damping v, |F| < static;  slipping: F = +-kinetic",
           .states = "position of the slider",
           .sources = "liang2004identifying, jenkins1962, iwan1966",
-          .modifiers = all_modifiers(),
+          // The slider would stop and go on many times in a period.
+          .modifiers = all_modifiers_but("load_modulation"),
           .parameters = ContactCompliance::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
             const Law law(ContactCompliance(p.number("kinetic"), p.number("static"), p.number("contact_stiffness"),

@@ -62,7 +62,8 @@ LawEntry lugre_entry() {
           .is_passive = false,
           .caution = "Under a load that oscillates below break-away about a mean the mass drifts.",
           .sources = "canudas1995, barabanov2000, dupont2002",
-          .modifiers = all_modifiers(),
+          // Where the load is lost the deflection would relax infinitely fast.
+          .modifiers = all_modifiers_but("load_gradient"),
           .parameters = Lugre::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
             return {modified(Law(Lugre(p)), p, {p.number("kinetic"), p.number("static")})};

@@ -15,6 +15,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 ModifierSettings::ModifierSettings(const ParameterValues& values) {
   if (values.has("drift")) drift = values.number("drift");
   if (values.has("position_slope")) slope = values.number("position_slope");
+  if (values.has("load_gradient")) load_gradient = values.number("load_gradient");
+  if (values.has("load_modulation")) {
+    const ParameterValues& record = values.record("load_modulation");
+    modulation = record.number("ratio");
+    modulation_order = static_cast<double>(record.count("order"));
+    modulation_phase = record.number("phase");
+  }
   if (values.has("fluctuation")) {
     const ParameterValues& fluctuation = values.record("fluctuation");
     ratio = fluctuation.number("ratio");
@@ -38,7 +45,8 @@ ForceLimits::ForceLimits(const ModifierSettings& settings, std::vector<double> n
 }
 
 ModifierCourse ForceLimits::start(const Instant& now) const {
-  ModifierCourse course{.level = fluctuation_.first(), .side = now.x < 0.0 ? -1 : 1};
+  ModifierCourse course{
+      .level = fluctuation_.first(), .side = now.x < 0.0 ? -1 : 1, .unloaded = load(now.x) <= 0.0};
   if (settings_.varies_over_position()) {
     constexpr double farthest = 1e9;  // an int holds this and many cells beyond it
     course.cell = static_cast<int>(std::clamp(std::round(now.x / cell_width()), -farthest, farthest));
@@ -54,15 +62,24 @@ double ForceLimits::fluctuation(const ModifierCourse& course) const {
 Instant ForceLimits::at(const ModifierCourse& course, double power, Instant now) const {
   double factor = course.drift_ended ? 0.0 : fluctuation(course);
   if (settings_.warms()) factor *= std::exp(-power / settings_.warming_power);
+  const double drifted = 1.0 + settings_.drift * now.t;
+  const double angle = settings_.modulation_order * now.angle + settings_.modulation_phase;
+  const double modulated = 1.0 + settings_.modulation * std::cos(angle);
+  const double modulated_rate =
+      -settings_.modulation * settings_.modulation_order * now.angle_rate * std::sin(angle);
+  double vanished = course.vanished == 0 ? -1.0 : nominal_[static_cast<std::size_t>(course.vanished) - 1];
+  if (course.unloaded) vanished = infinity;
   now.modification = {
-      .factor = (1.0 + settings_.drift * now.t) * factor,
-      .factor_rate = settings_.drift * factor,
+      .factor = drifted * modulated * factor,
+      .factor_rate = (settings_.drift * modulated + drifted * modulated_rate) * factor * load(now.x),
+      .factor_slope = drifted * modulated * factor * settings_.load_gradient,
       .slope = course.side * settings_.slope,
-      .vanished = course.vanished == 0 ? -1.0 : nominal_[static_cast<std::size_t>(course.vanished) - 1]};
+      .vanished = vanished};
   return now;
 }
 
 bool ForceLimits::are_gone(const ModifierCourse& course) const {
+  if (course.unloaded) return true;
   if (settings_.slope == 0.0) return course.drift_ended || fluctuation(course) == 0.0;
   return !nominal_.empty() && static_cast<std::size_t>(course.vanished) == nominal_.size();
 }
@@ -95,6 +112,10 @@ ModifierCourse ForceLimits::after_change(const ModifierCourse& course, double du
 
 std::vector<Affine> ForceLimits::guards(const ModifierCourse& course, double power, const Instant& now) const {
   std::vector<Affine> guards;
+  if (load_guards() > 0) {
+    const double sign = course.unloaded ? -1.0 : 1.0;
+    guards.push_back({.constant = sign, .position = sign * settings_.load_gradient});
+  }
   if (settings_.varies_over_position()) {
     const double high = (course.cell + 0.5) * cell_width();
     const double low = (course.cell - 0.5) * cell_width();
@@ -114,22 +135,26 @@ std::vector<Affine> ForceLimits::guards(const ModifierCourse& course, double pow
 }
 
 ForceLimits::Ending ForceLimits::ending(int guard) const {
-  if (guard < cell_guards()) return Ending::cell;
-  return guard == cell_guards() ? Ending::side : Ending::force_limit;
+  if (guard < load_guards()) return Ending::load;
+  if (guard < first_guards()) return Ending::cell;
+  return guard == first_guards() ? Ending::side : Ending::force_limit;
 }
 
 ModifierCourse ForceLimits::after_guard(const ModifierCourse& course, int guard) const {
   ModifierCourse next = course;
   switch (ending(guard)) {
+    case Ending::load:
+      next.unloaded = !course.unloaded;
+      break;
     case Ending::cell:
-      next.cell += guard == 0 ? 1 : -1;
+      next.cell += guard == load_guards() ? 1 : -1;
       next.level = fluctuation_.at(next.cell);
       break;
     case Ending::side:
       next.side = -course.side;
       break;
     case Ending::force_limit:
-      const bool falls = guard == cell_guards() + 1 && static_cast<std::size_t>(course.vanished) < nominal_.size();
+      const bool falls = guard == first_guards() + 1 && static_cast<std::size_t>(course.vanished) < nominal_.size();
       next.vanished += falls ? 1 : -1;
       break;
   }

@@ -20,6 +20,10 @@ struct ModifierSettings {
   double correlation_time = std::numeric_limits<double>::infinity();    ///< s
   double correlation_length = std::numeric_limits<double>::infinity();  ///< m
   std::uint64_t seed = 0;
+  double load_gradient = 0.0;                                      ///< 1/m
+  double modulation = 0.0;                                         ///< share of the load that follows the drive
+  double modulation_order = 1.0;                                   ///< multiple of the drive's frequency
+  double modulation_phase = 0.0;                                   ///< rad
   double warming_power = std::numeric_limits<double>::infinity();  ///< W
   double warming_time = std::numeric_limits<double>::infinity();   ///< s
 
@@ -32,7 +36,14 @@ struct ModifierSettings {
   [[nodiscard]] bool varies_over_position() const {
     return correlation_length < std::numeric_limits<double>::infinity();
   }
-  [[nodiscard]] bool do_nothing() const { return drift == 0.0 && slope == 0.0 && !fluctuates() && !warms(); }
+  [[nodiscard]] bool modulates() const { return modulation != 0.0; }
+  /// Between events the force limits are affine functions of time and position.
+  [[nodiscard]] bool are_affine() const {
+    return !warms() && !modulates() && (drift == 0.0 || load_gradient == 0.0);
+  }
+  [[nodiscard]] bool do_nothing() const {
+    return drift == 0.0 && slope == 0.0 && load_gradient == 0.0 && !fluctuates() && !modulates() && !warms();
+  }
 };
 
 class ForceLimits {
@@ -53,11 +64,11 @@ class ForceLimits {
   /// The course after that change, due at this time.
   [[nodiscard]] ModifierCourse after_change(const ModifierCourse& course, double due) const;
 
-  /// > 0 while the course stays: x within its cell; x on its side; and of force limits that fall with |x| the
-  /// smallest one that is not yet zero, and minus the largest one that is zero.
+  /// > 0 while the course stays: the load, minus it once it is gone; x within its cell; x on its side; and of force
+  /// limits that fall with |x| the smallest one that is not yet zero, and minus the largest one that is zero.
   [[nodiscard]] std::vector<Affine> guards(const ModifierCourse& course, double power, const Instant& now) const;
   /// What ends at a guard, by its index.
-  enum class Ending { cell, side, force_limit };
+  enum class Ending { load, cell, side, force_limit };
   [[nodiscard]] Ending ending(int guard) const;
   /// The course after that guard.
   [[nodiscard]] ModifierCourse after_guard(const ModifierCourse& course, int guard) const;
@@ -71,7 +82,11 @@ class ForceLimits {
   [[nodiscard]] double drift_end(const ModifierCourse& course) const;
   [[nodiscard]] double cell_end(const ModifierCourse& course) const;
   [[nodiscard]] double cell_width() const;
-  [[nodiscard]] int cell_guards() const { return settings_.varies_over_position() ? 2 : 0; }
+  /// The load relative to that at x = 0 without modulation, where it is not gone.
+  [[nodiscard]] double load(double x) const { return 1.0 + settings_.load_gradient * x; }
+  [[nodiscard]] int load_guards() const { return settings_.load_gradient != 0.0 ? 1 : 0; }
+  /// Those of the load and of the cells.
+  [[nodiscard]] int first_guards() const { return load_guards() + (settings_.varies_over_position() ? 2 : 0); }
 
   ModifierSettings settings_;
   std::vector<double> nominal_;  ///< ascending, each once [N]

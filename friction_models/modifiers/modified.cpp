@@ -82,7 +82,7 @@ class ModifiedLaw final : public LawModel,
     return law_.static_limit(parts.inner(), limits_.at(parts.course(), parts.power(), now));
   }
 
-  // The four below are not asked of a law that warms.
+  // The four below are asked only where the force limits are affine.
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction direction) const override {
     if (limits_.are_gone(memory.course)) return {};
     return law_.affine_force(memory, limits_.at(memory.course, 0.0, now), direction);
@@ -149,8 +149,7 @@ class ModifiedLaw final : public LawModel,
 };
 
 Abilities ModifiedLaw::abilities() const {
-  // The power turned to heat is no affine function of the motion.
-  const bool is_affine = law_.is_affine() && !warms();
+  const bool is_affine = law_.is_affine() && limits_.settings().are_affine();
   return {.modal = this,
           .sticking = law_.holds_mass() ? this : nullptr,
           .affine = is_affine ? this : nullptr,
@@ -185,7 +184,8 @@ Instant ModifiedLaw::modify(const Memory& inner, const ModifierCourse& course, d
 
 /// The force limits fall at d(power)/dt = `rate` [W/s].
 void ModifiedLaw::warm(Instant& modified, double rate) const {
-  modified.modification.factor_rate -= modified.modification.factor * rate / limits_.settings().warming_power;
+  Modification& m = modified.modification;
+  m.factor_rate -= (m.factor + m.factor_slope * modified.x) * rate / limits_.settings().warming_power;
 }
 
 /// d(power)/dt [W/s]. A stretched spring gives off heat when it relaxes with its force limit; that heat is left
@@ -221,7 +221,8 @@ void ModifiedLaw::pass_guard(OpenParts& parts, int guard, const Instant& now, Di
   const ForceLimits::Ending ending = limits_.ending(guard);
   if (ending == ForceLimits::Ending::cell) return step_to(next, parts, now, direction);
   // A limit that no longer moves may end a slip otherwise than one that does.
-  if (ending == ForceLimits::Ending::force_limit) look_again(parts, now, direction);
+  if (ending == ForceLimits::Ending::force_limit || ending == ForceLimits::Ending::load)
+    look_again(parts, now, direction);
   parts.course = next;
 }
 

@@ -1,17 +1,20 @@
 #pragma once
 /// A law under modifiers. Every force limit of the law, nominally L, becomes
 ///
-///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) L + position_slope |x|)     [N]
+///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) N L + position_slope |x|)     [N]
+///   N = max(0, 1 + load_gradient x) (1 + modulation cos(order w t + phase))
 ///
-/// the factors first, then the slope. n is the process of `fluctuation.hpp`, either over time, stationary from the
+/// the factors first, then the slope. N is the load of the contact; without it there is no friction. w is the
+/// frequency of a harmonic excitation. n is the process of `fluctuation.hpp`, either over time, stationary from the
 /// start, or over position, with the middle of cell 0 at x = 0. p [W] is a state: time_constant p' = P - p, where P
 /// is the power that the law turns to heat, and p = 0 at the start.
 ///
 /// The law inside reads its force limits from `Instant::modification`. Between the events below they are affine in
-/// t and x, so an affine law stays affine, unless it warms. The wrapper adds events to those of the law:
+/// t and x, so an affine law stays affine, unless it warms, its load is modulated, or its load varies with x while
+/// its limits drift. The wrapper adds events to those of the law:
 ///   times    the end of each cell; the end of a falling drift at t = -1/drift.
-///   guards   the ends of cells over position; x = 0, where the slope changes its sign; a force limit that becomes
-///   zero,
+///   guards   where the load is lost or comes back; the ends of cells over position; x = 0, where the slope changes
+///   its sign; a force limit that becomes zero,
 ///            or comes back.
 /// Where force limits rise by a step the law first gets `Trigger::limit_change` under the old ones. While no force
 /// limit is left the law has no force; it starts again, unstretched, where a force limit comes back.

@@ -4,6 +4,51 @@
 
 namespace dualdamp::friction {
 
+namespace {
+
+Parameter load_modulation() {
+  return {
+      .name = "load_modulation",
+      .kind = ParameterKind::record,
+      .fields = {{.name = "ratio",
+                  .unit = "1",
+                  // At 1 the contact would open.
+                  .range = {.low = 0.0, .high = 1.0, .high_open = true},
+                  .meaning = "amplitude relative to the mean load"},
+                 {.name = "order",
+                  .kind = ParameterKind::count,
+                  .fallback = 1.0,
+                  .range = {.low = 1.0, .high = 1000.0},
+                  .meaning = "multiple of the excitation's frequency"},
+                 {.name = "phase", .unit = "rad", .fallback = 0.0, .meaning = "of cos(order w t + phase)"}},
+      .is_optional = true,
+      .meaning = "load of the contact that follows a harmonic excitation; the force limits are proportional to it"};
+}
+
+Parameter fluctuation() {
+  return {.name = "fluctuation",
+          .kind = ParameterKind::record,
+          .fields = {{.name = "ratio",
+                      .unit = "1",
+                      // Beyond 1 the factor would be 0 for more than a sixth of the time.
+                      .range = {.low = 0.0, .high = 1.0},
+                      .meaning = "standard deviation relative to the force limit"},
+                     {.name = "correlation_time",
+                      .unit = "s",
+                      .range = {.low = 0.0, .low_open = true},
+                      .meaning = "time in which the correlation falls to 1/e"},
+                     {.name = "correlation_length",
+                      .unit = "m",
+                      .instead_of = "correlation_time",
+                      .range = {.low = 0.0, .low_open = true},
+                      .meaning = "distance over which the correlation falls to 1/e"},
+                     {.name = "seed", .kind = ParameterKind::seed, .meaning = "seed of the random numbers"}},
+          .is_optional = true,
+          .meaning = "random variation of the force limits over time or position"};
+}
+
+}  // namespace
+
 const std::vector<Parameter>& modifier_parameters() {
   static const std::vector<Parameter> table = {
       {.name = "drift",
@@ -16,25 +61,13 @@ const std::vector<Parameter>& modifier_parameters() {
        // The spring would relax towards a force limit that depends on x: no affine function of x and v.
        .not_beside = "contact_damping",
        .meaning = "growth of the force limits with the distance from x = 0; they are never below 0"},
-      {.name = "fluctuation",
-       .kind = ParameterKind::record,
-       .fields = {{.name = "ratio",
-                   .unit = "1",
-                   // Beyond 1 the factor would be 0 for more than a sixth of the time.
-                   .range = {.low = 0.0, .high = 1.0},
-                   .meaning = "standard deviation relative to the force limit"},
-                  {.name = "correlation_time",
-                   .unit = "s",
-                   .range = {.low = 0.0, .low_open = true},
-                   .meaning = "time in which the correlation falls to 1/e"},
-                  {.name = "correlation_length",
-                   .unit = "m",
-                   .instead_of = "correlation_time",
-                   .range = {.low = 0.0, .low_open = true},
-                   .meaning = "distance over which the correlation falls to 1/e"},
-                  {.name = "seed", .kind = ParameterKind::seed, .meaning = "seed of the random numbers"}},
+      {.name = "load_gradient",
+       .unit = "1/m",
        .is_optional = true,
-       .meaning = "random variation of the force limits over time or position"},
+       .not_beside = "contact_damping",
+       .meaning = "relative growth of the load of the contact with x; the force limits are proportional to it"},
+      load_modulation(),
+      fluctuation(),
       {.name = "warming",
        .kind = ParameterKind::record,
        .fields = {{.name = "power",
@@ -49,6 +82,12 @@ const std::vector<Parameter>& modifier_parameters() {
        .meaning = "fall of the force limits with the power that friction turns to heat"},
   };
   return table;
+}
+
+std::vector<std::string_view> all_modifiers_but(std::string_view name) {
+  std::vector<std::string_view> names = all_modifiers();
+  std::erase(names, name);
+  return names;
 }
 
 std::vector<std::string_view> all_modifiers() {

@@ -4,6 +4,9 @@
 ///
 ///   drift           limits multiplied by max(0, 1 + drift t)
 ///   position_slope  limits plus position_slope |x|, at least 0
+///   load_gradient   limits multiplied by max(0, 1 + load_gradient x): the load of the contact varies with position
+///   load_modulation limits multiplied by 1 + ratio cos(order w t + phase): the load follows a harmonic excitation
+///                   of frequency w; the law then runs on the smooth engine
 ///   fluctuation     limits multiplied by max(0, 1 + ratio n), n a stationary Ornstein-Uhlenbeck process of
 ///                   variance 1 over time, correlation exp(-|t|/correlation_time), or over position, correlation
 ///                   exp(-|x|/correlation_length), held on a grid
@@ -23,6 +26,7 @@ namespace dualdamp::friction {
 
 /// The names of all of them.
 [[nodiscard]] std::vector<std::string_view> all_modifiers();
+[[nodiscard]] std::vector<std::string_view> all_modifiers_but(std::string_view name);
 
 /// A law's own parameters, then the modifiers named.
 [[nodiscard]] std::vector<Parameter> with_modifiers(std::vector<Parameter> own,

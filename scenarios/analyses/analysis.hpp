@@ -111,6 +111,7 @@ struct Analysis {
   std::vector<std::string_view> main = {};
   bool uses_uncertainties = false;  ///< those of the system's constants and of the frequency
   bool seeks_laws = false;          ///< what laws of the system lack is sought; the model has no friction
+  bool steady_vibrations = false;   ///< the result is about steady vibrations alone: structural damping has a place
   bool verifiable = false;          ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.
   void (*check)(CheckedFile& file) = nullptr;

@@ -27,6 +27,7 @@ const Analysis& frequency_response_analysis() {
       .needs = needs_of_steady_states({"amplitude"}),
       .results = curve_fields({{"points[].omega", "rad/s", "forcing frequency"},
                                {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}}),
+      .steady_vibrations = true,
       .verifiable = true,
       .ask = ask,
       .length_of = number_of_points};

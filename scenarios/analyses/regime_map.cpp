@@ -240,6 +240,7 @@ const Analysis& regime_map_analysis() {
       .keys = keys(),
       .needs = needs_of_steady_states({}),
       .results = fields(),
+      .steady_vibrations = true,
       .verifiable = true,
       .check = check,
       .ask = ask,

@@ -100,6 +100,7 @@ const Analysis& steady_state_analysis() {
                                     .needs = needs_of_steady_states({"amplitude", "frequency"}),
                                     .results = fields(),
                                     .main = {"amplitude", "phase", "max_speed"},
+                                    .steady_vibrations = true,
                                     .verifiable = true,
                                     .ask = ask};
   return analysis;

@@ -26,6 +26,7 @@ const Analysis& xy_curve_analysis() {
                                     .keys = {{amplitudes()}},
                                     .needs = needs_of_steady_states({"frequency"}),
                                     .results = curve_fields({{"points[].Y", "m or N", "excitation amplitude"}}),
+                                    .steady_vibrations = true,
                                     .verifiable = true,
                                     .ask = ask,
                                     .length_of = number_of_points};

@@ -281,7 +281,7 @@ std::optional<CoulombLimits> coulomb_limits(const friction::Law& law) {
 /// Of a model that packs can compute.
 std::optional<CoulombLimits> coulomb_limits(const Model& model) {
   const Excitation& drive = model.excitation;
-  if (!is_exact(model)) return std::nullopt;
+  if (!is_exact(model) || model.oscillator.loss_factor != 0.0) return std::nullopt;
   if (!drive.is_harmonic() || !drive.harmonics.empty() || drive.offset != 0.0) return std::nullopt;
   CoulombLimits sum;
   for (const friction::Law& law : model.friction) {

@@ -368,6 +368,12 @@ friction::Law with_scaled_limits(const friction::LawEntry& entry, friction::Para
   return entry.make(values).front();
 }
 
+/// Modifiers that tell one side of x = 0 from the other.
+bool differs_by_side(const friction::ParameterValues& values) {
+  if (values.has("load_gradient")) return true;
+  return values.has("fluctuation") && values.record("fluctuation").has("correlation_length");
+}
+
 }  // namespace
 
 LawCase law_case(std::string_view name, const friction::ParameterValues& values) {
@@ -382,7 +388,7 @@ LawCase law_case(std::string_view name, const friction::ParameterValues& values)
   LawCase result{.law = made.front(),
                  .parameters = &entry->parameters,
                  .values = values,
-                 .odd = entry->is_odd,
+                 .odd = entry->is_odd && !differs_by_side(completed),
                  .passive = entry->is_passive,
                  .random = entry->is_random};
   if (!entry->limits.empty())

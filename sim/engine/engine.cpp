@@ -47,6 +47,9 @@ core::Outcome check_digits(const friction::Law& law, const friction::Memory& mem
 }  // namespace
 
 Engine::Engine(const Model& model) : model_(valid(model)), drive_(model.oscillator, model.excitation) {
+  require(model.oscillator.loss_factor == 0.0,
+          "structural damping (system.loss_factor) has no motion in time: it is not causal",
+          "steady_state, xy_curve, frequency_response, regime_map");
   for (const friction::Law& law : model_.friction) {
     holds_mass_.push_back(law.holds_mass());
     modal_.push_back(law.is_modal());

@@ -103,7 +103,10 @@ class Engine {
   /// A law has changed its mode.
   virtual void jumped(std::size_t, const friction::Memory& /*before*/, friction::Trigger) {}
 
-  [[nodiscard]] friction::Instant now() const { return {time(), x_, v_}; }
+  [[nodiscard]] friction::Instant now() const {
+    const double w = model_.excitation.is_harmonic() ? model_.excitation.frequency : 0.0;
+    return {.t = time(), .x = x_, .v = v_, .angle = w * local_time_, .angle_rate = w};
+  }
   void pass_period();
   void change_direction(friction::Direction direction);
   void jump(std::size_t law, friction::Trigger trigger);

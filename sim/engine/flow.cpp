@@ -83,6 +83,10 @@ Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const 
   Instant now{.t = offset_ + t, .x = X[0], .v = X[1]};
   const double delay = model_.friction[i].delay();
   if (delay > 0.0) now.past_velocity = past_.at(t - delay);
+  if (model_.excitation.is_harmonic()) {
+    now.angle_rate = model_.excitation.frequency;
+    now.angle = now.angle_rate * t;
+  }
   return now;
 }
 

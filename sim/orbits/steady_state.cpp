@@ -19,6 +19,7 @@
 #include "sim/orbits/orbit_solver.hpp"
 #include "sim/orbits/patience.hpp"
 #include "sim/orbits/period_map.hpp"
+#include "sim/orbits/structural_damping.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::sim {
@@ -210,6 +211,7 @@ bool SteadyState::stable() const {
 
 SteadyState steady_state(const Model& model, const SteadyStateOptions& options) {
   valid_harmonic(model, "steady_state");
+  if (model.oscillator.loss_factor != 0.0) return steady_state(with_viscous_equivalent(model), options);
   SteadyState result;
   result.period = 2.0 * std::numbers::pi / model.excitation.frequency;
   for (const friction::Law& law : model.friction) {
@@ -226,6 +228,7 @@ SteadyState steady_state(const Model& model, const SteadyStateOptions& options) 
 
 std::vector<Sample> one_period(const Model& model, const SteadyState& state, int count) {
   valid_harmonic(model, "one_period");
+  if (model.oscillator.loss_factor != 0.0) return one_period(with_viscous_equivalent(model), state, count);
   require(count > 0 && state.period > 0.0 && state.start.memories.size() == model.friction.size(),
           "one period needs a steady state of the same model and a number of samples", "steady_state(model), > 0");
   const std::unique_ptr<Engine> engine = make_engine(model);

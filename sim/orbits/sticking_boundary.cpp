@@ -44,8 +44,9 @@ ForceLimits limits_of(const Model& model) {
 
 std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits) {
   const Oscillator& o = model.oscillator;
-  const bool his = limits.coulomb && limits.kinetic == limits.holding && o.damper_to == DamperTo::ground &&
-                   model.excitation.type == ExcitationType::base_harmonic && model.excitation.harmonics.empty();
+  const bool his = o.loss_factor == 0.0 && limits.coulomb && limits.kinetic == limits.holding &&
+                   o.damper_to == DamperTo::ground && model.excitation.type == ExcitationType::base_harmonic &&
+                   model.excitation.harmonics.empty();
   if (!his) return std::nullopt;
   const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
   const double r = model.excitation.frequency / std::sqrt(o.stiffness / o.mass);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/orbits/structural_damping.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::sim {
@@ -37,6 +38,7 @@ class Closing {
 }  // namespace
 
 Transient follow_transient(const Model& model, const TransientOptions& options) {
+  if (model.oscillator.loss_factor != 0.0) return follow_transient(with_viscous_equivalent(model), options);
   constexpr double rounding = 4e-15;
   Transient result;
   PeriodMap map(valid_harmonic(model, "follow_transient"), options.period_ratio);

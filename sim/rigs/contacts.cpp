@@ -64,6 +64,10 @@ sim::Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
                    {"attraction", 100.0 * base.F0 * base.reference.frequency}});
 }
 
+sim::Model free_play(const RigBase& base, RigValues p) {
+  return with_law(base.model, "free_play", {{"kinetic", base.F0}, {"play", p[0]}});
+}
+
 sim::Model iwan(const RigBase& base, RigValues p) {
   return with_law(base.model, "iwan", {{"limit", base.F0}, {"stiffness", p[0]}, {"count", 20.0}});
 }
@@ -117,6 +121,13 @@ std::vector<Rig> sliders() {
        .largest = 1.0,
        .values_at = only_stiffness,
        .plausible = {{"", {11.6e4}, "measured on the paper's rig, liang2004identifying"}}},
+      {.name = "free_play",
+       .meaning = "Coulomb friction behind free play, which the mass crosses without friction",
+       .parameters = {{.name = "play", .unit = "m", .meaning = "from one stop to the other", .range = positive}},
+       .build = free_play,
+       .severity = "free play over the amplitude X",
+       .largest = 1.0,
+       .values_at = [](const RigBase& base, double s) { return std::vector{s * base.reference.amplitude}; }},
       {.name = "generalized_maxwell_slip",
        .meaning = "elements that slip one after the other, with a friction that falls with speed",
        .parameters = {stiffness_parameter, excess_parameter, fall_parameter},

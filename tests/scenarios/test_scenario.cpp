@@ -169,3 +169,36 @@ TEST_CASE("scenario: line ends and byte order marks of other systems", "[scenari
   for (const char c : base) windows += c == '\n' ? "\r\n" : std::string(1, c);
   CHECK(scenarios::parse_scenario(windows, "w.yaml").resolved == with({}).resolved);
 }
+
+TEST_CASE("scenario: structural damping belongs to steady vibrations of one frequency", "[scenarios]") {
+  const std::vector<std::string> eta = {"system.loss_factor=0.1", "system.damper_to=base"};
+  const auto also = [&](std::vector<std::string> assignments) {
+    assignments.insert(assignments.begin(), eta.begin(), eta.end());
+    return assignments;
+  };
+  const Scenario scenario = with(eta);
+  CHECK(scenario.model.oscillator.loss_factor == 0.1);
+  // That it is not causal, and that friction makes further harmonics.
+  REQUIRE(scenario.warnings.size() == 2);
+  CHECK_THAT(scenario.warnings[0], Catch::Contains("not causal"));
+  const auto refused = [&](std::vector<std::string> assignments, const std::string& because) {
+    const auto problems = problems_with(std::move(assignments));
+    REQUIRE(problems.size() == 1);
+    CHECK_THAT(problems[0].message, Catch::Contains("system.loss_factor") && Catch::Contains(because));
+  };
+  refused(also({"analysis={type: simulate, duration: 1 s}"}), "not causal");
+  refused(also({"excitation={type: none}", "analysis={type: free_decay, peaks: 3}", "initial={position: 1 m}"}),
+          "not causal");
+  refused(also({"excitation.harmonics=[{order: 3, amplitude: 1 cm}]"}), "several harmonics");
+  refused({"system.loss_factor=0.1"}, "one damper");
+  CHECK(problems_with({"system.loss_factor=0.1", "system.damping=0"}).empty());
+}
+
+TEST_CASE("scenario: a load that follows the drive needs a harmonic one", "[scenarios]") {
+  const std::string law =
+      "system.friction={law: coulomb, kinetic: 2, load_modulation: {ratio: 0.5, phase: 90 deg}}";
+  CHECK(problems_with({law}).empty());
+  const auto problems = problems_with({law, "excitation={type: none}", "analysis={type: simulate, duration: 1 s}"});
+  REQUIRE(problems.size() == 1);
+  CHECK_THAT(problems[0].message, Catch::Contains("load_modulation"));
+}

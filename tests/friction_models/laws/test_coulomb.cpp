@@ -20,7 +20,7 @@ TEST_CASE("coulomb conforms to the law contract", "[friction][coulomb]") {
 
 TEST_CASE("coulomb is kinetic sgn v while slipping and holds up to static", "[friction][coulomb]") {
   const friction::Law law(Coulomb(2.0, 3.5));
-  for (const friction::Instant now : {friction::Instant{0.0, 0.0, 0.0}, {10.0, -3.0, 1e-9}, {0.1, 5.0, -100.0}}) {
+  for (const friction::Instant& now : {friction::Instant{0.0, 0.0, 0.0}, {10.0, -3.0, 1e-9}, {0.1, 5.0, -100.0}}) {
     CHECK(law.force({}, now, Direction::forward) == 2.0);
     CHECK(law.force({}, now, Direction::backward) == -2.0);
     CHECK(law.static_limit({}, now) == 3.5);
