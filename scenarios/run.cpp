@@ -23,7 +23,9 @@ bool is_document(const Json& value) {
 void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
     // Sentences are told apart from numbers; the verdict says the answer, and the table of estimates holds it.
-    if (value.is_structured() || is_document(value) || name == "verdict" || name.starts_with("answer")) return;
+    if (value.is_structured() || is_document(value) || name == "verdict" || name.ends_with(".text") ||
+        name.starts_with("answer"))
+      return;
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
     table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(value.get<double>(), digits)
