@@ -7,7 +7,9 @@
 
 #include "bench/case.hpp"
 #include "bench/grid.hpp"
-#include "bench/scores.hpp"
+#include "bench/score/score_tables.hpp"
+#include "bench/score/scores.hpp"
+#include "core/build_info.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/analyses/shared/long_run.hpp"
 #include "scenarios/results/case_file.hpp"
@@ -17,26 +19,16 @@ namespace dualdamp::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using scenarios::Json;
 using scenarios::RunContext;
 using scenarios::RunOptions;
-using scenarios::Table;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The scenario's system with its Coulomb friction taken out.
-Truth truth_of(const StressTest& question, const RunContext& context) {
-  Truth truth{.model = context.model, .F0 = question.F0};
-  truth.model.friction.clear();
-  return truth;
-}
-
 /// All motions that are left, on all threads of all processes.
-void run_cases(const StressTest& question, const Grid& grid, const RunContext& context, scenarios::CaseFile& file) {
+void run_cases(const Grid& grid, const RunContext& context, scenarios::CaseFile& file) {
   const RunOptions& options = context.options;
-  const Truth truth = truth_of(question, context);
   const sim::SteadyStateOptions steady = context.steady_states();
   scenarios::Meter meter(file.finished(), grid.cases(), options);
   const auto wanted = [&](std::size_t number) { return !file.is_finished(number); };
@@ -45,83 +37,7 @@ void run_cases(const StressTest& question, const Grid& grid, const RunContext& c
     meter.add();
   };
   scenarios::share_out(grid.motions(), options,
-                       [&](std::size_t motion) { run_motion(grid, truth, steady, motion, wanted, take); });
-}
-
-Table score_table(const Scores& scores, const Grid& grid) {
-  const StressTest& question = grid.question();
-  const auto motion = [&](const Score& score) { return grid.motion(score.motion); };
-  const auto of = [](ParameterScore Score::* parameter, double ParameterScore::* member) {
-    return [=](const Score& score) { return (score.*parameter).*member; };
-  };
-  using scenarios::column;
-  using scenarios::text_column;
-  const std::vector<Score>& list = scores.scores;
-  Table table{"scores",
-              {text_column("law", list, [&](const Score& s) { return motion(s).name(); }),
-               column("severity", "", list, [&](const Score& s) { return motion(s).severity; }),
-               text_column("range", list, [&](const Score& s) { return motion(s).range->name; }),
-               text_column("sensors", list, [&](const Score& s) { return question.sensors[s.sensors].name; }),
-               text_column("method", list, [&](const Score& s) { return question.methods[s.method]->name; }),
-               column("cases", "", list, &Score::cases), column("estimates", "", list, &Score::estimates)},
-              true};
-  for (const auto& [name, parameter] : {std::pair("zeta", &Score::zeta), std::pair("F0", &Score::F0)}) {
-    const std::string prefix = name;
-    table.columns.push_back(column(prefix + "_bias", "", list, of(parameter, &ParameterScore::bias)));
-    table.columns.push_back(column(prefix + "_spread", "", list, of(parameter, &ParameterScore::spread)));
-    table.columns.push_back(column(prefix + "_error", "", list, of(parameter, &ParameterScore::median_error)));
-    table.columns.push_back(column(prefix + "_coverage", "", list, of(parameter, &ParameterScore::coverage)));
-  }
-  table.columns.push_back(column("wrong", "", list, &Score::wrong));
-  table.columns.push_back(column("knew", "", list, &Score::knew));
-  table.columns.push_back(column("false_alarm", "", list, &Score::false_alarm));
-  table.key = "scores";
-  return table;
-}
-
-Table breakdown_table(const Scores& scores, const Grid& grid) {
-  const StressTest& question = grid.question();
-  const std::vector<Breakdown>& list = scores.breakdowns;
-  using scenarios::column;
-  using scenarios::text_column;
-  Table table{"breakdown",
-              {text_column("law", list, &Breakdown::law),
-               text_column("range", list, [&](const Breakdown& b) { return question.ranges[b.range].name; }),
-               text_column("sensors", list, [&](const Breakdown& b) { return question.sensors[b.sensors].name; }),
-               text_column("method", list, [&](const Breakdown& b) { return question.methods[b.method]->name; }),
-               column("zeta_5", "", list, &Breakdown::zeta_5), column("zeta_20", "", list, &Breakdown::zeta_20),
-               column("F0_5", "", list, &Breakdown::F0_5), column("F0_20", "", list, &Breakdown::F0_20),
-               column("wrong", "", list, &Breakdown::wrong), column("knew", "", list, &Breakdown::knew)},
-              true};
-  table.key = "breakdown";
-  return table;
-}
-
-Table ranking_table(const Scores& scores, const Grid& grid) {
-  const std::vector<Ranking>& list = scores.ranking;
-  using scenarios::column;
-  using scenarios::text_column;
-  Table table{
-      "ranking",
-      {text_column("method", list, [&](const Ranking& r) { return grid.question().methods[r.method]->name; }),
-       column("worth", "", list, &Ranking::worth), column("trusted", "", list, &Ranking::trusted),
-       column("unwarned", "", list, &Ranking::unwarned), column("wrong", "", list, &Ranking::wrong),
-       column("knew", "", list, &Ranking::knew), column("false_alarm", "", list, &Ranking::false_alarm),
-       column("coverage", "", list, &Ranking::coverage)}};
-  table.key = "ranking";
-  return table;
-}
-
-Json summary(const Scores& scores, const Grid& grid) {
-  Json json;
-  json["cases"] = {{"all", grid.cases()},
-                   {"failed", scores.failed_cases},
-                   {"motions", grid.motions()},
-                   {"estimates", grid.cases() * grid.question().methods.size()}};
-  json["severities"] = Json::object();
-  for (const Rig* law : grid.question().laws) json["severities"][std::string(law->name)] = law->severity;
-  for (const char* key : {"ranking", "breakdown", "scores"}) json[key] = nullptr;
-  return json;
+                       [&](std::size_t motion) { run_motion(grid, steady, motion, wanted, take); });
 }
 
 }  // namespace
@@ -134,12 +50,11 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   const std::size_t severities = sample.severities.size();
   sample.severities = {sample.severities[severities / 2]};
   sample.ranges.resize(1);
+  sample.rigs.resize(1);
   sample.seeds = 1;
   const Grid grid(sample);
-  const Truth truth = truth_of(question, context);
   const auto try_motion = [&](const Grid& cases, std::size_t motion) {
-    run_motion(
-        cases, truth, context.steady_states(), motion, [](std::size_t) { return true; }, [](const std::string&) {});
+    run_motion(cases, context.steady_states(), motion, [](std::size_t) { return true; }, [](const std::string&) {});
   };
   const Clock::time_point start = Clock::now();
   for (std::size_t motion = 0; motion < grid.motions(); ++motion) try_motion(grid, motion);
@@ -149,14 +64,14 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   const Grid twice(sample);
   try_motion(twice, 0);
   const double reading = seconds_since(again) / static_cast<double>(twice.cases_per_motion());
-  size.seconds = (motions * static_cast<double>(severities * question.ranges.size()) +
+  size.seconds = (motions * static_cast<double>(severities * question.ranges.size() * question.rigs.size()) +
                   reading * static_cast<double>(size.cases)) /
                  std::thread::hardware_concurrency();
   constexpr double of_program = 60.0;
   constexpr double of_case = 30e-6;
-  constexpr double of_score = 250e-6;
-  size.megabytes = of_program + of_case * static_cast<double>(size.cases) +
-                   of_score * static_cast<double>(size.motions * sample.sensors.size() * sample.methods.size());
+  constexpr double of_estimate = 40e-6;
+  size.megabytes =
+      of_program + of_case * static_cast<double>(size.cases) + of_estimate * static_cast<double>(size.estimates);
   return size;
 }
 
@@ -174,18 +89,14 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   scenarios::CaseFile file(options.directory, "cases", scenarios::fingerprint(context.resolved), grid.cases(),
                            processes.rank());
   const bool is_complete = scenarios::open_cases(file, grid.cases(), options);
-  run_cases(question, grid, context, file);
+  run_cases(grid, context, file);
   if (processes.rank() != 0) file.close();
   processes.wait();
   if (processes.rank() != 0) return {};
   file.finish();
-  const Scores scores = score(file.path(), grid, sim::damping_ratio(context.model.oscillator), question.F0);
-  scenarios::Answer answer;
-  answer.result = summary(scores, grid);
-  answer.tables = {ranking_table(scores, grid), breakdown_table(scores, grid), score_table(scores, grid)};
+  scenarios::Answer answer = answer_of(read_cases(file.path(), grid), grid);
   if (is_complete && options.found == scenarios::FoundCases::refuse)
     answer.warnings.push_back("all cases of this campaign were there already: they are scored anew, not computed");
-  if (scores.failed_cases > 0) answer.status = core::ExitStatus::some_cases_failed;
   return answer;
 }
 

@@ -1,9 +1,11 @@
 #include "bench/case.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "bench/motions.hpp"
 #include "identify/estimate.hpp"
-#include "scenarios/measurements/measure.hpp"
 
 namespace dualdamp::bench {
 
@@ -12,46 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using identify::Estimate;
 
-/// What all cases of a motion share: perfect sensors' view of its steady states and of its decay.
-struct Motions {
-  scenarios::MotionRecord curve;
-  std::optional<scenarios::MotionRecord> decay;
-  double stated = 1.0;  ///< forcing frequency that the laboratory believes in, over the one it drives at
-};
-
-ReferenceMotion reference_of(const Truth& truth, const ExcitationRange& range,
-                             const sim::SteadyStateOptions& options) {
-  sim::Model model = undisturbed(truth);
-  model.excitation.amplitude = range.amplitudes[range.amplitudes.size() / 2];
-  model.excitation.frequency = range.frequencies[range.frequencies.size() / 2];
-  const sim::SteadyState middle = sim::steady_state(model, options);
-  return {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude};
-}
-
-sim::Model model_of(const Grid::Motion& motion, const Truth& truth, const sim::SteadyStateOptions& options) {
-  if (motion.law == nullptr) return undisturbed(truth);
-  return departed(*motion.law, truth, reference_of(truth, *motion.range, options), motion.severity);
-}
-
-Motions motions_of(const Grid& grid, const Grid::Motion& motion, const Truth& truth,
-                   const identify::Sensors& sensors, const sim::SteadyStateOptions& options) {
-  const sim::Model model = model_of(motion, truth, options);
-  Motions result;
-  scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
-  curve.amplitudes = motion.range->amplitudes;
-  curve.frequencies = motion.range->frequencies;
-  result.stated = truth.model.excitation.frequency / model.excitation.frequency;
-  for (double& frequency : curve.frequencies) frequency /= result.stated;
-  result.curve = scenarios::motion_of(model, curve, sensors, options);
-  if (!grid.question().decay) return result;
-  sim::Model released = model;
-  released.excitation = {};
-  released.initial = {.position = grid.question().decay->displacement};
-  scenarios::Measurement decay{.kind = scenarios::MeasurementKind::free_decay};
-  decay.peaks = grid.question().decay->peaks;
-  result.decay = scenarios::motion_of(released, decay, sensors, options);
-  return result;
-}
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json interval_json(const std::optional<identify::ParameterIntervals>& intervals,
                    std::array<double, 2> identify::ParameterIntervals::* member) {
@@ -69,47 +32,75 @@ Json estimate_json(const Estimate& estimate) {
   json["F0"] = estimate.value.F0;
   json["zeta95"] = interval_json(estimate.interval95, &identify::ParameterIntervals::zeta);
   json["F095"] = interval_json(estimate.interval95, &identify::ParameterIntervals::F0);
-  json["usable"] = estimate.usable;
-  json["fired"] = estimate.lack_of_fit && estimate.lack_of_fit->fired;
+  json["p_value"] = estimate.lack_of_fit ? number_json(estimate.lack_of_fit->p_value) : Json(nullptr);
+  // What the method says of itself: the ledger of assumptions is not asked.
+  json["usable"] = estimate.usable && !(estimate.lack_of_fit && estimate.lack_of_fit->fired);
   return json;
+}
+
+Json consequence_json(const Consequence& consequence) {
+  return {{"distance", number_json(consequence.distance)},
+          {"harm", number_json(consequence.harm())},
+          {"harm_zeta", number_json(consequence.harm_zeta)},
+          {"harm_F0", number_json(consequence.harm_F0)},
+          {"attainable_power", number_json(consequence.attainable_power)},
+          {"cramer_rao_zeta", number_json(consequence.cramer_rao_zeta)},
+          {"cramer_rao_F0", number_json(consequence.cramer_rao_F0)}};
 }
 
 }  // namespace
 
-void run_motion(const Grid& grid, const Truth& truth, const sim::SteadyStateOptions& options, std::size_t number,
-                const std::function<bool(std::size_t)>& wanted, const TakeLine& take) {
+void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::size_t number,
+                    const std::function<bool(std::size_t)>& wanted,
+                    const std::function<void(const MeasuredCase&)>& take) {
   const StressTest& question = grid.question();
   const Grid::Motion motion = grid.motion(number);
-  const sim::Oscillator& oscillator = truth.model.oscillator;
-  const identify::KnownConstants constants{oscillator.mass, oscillator.stiffness, truth.model.excitation.frequency};
+  const TrueRig& rig = question.rigs[motion.rig];
+  const MotionMaker maker(question, rig, question.ranges[motion.range], options);
+  const sim::Oscillator& oscillator = rig.truth.model.oscillator;
   std::size_t place = number * grid.cases_per_motion();
-  std::optional<Motions> unsampled;  // serves all sensors that sample nothing
+  std::optional<DepartedMotions> unsampled;  // serves all sensors that sample nothing
   for (const SensorSet& sensors : question.sensors) {
-    std::optional<Motions> sampled;
-    std::optional<Motions>& motions = sensors.sensors.sample_rate > 0.0 ? sampled : unsampled;
+    Laboratory laboratory{{oscillator.mass, oscillator.stiffness, rig.truth.model.excitation.frequency},
+                          sensors.sensors};
+    if (motion.law != nullptr && motion.law->mislead != nullptr) motion.law->mislead(laboratory, motion.severity);
+    std::optional<DepartedMotions> sampled;
+    std::optional<DepartedMotions>& motions = sensors.sensors.sample_rate > 0.0 ? sampled : unsampled;
+    std::optional<Consequence> consequence;
     for (int seed = 0; seed < question.seeds; ++seed, ++place) {
       if (!wanted(place)) continue;
-      if (!motions) motions = motions_of(grid, motion, truth, sensors.sensors, options);
+      if (!consequence) {
+        DepartedRig departed{motion.law, motion.severity};
+        if (motion.law != nullptr) departed.reference = maker.reference();
+        if (!motions) motions = departed_motions(maker, departed, rig.truth, laboratory.sensors);
+        consequence = consequence_of(maker, departed, rig, *motions, laboratory, sensors.sensors);
+      }
       std::vector<std::string> warnings;
-      const auto random = static_cast<std::uint64_t>(seed);
-      identify::Record record = scenarios::reading(motions->curve, sensors.sensors, random, warnings);
-      if (record.pairs)
-        for (identify::Pair& pair : record.pairs->pairs) pair.omega *= motions->stated;
-      if (motions->decay)
-        record.decay = scenarios::reading(*motions->decay, sensors.sensors, random, warnings).decay;
-      Json line = {{"case", place},
-                   {"law", motion.name()},
-                   {"severity", motion.severity},
-                   {"range", motion.range->name},
-                   {"sensors", sensors.name},
-                   {"seed", seed}};
-      if (!motions->curve.warnings.empty()) line["reason"] = motions->curve.warnings.front();
-      line["estimates"] = Json::array();
-      for (const identify::MethodEntry* method : question.methods)
-        line["estimates"].push_back(estimate_json(method->run(record, constants, {})));
-      take(line.dump());
+      const identify::Record record = motions->here.reading(laboratory.sensors, grid.seed(place), warnings);
+      const std::string reason = motions->here.curve.warnings.empty() ? "" : motions->here.curve.warnings.front();
+      take({place, record, laboratory.constants, sensors, *consequence, reason});
     }
   }
+}
+
+void run_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::size_t number,
+                const std::function<bool(std::size_t)>& wanted, const TakeLine& take) {
+  const Grid::Motion motion = grid.motion(number);
+  measure_motion(grid, options, number, wanted, [&](const MeasuredCase& measured) {
+    Json line = {{"case", measured.number},
+                 {"law", motion.name()},
+                 {"severity", motion.severity},
+                 {"rig", motion.rig},
+                 {"range", grid.question().ranges[motion.range].name},
+                 {"sensors", measured.sensors.name},
+                 {"seed", grid.at(measured.number).seed}};
+    line.update(consequence_json(measured.consequence));
+    if (!measured.reason.empty()) line["reason"] = measured.reason;
+    line["estimates"] = Json::array();
+    for (const identify::MethodEntry* method : grid.question().methods)
+      line["estimates"].push_back(estimate_json(method->run(measured.record, measured.constants, {})));
+    take(line.dump());
+  });
 }
 
 }  // namespace dualdamp::bench

@@ -1,22 +1,39 @@
 #pragma once
-/// One motion of a stress test, measured and identified: the finished cases as lines of `cases.jsonl`.
+/// One motion of a stress test, measured: its records, and what methods make of them.
 
 #include <cstddef>
 #include <functional>
 #include <string>
 
+#include "bench/consequence.hpp"
 #include "bench/grid.hpp"
+#include "identify/record.hpp"
+#include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
+
+/// A case as a laboratory has it, and what is known of it beside.
+struct MeasuredCase {
+  std::size_t number = 0;
+  const identify::Record& record;
+  const identify::KnownConstants& constants;
+  const SensorSet& sensors;
+  const Consequence& consequence;
+  const std::string& reason;  ///< why some of it could not be measured; empty
+};
+
+/// Computes motion `number` once and measures those of its cases that are `wanted`.
+void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::size_t number,
+                    const std::function<bool(std::size_t)>& wanted,
+                    const std::function<void(const MeasuredCase&)>& take);
 
 /// A finished case: its line without line end.
 using TakeLine = std::function<void(const std::string& line)>;
 
-/// Computes motion `number` once and those of its cases that are `wanted`. A case that cannot be measured is a line
-/// with a reason.
-void run_motion(const Grid& grid, const Truth& truth, const sim::SteadyStateOptions& options, std::size_t number,
+/// The same, read by all methods: finished cases as lines of `cases.jsonl`. A case that cannot be measured is a
+/// line with a reason.
+void run_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::size_t number,
                 const std::function<bool(std::size_t)>& wanted, const TakeLine& take);
 
 }  // namespace dualdamp::bench

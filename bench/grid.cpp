@@ -2,17 +2,31 @@
 
 namespace dualdamp::bench {
 
+namespace {
+
+/// Neighbours in, strangers out: the finalizer of SplitMix64 (steele2014fast).
+std::uint64_t mixed(std::uint64_t z) {
+  z += 0x9E3779B97F4A7C15U;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+  return z ^ (z >> 31U);
+}
+
+}  // namespace
+
 Grid::Grid(const StressTest& question)
     : question_(question),
       motions_per_range_(1 + question.laws.size() * question.severities.size()),
       cases_per_motion_(question.sensors.size() * static_cast<std::size_t>(question.seeds)) {}
 
 Grid::Motion Grid::motion(std::size_t number) const {
-  Motion motion{.range = &question_.ranges[number / motions_per_range_]};
-  const std::size_t place = number % motions_per_range_;
-  if (place == 0) return motion;
-  motion.law = question_.laws[(place - 1) / question_.severities.size()];
-  motion.severity = question_.severities[(place - 1) % question_.severities.size()];
+  const std::size_t ranges = question_.ranges.size();
+  Motion motion{.rig = number / motions_per_range_ / ranges,
+                .range = number / motions_per_range_ % ranges,
+                .place = number % motions_per_range_};
+  if (motion.place == 0) return motion;
+  motion.law = question_.laws[(motion.place - 1) / question_.severities.size()];
+  motion.severity = question_.severities[(motion.place - 1) % question_.severities.size()];
   return motion;
 }
 
@@ -20,6 +34,17 @@ Grid::Case Grid::at(std::size_t number) const {
   const std::size_t place = number % cases_per_motion_;
   const auto seeds = static_cast<std::size_t>(question_.seeds);
   return {number / cases_per_motion_, place / seeds, place % seeds};
+}
+
+TrueParameters Grid::parameters(const Motion& motion) const {
+  TrueParameters truth = question_.rigs[motion.rig].parameters();
+  if (motion.law != nullptr && !motion.law->has_F0) truth.F0 = not_stated;
+  if (motion.law != nullptr && !motion.law->has_zeta) truth.zeta = not_stated;
+  return truth;
+}
+
+std::uint64_t Grid::seed(std::size_t number) const {
+  return mixed(mixed(static_cast<std::uint64_t>(question_.seed)) + number);
 }
 
 }  // namespace dualdamp::bench

@@ -1,11 +1,14 @@
 #pragma once
 /// The grid of a stress test, expanded: cases by number, and what they share.
 ///
-/// A motion is one law at one severity over one range of excitation. It serves all sensors and seeds, which are the
-/// cases; a case serves all methods. Motion 0 of each range is the truth itself, friction that is Coulomb +
-/// viscous: there a diagnostic is a false alarm.
+/// A motion is one law at one severity on one rig over one range of excitation. It serves all sensors and seeds,
+/// which are the cases; a case serves all methods. Motion 0 of each rig and range is the truth itself, friction
+/// that is Coulomb + viscous: there a rejection is a false alarm.
+///
+/// A cell is what cases differ in by rig and seed only: law, severity, range and sensors.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "bench/stress_test.hpp"
@@ -19,12 +22,16 @@ class Grid {
  public:
   explicit Grid(const StressTest& question);
 
-  [[nodiscard]] std::size_t motions() const { return motions_per_range_ * question_.ranges.size(); }
+  [[nodiscard]] std::size_t motions() const {
+    return motions_per_range_ * question_.ranges.size() * question_.rigs.size();
+  }
   [[nodiscard]] std::size_t cases_per_motion() const { return cases_per_motion_; }
   [[nodiscard]] std::size_t cases() const { return motions() * cases_per_motion_; }
 
   struct Motion {
-    const ExcitationRange* range = nullptr;
+    std::size_t rig = 0;
+    std::size_t range = 0;
+    std::size_t place = 0;     ///< among the motions of a rig and range
     const Rig* law = nullptr;  ///< nullptr: the truth
     double severity = 0.0;
     [[nodiscard]] std::string name() const { return law == nullptr ? truth_name : std::string(law->name); }
@@ -37,6 +44,21 @@ class Grid {
     std::size_t seed = 0;
   };
   [[nodiscard]] Case at(std::size_t number) const;
+
+  [[nodiscard]] std::size_t cells() const {
+    return motions_per_range_ * question_.ranges.size() * question_.sensors.size();
+  }
+  [[nodiscard]] std::size_t cell_of(const Motion& motion, std::size_t sensors) const {
+    return (motion.range * motions_per_range_ + motion.place) * question_.sensors.size() + sensors;
+  }
+  /// A motion of the first rig, and the sensors, of a cell.
+  [[nodiscard]] Case first_of_cell(std::size_t cell) const {
+    return {cell / question_.sensors.size(), cell % question_.sensors.size(), 0};
+  }
+  /// What methods can find in it.
+  [[nodiscard]] TrueParameters parameters(const Motion& motion) const;
+  /// Of all draws of a case.
+  [[nodiscard]] std::uint64_t seed(std::size_t number) const;
 
   [[nodiscard]] const StressTest& question() const { return question_; }
 

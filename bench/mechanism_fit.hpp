@@ -21,8 +21,8 @@
 #include "bench/mechanisms.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
+#include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state_near.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "identify/rigs/rigs.hpp"
 #include "scenarios/analyses/analysis.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 

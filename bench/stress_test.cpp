@@ -1,18 +1,20 @@
 #include "bench/stress_test.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "bench/campaign.hpp"
+#include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
+#include "identify/rigs/rigs.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/method_choice.hpp"
 #include "scenarios/measurements/sensors.hpp"
 #include "scenarios/measurements/work_checks.hpp"
 #include "scenarios/results/motion.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -25,6 +27,7 @@ class StressTestQuestion final : public Question, public Campaign {
   explicit StressTestQuestion(StressTest question) : question_(std::move(question)) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override { return run_campaign(question_, context); }
+  [[nodiscard]] const StressTest& question() const { return question_; }
   [[nodiscard]] std::string size(const RunContext& context) const override {
     return describe(size_of(question_, context));
   }
@@ -37,6 +40,26 @@ std::vector<std::string> departure_names() {
   std::vector<std::string> names;
   for (const Rig& departure : departures()) names.emplace_back(departure.name);
   return names;
+}
+
+/// {from, to}: between which the rigs lie, spaced by ratios.
+Field between(const std::string& name, const std::string& meaning) {
+  return section(name,
+                 {{quantity("from", {"1"}, "smallest").required().above(0),
+                   quantity("to", {"1"}, "largest").required().above(0)}},
+                 meaning);
+}
+
+Section rig_keys() {
+  constexpr int max_rigs = 10'000;
+  return {
+      {integer("count", "how many").required().at_least(1).at_most(max_rigs),
+       between("damping_ratio", "zeta; default: that of the scenario"),
+       between("friction_ratio",
+               "F0 over k Y, Y the amplitude in the middle of the first range; default: that of the scenario"),
+       between("frequency_ratio",
+               "forcing frequency over the natural one, where a range names no frequencies; default: that of the "
+               "scenario")}};
 }
 
 Section keys() {
@@ -61,50 +84,14 @@ Section keys() {
        section_list("sensors", Section{std::move(set)},
                     "what the curves are measured with; default: perfect sensors")
            .items(1, max_sets),
-       integer("seeds", "number of seeds of the sensors' noise").with_fallback(1).at_least(1).at_most(max_seeds),
+       integer("seeds", "readings of each motion by each set of sensors, each with noise of its own")
+           .with_fallback(1)
+           .at_least(1)
+           .at_most(max_seeds),
+       seed(),
+       section("rigs", rig_keys(), "rigs of a low-discrepancy set (Halton); default: the rig of the scenario"),
        section("decay", decay, "a free vibration in addition to each curve, for the methods that need one"),
        methods_key("all that the measurements allow")}};
-}
-
-scenarios::ResultFields fields() {
-  return {{"cases.all", "1", "cases of the grid"},
-          {"cases.failed", "1", "cases without an estimate by any method"},
-          {"cases.motions", "1", "motions computed for them"},
-          {"cases.estimates", "1", "cases times methods"},
-          {"ranking[].method", "", "a method, best first"},
-          {"ranking[].unwarned", "1", "share of missed detections: wrong by more than 5 % without a diagnostic"},
-          {"ranking[].wrong", "1", "share of cases that are off by more than 5 %"},
-          {"ranking[].knew", "1", "share of the wrong ones with a diagnostic"},
-          {"ranking[].false_alarm", "1", "share of false alarms where friction is Coulomb + viscous"},
-          {"ranking[].coverage", "1", "share of 95 % intervals that hold the true F0 there"},
-          {"breakdown[].law", "", "departure"},
-          {"breakdown[].range", "", "range of excitation"},
-          {"breakdown[].sensors", "", "sensors"},
-          {"breakdown[].method", "", "method"},
-          {"breakdown[].zeta_5", "1", "severity from which zeta is off by more than 5 %"},
-          {"breakdown[].zeta_20", "1", "or by more than 20 %"},
-          {"breakdown[].F0_5", "1", "severity from which F0 is off by more than 5 %"},
-          {"breakdown[].F0_20", "1", "or by more than 20 %"},
-          {"breakdown[].wrong", "1", "share of cases that are off by more than 5 %"},
-          {"breakdown[].knew", "1", "share of the wrong ones with a diagnostic"},
-          {"scores[].law", "", "departure, or coulomb_viscous"},
-          {"scores[].severity", "1", "its size"},
-          {"scores[].range", "", "range of excitation"},
-          {"scores[].sensors", "", "sensors"},
-          {"scores[].method", "", "method"},
-          {"scores[].cases", "1", "seeds"},
-          {"scores[].estimates", "1", "seeds with a number"},
-          {"scores[].zeta_bias", "1", "mean error of zeta, relative"},
-          {"scores[].zeta_spread", "1", "standard deviation of it"},
-          {"scores[].zeta_error", "1", "median of its modulus"},
-          {"scores[].zeta_coverage", "1", "share of 95 % intervals that hold the truth"},
-          {"scores[].F0_bias", "1", "mean error of F0, relative"},
-          {"scores[].F0_spread", "1", "standard deviation of it"},
-          {"scores[].F0_error", "1", "median of its modulus"},
-          {"scores[].F0_coverage", "1", "share of 95 % intervals that hold the truth"},
-          {"scores[].wrong", "1", "share of cases that are off by more than 5 %"},
-          {"scores[].knew", "1", "share of the wrong ones with a diagnostic"},
-          {"scores[].false_alarm", "1", "share of the right ones with a diagnostic: false alarms"}};
 }
 
 /// Beyond its largest severity a departure has no meaning.
@@ -200,33 +187,70 @@ void check(CheckedFile& file) {
       (1 + analysis.at("laws").size() * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
   const std::size_t sets = analysis.contains("sensors") ? analysis.at("sensors").size() : 1;
   constexpr double most_cases = 1e7;
-  const double cases = static_cast<double>(motions) * static_cast<double>(sets) * analysis.value("seeds", 1);
+  const int rigs = analysis.contains("rigs") ? analysis.at("rigs").value("count", 1) : 1;
+  const double cases = static_cast<double>(motions) * static_cast<double>(sets) * analysis.value("seeds", 1) *
+                       static_cast<double>(rigs);
   if (cases > most_cases)
     file.complain("analysis.type", "the stress test has too many cases",
                   "at most " + core::format_number(most_cases, 6) +
-                      ": laws times severities times ranges times sensors times seeds",
+                      ": laws times severities times ranges times sensors times rigs times seeds",
                   core::format_number(cases, 9));
+}
+
+/// Van der Corput's sequence: the digits of n in this base, mirrored behind the point.
+double mirrored(int n, int base) {
+  double result = 0.0;
+  for (double place = 1.0 / base; n > 0; n /= base, place /= base) result += place * (n % base);
+  return result;
+}
+
+/// The truth of the scenario, or rigs at the points of Halton's sequence.
+std::vector<TrueRig> rigs_of(const CheckedValues& values, double middle) {
+  Truth truth{.model = values.model, .F0 = number(values.system.at("friction").at("kinetic"))};
+  truth.model.friction.clear();
+  if (!values.analysis.contains("rigs")) return {{truth, values.model.excitation.frequency}};
+  const Json& keys = values.analysis.at("rigs");
+  const sim::Oscillator own = truth.model.oscillator;
+  std::vector<TrueRig> rigs;
+  for (int i = 1; i <= keys.at("count").get<int>(); ++i) {
+    const auto drawn = [&](const char* key, int base, double fallback) {
+      if (!keys.contains(key)) return fallback;
+      const double from = number(keys.at(key).at("from"));
+      return from * std::pow(number(keys.at(key).at("to")) / from, mirrored(i, base));
+    };
+    TrueRig rig{truth};
+    rig.truth.model.oscillator.damping =
+        2.0 * std::sqrt(own.mass * own.stiffness) * drawn("damping_ratio", 2, sim::damping_ratio(own));
+    rig.truth.F0 = own.stiffness * middle * drawn("friction_ratio", 3, truth.F0 / (own.stiffness * middle));
+    rig.truth.model.excitation.frequency =
+        sim::natural_frequency(own) *
+        drawn("frequency_ratio", 5, truth.model.excitation.frequency / sim::natural_frequency(own));
+    rig.frequency = rig.truth.model.excitation.frequency;
+    rigs.push_back(std::move(rig));
+  }
+  return rigs;
 }
 
 /// The friction of the system is the truth, one Coulomb law (check_truth).
 StressTest stress_test_of(const CheckedValues& values) {
   const Json& section = values.analysis;
-  const double frequency = values.model.excitation.frequency;
   StressTest result;
-  result.F0 = number(values.system.at("friction").at("kinetic"));
   for (const Json& name : section.at("laws")) result.laws.push_back(find_departure(name.get<std::string>()));
   result.severities = grid_values(section.at("severities"));
   std::ranges::sort(result.severities);
   for (const Json& range : section.at("ranges"))
     result.ranges.push_back(
         {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
-         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{frequency}});
+         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{}});
+  const std::vector<double>& levels = result.ranges.front().amplitudes;
+  result.rigs = rigs_of(values, levels[levels.size() / 2]);
   if (section.contains("sensors"))
     for (const Json& set : section.at("sensors"))
       result.sensors.push_back({set.at("name").get<std::string>(), sensors_of(set)});
   else
     result.sensors.push_back({"perfect", {}});
   result.seeds = section.at("seeds").get<int>();
+  result.seed = section.at("seed").get<std::int64_t>();
   if (section.contains("decay"))
     result.decay = {number(section.at("decay").at("displacement")), section.at("decay").at("peaks").get<int>()};
   result.methods = methods_of(section.at("methods"));
@@ -239,15 +263,22 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
 
 }  // namespace
 
+const StressTest* stress_test_of(const Question& question) {
+  const auto* const asked = dynamic_cast<const StressTestQuestion*>(&question);
+  return asked == nullptr ? nullptr : &asked->question();
+}
+
+std::unique_ptr<const Question> question_of(StressTest question) {
+  return std::make_unique<StressTestQuestion>(std::move(question));
+}
+
 const Analysis& stress_test_analysis() {
   static const Analysis analysis = {
       .name = "stress_test",
-      .summary =
-          "how wrong each method is under friction that is not Coulomb + viscous, and whether its diagnostics say "
-          "so",
+      .summary = "how wrong each method is under friction that is not Coulomb + viscous, and whether it rejects",
       .keys = keys(),
       .needs = {{"", {"base_harmonic"}, {"frequency"}, true, "the methods need the amplitude of the base"}},
-      .results = fields(),
+      .results = score_fields(),
       .check = check,
       .ask = ask};
   return analysis;

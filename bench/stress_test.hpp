@@ -4,14 +4,18 @@
 ///
 /// The run is a campaign: campaign.hpp.
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/score/case_answer.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
+#include "identify/rigs/rigs.hpp"
 #include "scenarios/analyses/analysis.hpp"
-#include "sim/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -19,7 +23,7 @@ namespace dualdamp::bench {
 struct ExcitationRange {
   std::string name;
   std::vector<double> amplitudes;   ///< m
-  std::vector<double> frequencies;  ///< rad/s; the excitation's own where the scenario names none
+  std::vector<double> frequencies;  ///< rad/s; empty: that of the rig
 };
 
 struct SensorSet {
@@ -33,16 +37,38 @@ struct DecayTest {
   int peaks = 0;
 };
 
+/// The truth that departures depart from.
+struct TrueRig {
+  Truth truth;
+  double frequency = 0.0;  ///< of the drive, where a range names none [rad/s]
+
+  [[nodiscard]] TrueParameters parameters() const { return {sim::damping_ratio(truth.model.oscillator), truth.F0}; }
+};
+
 struct StressTest {
-  double F0 = 0.0;  ///< the Coulomb friction of the truth [N]
+  std::vector<TrueRig> rigs;
   std::vector<const Rig*> laws;
   std::vector<double> severities;  ///< ascending, > 0
   std::vector<ExcitationRange> ranges;
   std::vector<SensorSet> sensors;
-  int seeds = 1;  ///< 0 to seeds - 1
+  int seeds = 1;          ///< cases of each motion and set of sensors
+  std::int64_t seed = 0;  ///< of all random draws, which are independent from case to case
   std::vector<const identify::MethodEntry*> methods;
   std::optional<DecayTest> decay;
+  std::vector<Entry> entries;  ///< answers of programs outside, scored beside the methods
+
+  /// Who takes part: the methods, then the entries.
+  [[nodiscard]] std::size_t entrants() const { return methods.size() + entries.size(); }
+  [[nodiscard]] std::string entrant(std::size_t number) const {
+    return number < methods.size() ? std::string(methods[number]->name) : entries[number - methods.size()].name;
+  }
 };
+
+/// The stress test that a question asks for; nullptr where it asks for something else.
+[[nodiscard]] const StressTest* stress_test_of(const scenarios::Question& question);
+
+/// The question with entries in it.
+[[nodiscard]] std::unique_ptr<const scenarios::Question> question_of(StressTest question);
 
 [[nodiscard]] const scenarios::Analysis& stress_test_analysis();
 

@@ -1,23 +1,15 @@
-// The stress test: which method is wrong under which law, and whether its diagnostics say so.
+// The stress test: who is right, who knows, what nobody can know.
 
-const meanings = {
-  worth: "trusted minus unwarned",
-  trusted: "right within 5 %, no diagnostic",
-  unwarned: "missed detections: wrong by more than 5 %, no diagnostic",
-  wrong: "wrong by more than 5 %",
-  knew: "of the wrong ones, those with a diagnostic",
-  false_alarm: "false alarms: a diagnostic though friction is Coulomb + viscous",
-  coverage: "95 % intervals that hold the true F0, where friction is Coulomb + viscous",
+const metricMeanings = {
+  interval_score: "mean of the interval scores of zeta and F0, relative to the truth; smaller is better; saying nothing scores 2",
+  coverage_zeta: "95 % intervals that hold the true zeta",
+  coverage_F0: "95 % intervals that hold the true F0",
+  power: "cases with a departure that the method rejects",
+  attainable_power: "the same of the best test which knows the departure and the noise",
+  false_alarm: "cases without a departure that the method rejects",
+  selective_risk_area: "mean loss (largest relative error, 1 at most) over coverage, the cases in the order of the method's own confidence",
 };
-
-const percentText = (share) => (share === null ? "–" : `${Math.round(100 * share)} %`);
-
-/** A colour from calm to alarming for a share between 0 and 1; the text says the number too. */
-function heat(share) {
-  if (share === null) return null;
-  const light = 92 - 42 * share;
-  return `background:hsl(${Math.round(150 - 145 * share)} 60% ${light}%)`;
-}
+const isShare = (name) => !name.startsWith("interval_score") && name !== "selective_risk_area";
 
 /** Rows of a table as objects. */
 function rowsOf(name) {
@@ -25,93 +17,85 @@ function rowsOf(name) {
   return columns[0].values.map((_, i) => Object.fromEntries(columns.map((column) => [column.name, column.isText ? column.texts[i] : column.values[i]])));
 }
 
-const mean = (list) => (list.length ? list.reduce((sum, v) => sum + v, 0) / list.length : null);
+/** A metric and its standard error: "94 % ± 2". */
+function metricText(row, name) {
+  const [value, se] = [row[name], row[`${name}_se`]];
+  if (value === null || value === undefined) return "–";
+  if (isShare(name)) return `${Math.round(100 * value)} %${se ? ` ± ${(100 * se).toFixed(100 * se < 1 ? 1 : 0)}` : ""}`;
+  return `${short(value, 3)}${se ? ` ± ${short(se, 1)}` : ""}`;
+}
 
-/** Share of missed detections, over all severities, ranges and sensors. */
-const unwarnedUnder = (rows, law, method) =>
-  mean(rows.filter((row) => row.law === law && row.method === method).map((row) => row.wrong * (1 - (row.wrong > 0 ? row.knew : 0))));
+/** A colour from calm to alarming for a number between 0 and 1; the text says the number too. */
+function heat(share) {
+  if (share === null || share === undefined) return null;
+  const level = Math.min(1, Math.max(0, share));
+  return `background:hsl(${Math.round(150 - 145 * level)} 60% ${92 - 42 * level}%);color:#111`;
+}
 
-/** In words: the best method, the laws under which it misses most detections, and the method that misses most of all. */
-function stressVerdict(rows) {
+/** In words: who leads, and what rejections are worth. */
+function stressVerdict() {
   const ranking = rowsOf("ranking");
-  const best = ranking[0];
-  const harmful = ranking.reduce((worst, row) => (row.unwarned > worst.unwarned ? row : worst));
-  const silent = [...new Set(rows.map((row) => row.law))]
-    .map((law) => ({ law, share: unwarnedUnder(rows, law, best.method) }))
-    .filter(({ share }) => share >= 0.05).sort((a, b) => b.share - a.share).slice(0, 4)
-    .map(({ law, share }) => `${law} (${percentText(share)})`);
+  const leaders = ranking.filter((row) => row.rank_from === 1).map((row) => row.method);
+  const sharp = ranking.filter((row) => row.power !== null && row.false_alarm !== null).sort((a, b) => b.power - b.false_alarm - (a.power - a.false_alarm))[0];
   return make("p", { class: "verdict" },
-    `Of ${ranking.length} methods ${best.method} is worth most: right within 5 % and without a diagnostic in ${percentText(best.trusted)} of the cases, missed detections in ${percentText(best.unwarned)}. `,
-    silent.length ? `Its missed detections are most frequent under ${silent.join(", ")}. ` : "Under no law are they more than 5 % of the cases. ",
-    harmful.method === best.method ? null : `${harmful.method} has the most: ${percentText(harmful.unwarned)}.`);
-}
-
-/** Law by method: the share of missed detections, over all severities, ranges and sensors. */
-function heatMap(rows) {
-  const laws = [...new Set(rows.map((row) => row.law))];
-  const methods = [...new Set(rows.map((row) => row.method))];
-  const body = laws.map((law) => [{ text: law, class: "text", title: run.result.severities[law] }, ...methods.map((method) => {
-    const here = rows.filter((row) => row.law === law && row.method === method);
-    const unwarned = unwarnedUnder(rows, law, method);
-    const wrong = mean(here.map((row) => row.wrong));
-    return { text: `${percentText(unwarned)} / ${percentText(wrong)}`, class: "heat", style: heat(unwarned), title: `${law}, ${method}` };
-  })]);
-  return [heading("Law by method"),
-    make("p", { class: "soft" }, "Share of missed detections (the method is wrong by more than 5 % and has no diagnostic) / share of all wrong estimates; over all severities."),
-    grid(["law", ...methods], body, { caption: "Law by method" })];
-}
-
-/** Law by method: the severity from which the friction force is off by more than 5 %. */
-function breakdownMap(rows) {
-  const laws = [...new Set(rows.map((row) => row.law))];
-  const methods = [...new Set(rows.map((row) => row.method))];
-  const severities = rowsOf("scores").map((row) => row.severity).filter((s) => s > 0);
-  const [low, high] = [Math.min(...severities), Math.max(...severities)];
-  const body = laws.map((law) => [{ text: law, class: "text", title: run.result.severities[law] }, ...methods.map((method) => {
-    const here = rows.filter((row) => row.law === law && row.method === method).map((row) => row.F0_5);
-    const least = here.some((v) => v !== null) ? Math.min(...here.filter((v) => v !== null)) : null;
-    const place = least === null ? 0 : 1 - Math.log(least / low) / Math.log(high / low);
-    return { text: least === null ? `> ${short(high, 2)}` : short(least, 2), class: "heat", style: heat(Math.min(1, Math.max(0, place))) };
-  })]);
-  return [heading("Breakdown"),
-    make("p", { class: "soft" }, "Severity from which the friction force is off by more than 5 % in the median, the worst of all ranges and sensors."),
-    grid(["law", ...methods], body, { caption: "Breakdown severity" })];
+    leaders.length === 1 ? `Of ${ranking.length} methods ${leaders[0]} has the best intervals, by more than two standard errors. `
+      : `Of ${ranking.length} methods none has intervals better by two standard errors than these: ${leaders.join(", ")}. `,
+    sharp ? `${sharp.method} tells departures from Coulomb + viscous friction best: it rejects ${metricText(sharp, "power")} of the cases with a departure, where the best possible test reaches ${metricText(sharp, "attainable_power")}, and ${metricText(sharp, "false_alarm")} of those without.` : null);
 }
 
 function rankingTable() {
   const rows = rowsOf("ranking");
-  const keys = Object.keys(meanings);
-  return [heading("Ranking"), grid(["method", ...keys], rows.map((row) => [row.method, ...keys.map((key) => ({ text: percentText(row[key]), title: meanings[key] }))]),
-    { caption: "Ranking of the methods" }),
-    make("p", { class: "soft" }, Object.entries(meanings).map(([key, text]) => `${key}: ${text}`).join("; ") + ".")];
+  const keys = Object.keys(metricMeanings);
+  return [heading("Ranking"),
+    grid(["method", "rank", ...keys], rows.map((row) => [row.method, row.rank_from === row.rank_to ? `${row.rank_from}` : `${row.rank_from}–${row.rank_to}`,
+      ...keys.map((key) => ({ text: metricText(row, key), title: metricMeanings[key] }))]), { caption: "Ranking of the methods" }),
+    make("p", { class: "soft" }, "Means over families of departures, ± one standard error over departures, rigs and noise. A rank is a range where differences are below two standard errors. ",
+      Object.entries(metricMeanings).map(([key, text]) => `${key}: ${text}`).join("; ") + ".")];
 }
 
-function severityTable() {
-  return [make("details", {}, make("summary", {}, "What severity means"),
-    grid(["law", "severity"], Object.entries(run.result.severities).map(([law, text]) => [{ text: law, class: "text" }, { text, class: "long" }]), { caption: "Severities" }))];
+/** Family by method: one metric. */
+function familyMap(title, metric, colour, text) {
+  const rows = rowsOf("families").filter((row) => row[metric] !== null);
+  if (!rows.length) return [];
+  const families = [...new Set(rows.map((row) => row.family))];
+  const methods = rowsOf("ranking").map((row) => row.method);
+  const body = methods.map((method) => [{ text: method, class: "text" }, ...families.map((family) => {
+    const row = rows.find((item) => item.family === family && item.method === method);
+    return row ? { text: metricText(row, metric), class: "heat", style: heat(colour(row[metric], row)), title: `${family}, ${method}` } : { text: "–" };
+  })]);
+  return [heading(title), make("p", { class: "soft" }, text), grid(["method", ...families], body, { caption: title })];
 }
 
-/** Error of F0 over severity, one chart a law, one curve a method; first range and first sensors. */
-function severityCharts() {
-  const rows = rowsOf("scores").filter((row) => row.severity > 0);
-  const first = rows.filter((row) => row.range === rows[0].range && row.sensors === rows[0].sensors);
-  const laws = [...new Set(first.map((row) => row.law))];
-  const methods = [...new Set(first.map((row) => row.method))];
-  return laws.map((law) => chart({
-    title: `Error of F0 under ${law}`, note: run.result.severities[law],
-    x: { label: "severity", unit: "", log: isGeometric(first.map((row) => row.severity)) }, y: { label: "bias of F0 [%]", unit: "" },
-    series: methods.map((method, i) => {
-      const here = first.filter((row) => row.law === law && row.method === method);
-      return { label: method, x: here.map((row) => row.severity), y: here.map((row) => (row.F0_bias === null ? null : 100 * row.F0_bias)), colour: i, kind: i < 7 ? "line" : "dashed" };
+function departureTable() {
+  return [make("details", {}, make("summary", {}, "What the departures and their severities are"),
+    grid(["departure", "family", "severity"], Object.entries(run.result.departures).map(([law, { family, severity }]) => [{ text: law, class: "text" }, { text: family, class: "text" }, { text: severity, class: "long" }]), { caption: "Departures" }))];
+}
+
+/** What a departure comes to: harm over distance, one point a motion. */
+function consequenceChart() {
+  const rows = rowsOf("consequences").filter((row) => row.distance > 0 && row.harm > 0);
+  if (!rows.length) return [];
+  const families = [...new Set(rows.map((row) => run.result.departures[row.law].family))];
+  return [chart({
+    title: "What departures cost, and what could be known of them",
+    note: "Harm: relative error of zeta or F0 of the nearest Coulomb + viscous motion, that of a perfect fit. Distance: of its readings from those measured, in units of noise. Left of 1.6 even the best test finds a departure in less than half of the cases.",
+    x: { label: "distance", unit: "", log: true }, y: { label: "harm", unit: "", log: true },
+    series: families.map((family, i) => {
+      const here = rows.filter((row) => run.result.departures[row.law].family === family);
+      return { label: family, x: here.map((row) => row.distance), y: here.map((row) => row.harm), colour: i, kind: "points" };
     }),
-  }));
+  })];
 }
 
 /** What the campaign says in tables. */
 function stressTables() {
   if (!tables.ranking) return [];
-  const rows = rowsOf("scores").filter((row) => row.severity > 0);
-  return [stressVerdict(rows), ...rankingTable(), ...heatMap(rows), ...breakdownMap(rowsOf("breakdown")), ...severityTable()];
+  return [stressVerdict(), ...rankingTable(),
+    ...familyMap("Who is right: interval score by family", "interval_score_F0", (value) => value / 10, "Mean interval score of F0, relative to the truth. 0 is best; an interval from 0 to twice the truth scores 2; an answer that is off by its whole 40."),
+    ...familyMap("Coverage by family", "coverage_F0", (value) => (0.95 - value) / 0.95, "Share of 95 % intervals that hold the true F0."),
+    ...familyMap("Who knows: power by family", "power", (value, row) => row.attainable_power - value, "Share of cases with a departure that the method rejects. The colour is the distance to the power of the best test that knows the departure: what could be known and is not said."),
+    ...familyMap("What nobody can know: attainable power by family", "attainable_power", (value) => 1 - value, "Power of the best test that knows the departure and the noise of the sensors."),
+    ...departureTable()];
 }
 
-views.stress_test = { before: stressTables, charts: severityCharts };
+views.stress_test = { before: stressTables, charts: consequenceChart };

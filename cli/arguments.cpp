@@ -52,6 +52,7 @@ class Parser {
         "4 numerical failure, 5 some cases of a stress test or points of a sweep failed, 70 a bug of this program, "
         "130 interrupted.");
     add_run();
+    add_stress();
     add_check();
     add_identify();
     add_next();
@@ -109,6 +110,43 @@ class Parser {
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again by another engine and compare; the same as numerics.verify");
     add_plugins(*run_command_);
+  }
+
+  void add_stress() {
+    constexpr int max_jobs = 1024;
+    stress_command_ =
+        app_.add_subcommand("stress", "Export a stress test to other programs, and score their answers");
+    stress_command_->require_subcommand(1);
+    const auto add_common = [&](CLI::App& command, std::string& file, std::vector<std::string>& set, int& jobs) {
+      command.add_option("FILE", file, "A scenario with the analysis stress_test")->required()->type_name("");
+      command.add_option("--set", set, "Set a value before the file is checked, the same for export and score")
+          ->allow_extra_args(false)
+          ->type_name("PATH=VALUE");
+      command.add_option("--jobs", jobs, "Number of threads (default: all cores)")
+          ->check(CLI::Range(1, max_jobs))
+          ->type_name("N");
+      add_plugins(command);
+    };
+    export_command_ =
+        stress_command_->add_subcommand("export", "Write the records of all cases, and the key to them");
+    add_common(*export_command_, export_.file, export_.set, export_.jobs);
+    export_command_->add_option("--out", export_.out, "Directory for the files; created if missing")
+        ->required()
+        ->type_name("DIR");
+    export_command_
+        ->add_option("--seed", export_.seed,
+                     "Seed of the noise, 0 to 9007199254740991 (default: a hidden one, at random)")
+        ->type_name("N");
+    score_command_ =
+        stress_command_->add_subcommand("score", "Score answers to exported records beside the methods");
+    add_common(*score_command_, score_.file, score_.set, score_.jobs);
+    score_command_->add_option("--key", score_.key, "key.json of the export")->required()->type_name("FILE");
+    score_command_
+        ->add_option("--answers", score_.answers,
+                     "Answers of a program, a CSV file (docs/benchmark.md); may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=FILE");
+    add_output_options(*score_command_, score_.out, score_.json, score_.quiet);
   }
 
   void add_check() {
@@ -327,6 +365,8 @@ class Parser {
 
   [[nodiscard]] Command chosen() const {
     if (run_command_->parsed()) return run_;
+    if (export_command_->parsed()) return export_;
+    if (score_command_->parsed()) return score_;
     if (check_command_->parsed()) return check_;
     if (identify_command_->parsed()) return identify_;
     if (next_command_->parsed()) return next_;
@@ -342,6 +382,9 @@ class Parser {
   CLI::App app_{"How far can a friction estimate be trusted when the friction is not what the estimator assumes?",
                 "dualdamp"};
   CLI::App* run_command_ = nullptr;
+  CLI::App* stress_command_ = nullptr;
+  CLI::App* export_command_ = nullptr;
+  CLI::App* score_command_ = nullptr;
   CLI::App* check_command_ = nullptr;
   CLI::App* identify_command_ = nullptr;
   CLI::App* next_command_ = nullptr;
@@ -354,6 +397,8 @@ class Parser {
   CLI::App* schema_command_ = nullptr;
   std::vector<std::string> plugins_ = plugins_of_environment();
   RunCommand run_;
+  ExportCommand export_;
+  ScoreCommand score_;
   CheckCommand check_;
   IdentifyCommand identify_;
   NextCommand next_;

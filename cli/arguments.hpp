@@ -20,6 +20,27 @@ struct RunCommand {
   bool verify = false;  ///< compute every result again in another way
 };
 
+/// `stress export`: records for programs outside.
+struct ExportCommand {
+  std::string file;
+  std::string out;
+  std::string seed;  ///< of all draws; empty: one that nobody can guess
+  std::vector<std::string> set;
+  int jobs = 0;
+};
+
+/// `stress score`: their answers beside those of the methods.
+struct ScoreCommand {
+  std::string file;
+  std::string key;
+  std::vector<std::string> answers;  ///< NAME=FILE
+  std::string out;
+  std::vector<std::string> set;
+  bool json = false;
+  bool quiet = false;
+  int jobs = 0;
+};
+
 struct CheckCommand {
   std::vector<std::string> files;
 };
@@ -115,8 +136,9 @@ struct Leave {
   bool json = false;  ///< the caller wanted JSON
 };
 
-using Command = std::variant<RunCommand, CheckCommand, LawsCommand, MethodsCommand, AnalysesCommand, SchemaCommand,
-                             IdentifyCommand, NextCommand, FitCommand, PredictCommand, ReportCommand, Leave>;
+using Command = std::variant<RunCommand, ExportCommand, ScoreCommand, CheckCommand, LawsCommand, MethodsCommand,
+                             AnalysesCommand, SchemaCommand, IdentifyCommand, NextCommand, FitCommand,
+                             PredictCommand, ReportCommand, Leave>;
 
 /// A command line.
 struct Call {

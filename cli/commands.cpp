@@ -23,6 +23,8 @@
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
+#include "cli/reports.hpp"
+#include "cli/stress.hpp"
 #include "core/build_info.hpp"
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
@@ -42,20 +44,6 @@ namespace fs = std::filesystem;
 using core::ExitStatus;
 using scenarios::LoadOptions;
 using scenarios::Scenario;
-
-/// What one scenario has to say, kept until it is its turn.
-struct Report {
-  ExitStatus status = ExitStatus::done;
-  std::string text;        ///< for stdout
-  scenarios::Writer json;  ///< instead, when JSON is wanted
-  std::string messages;    ///< for stderr
-  std::string errors;      ///< for stderr, also when quiet
-};
-
-struct Style {
-  bool json = false;
-  bool quiet = false;
-};
 
 Report refused(ExitStatus status, const std::vector<core::Diagnostic>& problems) {
   Report report;
@@ -196,12 +184,6 @@ Report agreed(Report report) {
   return silent;
 }
 
-void print(const Report& report, const Style& style) {
-  if (!style.json && !report.text.empty()) std::cout << report.text << std::flush;
-  std::cerr << report.errors;
-  if (!style.quiet) std::cerr << report.messages;
-}
-
 Report run_file(const RunCommand& command, const std::string& file) {
   std::optional<Scenario> scenario;
   Report report = agreed(load(command, file, scenario));
@@ -237,42 +219,6 @@ int say(const Report& report, const Style& style) {
   return finish(report.status);
 }
 
-/// Prints reports in the order of the files, each as soon as those before it are there.
-class InOrder {
- public:
-  InOrder(std::size_t count, Style style) : reports_(count), ready_(count, false), style_(style) {}
-
-  void put(std::size_t index, Report report) {
-    const std::lock_guard lock(mutex_);
-    reports_[index] = std::move(report);
-    ready_[index] = true;
-    for (; next_ < reports_.size() && ready_[next_]; ++next_) {
-      if (next_ > 0 && !style_.json && !is_silent()) std::cout << "\n";
-      print(reports_[next_], style_);
-    }
-  }
-
-  /// One document; a list of them for several files.
-  void write_json(std::ostream& out) const {
-    if (reports_.size() == 1) return reports_.front().json(out);
-    out << "[\n";
-    for (std::size_t i = 0; i < reports_.size(); ++i) {
-      out << (i == 0 ? "" : ",\n");
-      reports_[i].json(out);
-    }
-    out << "]\n";
-  }
-
-  [[nodiscard]] ExitStatus worst() const { return std::ranges::max_element(reports_, {}, &Report::status)->status; }
-
- private:
-  std::mutex mutex_;
-  std::vector<Report> reports_;
-  std::vector<bool> ready_;
-  std::size_t next_ = 0;
-  Style style_;
-};
-
 /// Two files with one result directory would overwrite each other.
 std::string clash(const RunCommand& command) {
   std::map<std::string, std::string> owners;
@@ -296,7 +242,7 @@ int execute(const RunCommand& command) {
   });
   if (joined.status != ExitStatus::done) return say(joined, style);
 
-  InOrder reports(command.files.size(), style);
+  InOrder reports(command.files.size(), style, is_silent());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < command.files.size(); i = next++)
@@ -345,6 +291,29 @@ int execute(const NextCommand& command) { return execute_on_records(command, com
 int execute(const FitCommand& command) { return execute_on_records(command, command.data.front()); }
 
 int execute(const PredictCommand& command) { return execute_on_records(command, command.data.front()); }
+
+int execute(const ExportCommand& command) {
+  return say(guarded([&] {
+               Report report;
+               report.messages = export_stress_test(command);
+               return report;
+             }),
+             {});
+}
+
+int execute(const ScoreCommand& command) {
+  const Style style{command.json, command.quiet};
+  return say(guarded([&] {
+               const fs::path standard = fs::path("results") / (fs::path(command.file).stem().string() + "-scored");
+               // Methods answer once for all entries.
+               return run_and_write(scenario_of(command),
+                                    {.directory = command.out.empty() ? standard.string() : command.out,
+                                     .threads = command.jobs,
+                                     .found = scenarios::FoundCases::resume},
+                                    command.quiet);
+             }),
+             style);
+}
 
 int execute(const ReportCommand& command) {
   ExitStatus worst = ExitStatus::done;

@@ -40,7 +40,6 @@ ROOMS = {
         "orbits": [".", "engine", "motion", "analytic", "batch"],
         "batch": [".", "engine", "motion", "orbits"],
         "conformance": [".", "engine"],
-        "rigs": ["."],
     },
     "identify": {
         ".": ["methods"],  # the list of methods
@@ -49,7 +48,8 @@ ROOMS = {
         "readers": [".", "statistics", "records"],
         "models": [".", "statistics"],
         "uncertainty": [".", "statistics", "records", "models"],
-        "methods": [".", "statistics", "records", "models", "uncertainty"],
+        "rigs": [".", "records"],
+        "methods": [".", "statistics", "records", "models", "uncertainty", "rigs"],
         "fit": [".", "statistics", "records"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
         "design": [".", "statistics", "methods"],

@@ -53,7 +53,7 @@ class Stress(unittest.TestCase):
 
     def check_same(self, out, reference):
         self.assertEqual((out / "cases.jsonl").read_bytes(), (reference / "cases.jsonl").read_bytes())
-        for name in ("scores.csv", "breakdown.csv", "ranking.csv"):
+        for name in ("scores.csv", "families.csv", "ranking.csv", "consequences.csv"):
             self.assertEqual(rows(out / name), rows(reference / name))
         results = [json.loads((folder / "result.json").read_text())["result"] for folder in (out, reference)]
         self.assertEqual(*results)

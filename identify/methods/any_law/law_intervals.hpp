@@ -6,9 +6,9 @@
 ///   average   the 2.5 and 97.5 % points of the mixture of all laws, weighted by their likelihood and by a prior:
 ///             laws alike, severity with the standard deviation `severity_deviation` about zero
 ///
-/// zeta and F0 of a law are those of the Coulomb + viscous friction that it departs from (sim/rigs/rigs.hpp): what
-/// remains as its severity goes to zero. When every law is rejected the noise is raised until the best one is not,
-/// and `inflation` says by how much (birge1932). Source: brynjarsdottir2014, pasquier2015. Docs:
+/// zeta and F0 of a law are those of the Coulomb + viscous friction that it departs from (identify/rigs/rigs.hpp):
+/// what remains as its severity goes to zero. When every law is rejected the noise is raised until the best one is
+/// not, and `inflation` says by how much (birge1932). Source: brynjarsdottir2014, pasquier2015. Docs:
 /// docs/methods/any_law.md. Cost: one record of eight states with phases takes seconds; laws are shared out to all
 /// cores.
 

@@ -14,6 +14,8 @@ namespace {
 /// Departures that mean something for a severity of either sign.
 constexpr std::array two_sided = {"cubic_spring", "detuning", "position_slope", "viscous_power"};
 constexpr std::array no_laws = {"rough_way", "warming"};
+/// The other sign of a law that is two-sided here.
+constexpr std::array twins = {"detuned_below", "softening_spring", "viscous_power_below", "position_slope_up"};
 
 template <typename List>
 bool names(const List& list, std::string_view name) {
@@ -35,7 +37,9 @@ LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
   for (const bench::Rig& departure : bench::departures()) {
-    if (names(no_laws, departure.name) || names(options.without, departure.name)) continue;
+    if (names(no_laws, departure.name) || names(twins, departure.name)) continue;
+    // What a laboratory does not know of itself is no law.
+    if (departure.mislead != nullptr || names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
     LibraryLaw law{&departure, std::min(options.largest_severity, departure.largest), options.severity_deviation,
                    names(two_sided, departure.name)};

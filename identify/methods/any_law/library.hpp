@@ -1,6 +1,6 @@
 #pragma once
-/// The library of friction laws that any_law fits: the departures of sim/rigs/ with the severities that a real rig
-/// may have, and what each makes of a record.
+/// The library of friction laws that any_law fits: the departures of identify/rigs/ with the severities that a real
+/// rig may have, and what each makes of a record.
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 /// What a record's readings are under any friction law: the forward model behind the interval over laws.
 ///
-/// The law is a departure of `sim/rigs/` at a severity s, or Coulomb + viscous friction. Unknowns are numbers of
-/// order one: F0 and c over those where the search begins, and what else the record cannot exclude.
+/// The law is a departure of `identify/rigs/` at a severity s, or Coulomb + viscous friction. Unknowns are numbers
+/// of order one: F0 and c over those where the search begins, and what else the record cannot exclude.
 
 #include <Eigen/Core>
 #include <array>
@@ -14,7 +14,7 @@
 
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
-#include "sim/rigs/rigs.hpp"
+#include "identify/rigs/rigs.hpp"
 
 namespace dualdamp::identify {
 

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "identify/methods/any_law/law_intervals.hpp"
+#include "identify/rigs/rigs.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;

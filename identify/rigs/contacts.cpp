@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/rigs/groups.hpp"
+#include "identify/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 
@@ -203,6 +203,6 @@ std::vector<Rig> bristles() {
 
 }  // namespace
 
-std::vector<Rig> contact_rigs() { return joined({sliders(), bristles()}); }
+std::vector<Rig> contact_rigs() { return of_family(Family::presliding, joined({sliders(), bristles()})); }
 
 }  // namespace dualdamp::bench

@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "sim/rigs/groups.hpp"
+#include "identify/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 
@@ -110,7 +110,8 @@ std::vector<Rig> by_speed() {
        .values_at = [](const RigBase& base,
                        double s) { return std::vector{s, tenth_of_speed(base), s / base.reference.frequency}; },
        .plausible = {{"2 ms", {0.3, 0.2, 2e-3}, "lags of some milliseconds, hess1990"},
-                     {"5 ms", {0.3, 0.2, 5e-3}, "lags of some milliseconds, hess1990"}}},
+                     {"5 ms", {0.3, 0.2, 5e-3}, "lags of some milliseconds, hess1990"}},
+       .family = Family::memory},
       {.name = "normal_vibration",
        .meaning = "speed lifts the rider off the way, and friction falls with its load",
        .parameters =
@@ -161,7 +162,8 @@ std::vector<Rig> by_place() {
        .severity = "fall of the friction force at the amplitude X, over F0",
        .largest = 1.0,
        .values_at = [](const RigBase& base,
-                       double s) { return std::vector{-s * base.F0 / base.reference.amplitude}; }},
+                       double s) { return std::vector{-s * base.F0 / base.reference.amplitude}; },
+       .has_F0 = false},
       {.name = "rough_way",
        .meaning = "Coulomb friction varies at random along the way",
        .parameters = {{.name = "ratio",
@@ -198,7 +200,8 @@ std::vector<Rig> by_warmth() {
            [](const RigBase& base, double s) {
              const double period = 2.0 * std::numbers::pi / base.reference.frequency;
              return std::vector{4.0 * base.F0 * base.reference.amplitude / period / s};
-           }},
+           },
+       .has_F0 = false},
       {.name = "warming_contact",
        .meaning = "Coulomb friction falls as the contact warms, over a minute",
        .parameters = {power_parameter},
@@ -209,6 +212,9 @@ std::vector<Rig> by_warmth() {
 
 }  // namespace
 
-std::vector<Rig> sliding_rigs() { return joined({by_direction(), by_speed(), by_place(), by_warmth()}); }
+std::vector<Rig> sliding_rigs() {
+  return joined({of_family(Family::velocity, by_direction()), of_family(Family::velocity, by_speed()),
+                 of_family(Family::position, by_place()), of_family(Family::memory, by_warmth())});
+}
 
 }  // namespace dualdamp::bench

@@ -1,6 +1,6 @@
 // The table of rigs: each rig is explained, serves a question, and its parameters have a meaning at all severities.
 
-#include "sim/rigs/rigs.hpp"
+#include "identify/rigs/rigs.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

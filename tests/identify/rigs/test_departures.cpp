@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 
@@ -24,6 +24,16 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
     CAPTURE(departure.name);
     CHECK(bench::find_departure(departure.name) == &departure);
     CHECK_FALSE(departure.severity.empty());
+    CHECK(departure.family != bench::Family::none);
+    if (departure.mislead != nullptr) {  // the motion is the truth's, and the laboratory is wrong about it
+      bench::Laboratory laboratory{.constants = {.mass = 1.0, .stiffness = 100.0, .frequency = 10.0},
+                                   .sensors = {}};
+      departure.mislead(laboratory, 0.1);
+      const identify::Sensors& sensors = laboratory.sensors;
+      CHECK((laboratory.constants.mass != 1.0 || laboratory.constants.stiffness != 100.0 ||
+             sensors.x.gain_error != 0.0 || sensors.y.gain_error != 0.0 || sensors.x.phase_lag != 0.0));
+      continue;
+    }
     const auto distance = [&](double s) {
       const sim::SteadyState state = sim::steady_state(bench::departed(departure, truth, motion, s));
       REQUIRE(state.outcome.ok());

@@ -1,4 +1,4 @@
-#include "sim/rigs/groups.hpp"
+#include "identify/rigs/groups.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -15,6 +15,12 @@ std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups) {
   std::vector<Rig> all;
   for (const std::vector<Rig>& group : groups) all.insert(all.end(), group.begin(), group.end());
   return all;
+}
+
+std::vector<Rig> of_family(Family family, std::vector<Rig> group) {
+  for (Rig& rig : group)
+    if (rig.family == Family::none) rig.family = family;
+  return group;
 }
 
 sim::Model with_law(sim::Model model, std::string_view law, ParameterValues values) {

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <string>
 
+#include "identify/rigs/rigs.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/rigs/rigs.hpp"
 
 using namespace dualdamp;
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/rigs/groups.hpp"
+#include "identify/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 
@@ -103,6 +103,14 @@ std::vector<Rig> drives() {
        .largest = 1.0,
        .values_at = [](const RigBase& base, double s) { return std::vector{s * base.reference.Y}; },
        .forced_only = true},
+      {.name = "detuned_below",
+       .meaning = "the drive is slower than stated",
+       .parameters = {offset_parameter},
+       .build = detuning,
+       .severity = "1 less the forcing frequency over the stated one",
+       .largest = 0.5,
+       .values_at = [](const RigBase&, double s) { return std::vector{-s}; },
+       .forced_only = true},
       {.name = "detuning",
        .meaning = "the drive is not at the resonance that the method takes it to be at",
        .parameters = {offset_parameter},
@@ -148,6 +156,13 @@ std::vector<Rig> springs() {
        .meaning = "the spring softens with its elongation",
        .parameters = {cubic_parameter},
        .build = softening_spring,
+       .severity = "softening -k3 X^2 over the stiffness k",
+       .largest = 0.3,
+       .values_at =
+           [](const RigBase& base, double s) {
+             const double X = base.reference.amplitude;
+             return std::vector{s * base.model.oscillator.stiffness / (X * X)};
+           },
        .plausible = {{"6 %", {1e6}, "6 % softer at 10 mm"}},
        .forced_only = true},
   };
@@ -155,6 +170,8 @@ std::vector<Rig> springs() {
 
 }  // namespace
 
-std::vector<Rig> drive_rigs() { return joined({drives(), springs()}); }
+std::vector<Rig> drive_rigs() {
+  return joined({of_family(Family::drive, drives()), of_family(Family::spring, springs())});
+}
 
 }  // namespace dualdamp::bench

@@ -12,13 +12,15 @@
 ///   with a laboratory. F0 and c are there what a test in the middle of the range would find: where a mechanism
 ///   changes the viscous force itself, c is the damper that gives the same force at the speed V.
 ///
-/// A rig is one entry of a group: `contacts.cpp`, `sliding.cpp`, `films.cpp` or `drives.cpp`.
+/// A rig is one entry of a group: `contacts.cpp`, `sliding.cpp`, `films.cpp`, `drives.cpp` or `laboratory.cpp`.
 
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "friction_models/parameters.hpp"
+#include "identify/record.hpp"
+#include "identify/records/sensors.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::bench {
@@ -44,6 +46,29 @@ struct RigBase {
   bool found_at_reference = false;
 
   [[nodiscard]] double c() const { return model.oscillator.damping; }
+};
+
+/// What a departure is a departure of. Scores are averaged within families first, so that a family counts once,
+/// however many departures it has.
+enum class Family {
+  none,        ///< Coulomb + viscous friction, all as stated
+  presliding,  ///< contacts that yield before they slip
+  velocity,    ///< friction that depends on speed in another way
+  position,    ///< friction that depends on the place
+  memory,      ///< friction that depends on what was before: warmth, a lag
+  spring,      ///< a spring that is not linear
+  sensors,     ///< readings that are off
+  constants,   ///< mass or stiffness that are not as stated
+  drive,       ///< a drive that is not as stated
+};
+
+/// "presliding"
+[[nodiscard]] std::string_view name_of(Family family);
+
+/// What a laboratory believes and how it reads.
+struct Laboratory {
+  identify::KnownConstants constants;
+  identify::Sensors sensors;
 };
 
 struct RigParameter {
@@ -82,6 +107,13 @@ struct Rig {
   // As a mechanism; a rig without plausible values is none.
   std::vector<PlausibleValues> plausible{};
   bool forced_only = false;  ///< it lies in drive or spring: a free decay on another spring does not have it
+
+  Family family = Family::none;
+  /// Whether one F0, one zeta is still there to be found; a score of it needs that.
+  bool has_F0 = true;
+  bool has_zeta = true;
+  /// Changes what the laboratory believes or reads; may be absent.
+  void (*mislead)(Laboratory& laboratory, double s) = nullptr;
 };
 
 /// All rigs, sorted by name.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "friction_models/parameters.hpp"
-#include "sim/rigs/rigs.hpp"
+#include "identify/rigs/rigs.hpp"
 
 namespace dualdamp::bench {
 
@@ -18,6 +18,12 @@ namespace dualdamp::bench {
 [[nodiscard]] std::vector<Rig> film_rigs();
 /// Drives and springs that differ from what the laboratory states.
 [[nodiscard]] std::vector<Rig> drive_rigs();
+
+/// Laboratories that do not know their constants or their sensors.
+[[nodiscard]] std::vector<Rig> laboratory_rigs();
+
+/// Gives a family to those of a group that have none of their own.
+[[nodiscard]] std::vector<Rig> of_family(Family family, std::vector<Rig> group);
 
 [[nodiscard]] std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups);
 

@@ -1,12 +1,13 @@
-#include "sim/rigs/rigs.hpp"
+#include "identify/rigs/rigs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include "sim/rigs/groups.hpp"
+#include "identify/rigs/groups.hpp"
 
 namespace dualdamp::bench {
 
@@ -39,9 +40,15 @@ RigBase base_of(const Apparatus& apparatus, const RigFriction& friction, double 
 
 }  // namespace
 
+std::string_view name_of(Family family) {
+  static constexpr std::array<std::string_view, 9> names = {
+      "none", "presliding", "velocity", "position", "memory", "spring", "sensors", "constants", "drive"};
+  return names.at(static_cast<std::size_t>(family));
+}
+
 const std::vector<Rig>& rigs() {
   static const std::vector<Rig> list = [] {
-    std::vector<Rig> all = joined({contact_rigs(), sliding_rigs(), film_rigs(), drive_rigs()});
+    std::vector<Rig> all = joined({contact_rigs(), sliding_rigs(), film_rigs(), drive_rigs(), laboratory_rigs()});
     std::ranges::sort(all, {}, &Rig::name);
     return all;
   }();

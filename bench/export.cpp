@@ -1,0 +1,158 @@
+#include "bench/export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include "bench/case.hpp"
+#include "bench/grid.hpp"
+#include "core/numbers.hpp"
+#include "core/provenance.hpp"
+#include "scenarios/results/files.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+using identify::Pair;
+using scenarios::OutputFile;
+
+/// Columns of equal length under their headings; those that were not measured are left out.
+struct Columns {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> values;
+
+  void add(std::string name, std::vector<double> column) {
+    if (column.empty() || std::ranges::any_of(column, [](double v) { return std::isnan(v); })) return;
+    names.push_back(std::move(name));
+    values.push_back(std::move(column));
+  }
+
+  void write_header(std::ostream& out) const {
+    for (std::size_t i = 0; i < names.size(); ++i) out << (i == 0 ? "" : ",") << names[i];
+    out << "\n";
+  }
+  void write_rows(std::ostream& out, const std::string& label = {}) const {
+    for (std::size_t row = 0; !values.empty() && row < values.front().size(); ++row) {
+      for (std::size_t i = 0; i < values.size(); ++i)
+        out << (i == 0 ? "" : ",") << core::format_number(values[i][row]);
+      out << label << "\n";
+    }
+  }
+};
+
+void write_pairs(std::ostream& out, const std::vector<Pair>& pairs) {
+  Columns columns;
+  for (const auto& [name, member] :
+       {std::pair("Y [m]", &Pair::Y), std::pair("x [m]", &Pair::x), std::pair("omega [rad/s]", &Pair::omega),
+        std::pair("phase [rad]", &Pair::phase), std::pair("fundamental [m]", &Pair::fundamental),
+        std::pair("mean_square_speed [m^2/s^2]", &Pair::mean_square_speed)}) {
+    std::vector<double> column;
+    for (const Pair& pair : pairs) column.push_back(pair.*member);
+    columns.add(name, std::move(column));
+  }
+  columns.write_header(out);
+  columns.write_rows(out);
+}
+
+Columns columns_of(const identify::History& history) {
+  Columns columns;
+  std::vector<double> times(history.x.size());
+  for (std::size_t i = 0; i < times.size(); ++i)
+    times[i] = history.start + static_cast<double>(i) / history.sample_rate;
+  columns.add("t [s]", std::move(times));
+  columns.add("x [m]", history.x);
+  columns.add("y [m]", history.y);
+  columns.add("v [m/s]", history.v);
+  columns.add("a [m/s^2]", history.a);
+  return columns;
+}
+
+void write_histories(std::ostream& out, const std::vector<identify::History>& histories) {
+  for (std::size_t i = 0; i < histories.size(); ++i) {
+    Columns columns = columns_of(histories[i]);
+    if (i == 0) {
+      Columns heading = columns;
+      heading.names.emplace_back("sweep");
+      heading.write_header(out);
+    }
+    columns.write_rows(out, "," + std::to_string(i + 1));
+  }
+}
+
+void write_decay(std::ostream& out, const identify::DecayRecord& decay) {
+  Columns columns;
+  columns.add("t [s]", decay.times);
+  columns.add("x [m]", decay.extremes);
+  columns.write_header(out);
+  columns.write_rows(out);
+}
+
+std::string six_digits(std::size_t number) {
+  const std::string text = std::to_string(number);
+  return std::string(text.size() < 6 ? 6 - text.size() : 0, '0') + text;
+}
+
+void write_case(const std::string& directory, const std::string& name, const identify::Record& record) {
+  std::vector<OutputFile> files;
+  files.push_back({name + ".csv", [&record](std::ostream& out) {
+                     if (!record.histories.empty())
+                       write_histories(out, record.histories);
+                     else if (record.pairs)
+                       write_pairs(out, record.pairs->pairs);
+                   }});
+  if (record.decay)
+    files.push_back({name + "-decay.csv", [&record](std::ostream& out) { write_decay(out, *record.decay); }});
+  scenarios::write_files(directory, files);
+}
+
+/// A line of constants.csv.
+std::string constants_line(const MeasuredCase& measured) {
+  const identify::Sensors& sensors = measured.sensors.sensors;
+  const double periods = sensors.average_cycles;
+  std::string line;
+  for (const double value :
+       {measured.constants.mass, measured.constants.stiffness, measured.constants.frequency,
+        sensors.x.noise / std::sqrt(2.0 * periods), sensors.y.noise / std::sqrt(2.0 * periods)})
+    line += "," + core::format_number(value);
+  return line;
+}
+
+}  // namespace
+
+Key key_of(const StressTest& question, const scenarios::RunContext& context) {
+  return make_key(core::sha256(context.resolved), question.seed, Grid(question).cases());
+}
+
+std::size_t export_cases(const StressTest& question, const scenarios::RunContext& context,
+                         const std::string& directory) {
+  const Grid grid(question);
+  const Key key = key_of(question, context);
+  std::vector<std::size_t> file_of(key.numbers.size());
+  for (std::size_t i = 0; i < key.numbers.size(); ++i) file_of[key.numbers[i]] = i + 1;
+  std::vector<std::string> constants(key.numbers.size());
+  sim::in_parts(grid.motions(), 1, context.options.threads, [&](std::size_t motion, std::size_t) {
+    measure_motion(
+        grid, context.steady_states(), motion, [](std::size_t) { return true; },
+        [&](const MeasuredCase& measured) {
+          const std::size_t file = file_of[measured.number];
+          write_case(directory + "/cases", six_digits(file), measured.record);
+          constants[file - 1] = constants_line(measured);
+        });
+  });
+  scenarios::write_files(directory,
+                         {{"constants.csv",
+                           [&](std::ostream& out) {
+                             out << "case,mass [kg],stiffness [N/m],frequency [rad/s],sigma_x [m],sigma_Y "
+                                    "[m]\n";
+                             for (std::size_t i = 0; i < constants.size(); ++i)
+                               out << i + 1 << constants[i] << "\n";
+                           }},
+                          key_file(key)});
+  return grid.cases();
+}
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,27 @@
+#pragma once
+/// A stress test as files for programs outside: what a laboratory would have, and no word of laws or truth.
+///
+/// `cases/NNNNNN.csv`: the record of a case in the format of docs/data-files.md, x-Y pairs or histories;
+/// `cases/NNNNNN-decay.csv` beside it where the stress test has decays. `constants.csv`: for each case the mass,
+/// the stiffness and the frequency that the laboratory believes in, and the standard deviations of an amplitude
+/// that its sensors have. The numbers are those of the key (`score/key.hpp`): neighbours have nothing to do with
+/// each other.
+///
+/// Errors: `scenarios::OutputError`.
+
+#include <string>
+
+#include "bench/score/key.hpp"
+#include "bench/stress_test.hpp"
+
+namespace dualdamp::bench {
+
+/// Writes all records on all threads (`options.threads`), then `constants.csv`, then `key.json`. Returns the number
+/// of cases.
+std::size_t export_cases(const StressTest& question, const scenarios::RunContext& context,
+                         const std::string& directory);
+
+/// The key of a stress test, as `export_cases` makes it.
+[[nodiscard]] Key key_of(const StressTest& question, const scenarios::RunContext& context);
+
+}  // namespace dualdamp::bench

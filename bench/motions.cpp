@@ -1,0 +1,57 @@
+#include "bench/motions.hpp"
+
+#include "identify/rigs/rigs.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+std::vector<double> frequencies_of(const ExcitationRange& range, const TrueRig& rig) {
+  return range.frequencies.empty() ? std::vector{rig.frequency} : range.frequencies;
+}
+
+}  // namespace
+
+identify::Record Motions::reading(const identify::Sensors& sensors, std::uint64_t seed,
+                                  std::vector<std::string>& warnings) const {
+  constexpr std::uint64_t of_decay = 0xD1B54A32D192ED03U;  // other draws than those of the curve
+  identify::Record record = scenarios::reading(curve, sensors, seed, warnings);
+  if (record.pairs)
+    for (identify::Pair& pair : record.pairs->pairs) pair.omega *= stated;
+  if (decay) record.decay = scenarios::reading(*decay, sensors, seed ^ of_decay, warnings).decay;
+  return record;
+}
+
+MotionMaker::MotionMaker(const StressTest& question, const TrueRig& rig, const ExcitationRange& range,
+                         const sim::SteadyStateOptions& options)
+    : question_(question), rig_(rig), range_(range), options_(options) {}
+
+ReferenceMotion MotionMaker::reference() const {
+  const std::vector<double> frequencies = frequencies_of(range_, rig_);
+  sim::Model model = undisturbed(rig_.truth);
+  model.excitation.amplitude = range_.amplitudes[range_.amplitudes.size() / 2];
+  model.excitation.frequency = frequencies[frequencies.size() / 2];
+  const sim::SteadyState middle = sim::steady_state(model, options_);
+  return {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude};
+}
+
+Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& sensors, double stretch) const {
+  Motions result;
+  scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
+  curve.amplitudes = range_.amplitudes;
+  for (double& amplitude : curve.amplitudes) amplitude *= stretch;
+  curve.frequencies = frequencies_of(range_, rig_);
+  result.stated = rig_.truth.model.excitation.frequency / model.excitation.frequency;
+  for (double& frequency : curve.frequencies) frequency /= result.stated;
+  result.curve = scenarios::motion_of(model, curve, sensors, options_);
+  if (!question_.decay) return result;
+  sim::Model released = model;
+  released.excitation = {};
+  released.initial = {.position = question_.decay->displacement};
+  scenarios::Measurement decay{.kind = scenarios::MeasurementKind::free_decay};
+  decay.peaks = question_.decay->peaks;
+  result.decay = scenarios::motion_of(released, decay, sensors, options_);
+  return result;
+}
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,48 @@
+#pragma once
+/// The motions that one law makes on a rig, as perfect sensors see them: a curve of steady states and, where the
+/// stress test asks for one, a decay.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/stress_test.hpp"
+#include "identify/records/sensors.hpp"
+#include "scenarios/measurements/measure.hpp"
+#include "sim/orbits/steady_state.hpp"
+
+namespace dualdamp::bench {
+
+struct Motions {
+  scenarios::MotionRecord curve;
+  std::optional<scenarios::MotionRecord> decay;
+  double stated = 1.0;  ///< frequency that the laboratory believes in, over the one it drives at
+
+  /// What the sensors make of them. `warnings` are appended.
+  [[nodiscard]] identify::Record reading(const identify::Sensors& sensors, std::uint64_t seed,
+                                         std::vector<std::string>& warnings) const;
+};
+
+/// A rig driven over a range, as a laboratory sets it.
+class MotionMaker {
+ public:
+  MotionMaker(const StressTest& question, const TrueRig& rig, const ExcitationRange& range,
+              const sim::SteadyStateOptions& options);
+
+  /// The motion in the middle of the range, of the truth.
+  [[nodiscard]] ReferenceMotion reference() const;
+
+  /// `model`: at its own frequency, where the laboratory believes in that of the rig. `stretch` multiplies all
+  /// input amplitudes.
+  [[nodiscard]] Motions motions(const sim::Model& model, const identify::Sensors& sensors,
+                                double stretch = 1.0) const;
+
+ private:
+  const StressTest& question_;
+  const TrueRig& rig_;
+  const ExcitationRange& range_;
+  const sim::SteadyStateOptions& options_;
+};
+
+}  // namespace dualdamp::bench

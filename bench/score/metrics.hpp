@@ -1,0 +1,87 @@
+#pragma once
+/// What a method's answers to many cases are scored by, and sums of weighted answers.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "bench/score/case_answer.hpp"
+
+namespace dualdamp::bench {
+
+/// In the order of their columns.
+enum class Metric : std::size_t {
+  coverage_zeta,        ///< share of 95 % intervals that hold the truth
+  coverage_F0,          ///< likewise
+  interval_score_zeta,  ///< mean interval score, relative to the truth; smaller is better
+  interval_score_F0,    ///< likewise
+  power,                ///< share of cases with a departure that the method rejects
+  attainable_power,     ///< that of the best test which knows the departure
+  false_alarm,          ///< share of cases without a departure that the method rejects
+  selective_risk_area,  ///< mean loss over the coverage, the cases in the order of the method's own confidence
+};
+inline constexpr std::size_t metric_count = 8;
+inline constexpr std::array<std::string_view, metric_count> metric_names = {
+    "coverage_zeta", "coverage_F0",      "interval_score_zeta", "interval_score_F0",
+    "power",         "attainable_power", "false_alarm",         "selective_risk_area"};
+
+/// NaN: does not exist.
+struct Metrics {
+  std::array<double, metric_count> values = filled();
+
+  [[nodiscard]] double& operator[](Metric metric) { return values[static_cast<std::size_t>(metric)]; }
+  [[nodiscard]] double operator[](Metric metric) const { return values[static_cast<std::size_t>(metric)]; }
+
+  /// What methods are ranked by: the mean of the interval scores of zeta and F0.
+  [[nodiscard]] double interval_score() const {
+    return 0.5 * ((*this)[Metric::interval_score_zeta] + (*this)[Metric::interval_score_F0]);
+  }
+
+ private:
+  static constexpr std::array<double, metric_count> filled() {
+    std::array<double, metric_count> list{};
+    list.fill(not_stated);
+    return list;
+  }
+};
+
+/// Area under the curve of selective risk over coverage: items come in the order of falling confidence; those of
+/// equal confidence are taken together.
+///
+///   area = sum over groups g of (share of g) (mean loss of all up to and with g)
+class RiskArea {
+ public:
+  void add(double weight, double loss) {
+    group_weight_ += weight;
+    group_loss_ += weight * loss;
+  }
+  void end_group() {
+    if (!(group_weight_ > 0.0)) return;
+    weight_ += group_weight_;
+    loss_ += group_loss_;
+    area_ += group_weight_ * loss_ / weight_;
+    group_weight_ = group_loss_ = 0.0;
+  }
+  /// After the last group; NaN without items.
+  [[nodiscard]] double area() const { return weight_ > 0.0 ? area_ / weight_ : not_stated; }
+
+ private:
+  double weight_ = 0.0, loss_ = 0.0, area_ = 0.0, group_weight_ = 0.0, group_loss_ = 0.0;
+};
+
+/// A mean of what exists.
+class Mean {
+ public:
+  void add(double weight, double value) {
+    if (std::isnan(value)) return;
+    weight_ += weight;
+    sum_ += weight * value;
+  }
+  [[nodiscard]] double value() const { return weight_ > 0.0 ? sum_ / weight_ : not_stated; }
+
+ private:
+  double weight_ = 0.0, sum_ = 0.0;
+};
+
+}  // namespace dualdamp::bench

@@ -1,0 +1,39 @@
+#pragma once
+/// Resamples of a stress test: how often each departure, rig and case counts.
+///
+/// Departures are drawn with replacement within their family, rigs among all, and each case counts a Poisson number
+/// of times with mean 1; the weight of a case is the product (the pigeonhole bootstrap of crossed factors,
+/// owen2007pigeonhole). Resample 0 is the stress test itself: everything counts once. All methods share the
+/// resamples, so that their differences have standard errors of their own.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bench/grid.hpp"
+
+namespace dualdamp::bench {
+
+inline constexpr std::size_t resamples = 200;
+
+class Resample {
+ public:
+  Resample(const Grid& grid, std::size_t number);
+
+  /// Of a case of this rig; that of its departure is not in it.
+  [[nodiscard]] double weight(std::size_t rig, std::size_t number) const {
+    return number_ == 0 ? 1.0 : rigs_[rig] * times(number);
+  }
+  /// Of the departures, in the order of the question; the truth counts once.
+  [[nodiscard]] double law_weight(std::size_t law) const { return laws_[law]; }
+
+ private:
+  [[nodiscard]] double times(std::size_t number) const;
+
+  std::size_t number_;
+  std::uint64_t seed_;
+  std::vector<double> rigs_;
+  std::vector<double> laws_;
+};
+
+}  // namespace dualdamp::bench

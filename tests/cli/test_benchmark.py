@@ -1,0 +1,387 @@
+#!/usr/bin/env python3
+"""The stress test as a benchmark: exported records, answers of programs outside, and the scores recomputed here.
+
+usage: test_benchmark.py PROGRAM ROOT [TEST...]
+
+What is recomputed shares nothing with the program but the files: truths come from the scenario and the numbers of the
+cases, scores from their definitions in docs/benchmark.md.
+"""
+
+import csv
+import json
+import math
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+SCENARIO = ROOT / "scenarios/stress/small.yaml"
+METRICS = ("coverage_zeta", "coverage_F0", "interval_score_zeta", "interval_score_F0", "power", "attainable_power", "false_alarm",
+           "selective_risk_area")
+MASS, STIFFNESS, ZETA, F0 = 1.042, 1568.0, 0.0987, 4.39  # of small.yaml
+SEEDS = 4
+
+
+def table(path):
+    lines = [line for line in Path(path).read_text().splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def number(text):
+    return float(text) if text not in ("", None) else None
+
+
+def plain(row):
+    """A row without the name of its method."""
+    return {key: value for key, value in row.items() if key != "method"}
+
+
+def interval_score(low, high, truth):
+    return min(((high - low) + 40 * max(low - truth, 0) + 40 * max(truth - high, 0)) / truth, 40)
+
+
+def risk_area(items):
+    """items: (confidence, loss)."""
+    groups = {}
+    for confidence, loss in items:
+        groups.setdefault(confidence, []).append(loss)
+    seen, area = [], 0
+    for confidence in sorted(groups, reverse=True):
+        seen += groups[confidence]
+        area += len(groups[confidence]) / len(items) * sum(seen) / len(seen)
+    return area
+
+
+class Benchmark(unittest.TestCase):
+    shared = None
+
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.shared = Path(temporary.name)
+        cls.call("stress", "export", SCENARIO, "--out", cls.shared / "export", "--seed", 7)
+
+    @classmethod
+    def call(cls, *arguments, status=0, command=None):
+        result = subprocess.run(command or [PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+        assert result.returncode == status, (result.returncode, result.stdout + result.stderr)
+        return result
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.export = self.shared / "export"
+        self.key = json.loads((self.export / "key.json").read_text())
+
+    def score(self, *answers, out="scored", scenario=SCENARIO, **options):
+        """Scores answers, a list of NAME=FILE; one run of the methods serves all tests."""
+        place = self.folder / out
+        if (self.shared / "cases.jsonl").exists() and scenario == SCENARIO:
+            place.mkdir()
+            shutil.copy(self.shared / "cases.jsonl", place)
+        result = self.call("stress", "score", scenario, "--key", self.export / "key.json", "--out", place, "--quiet",
+                           *[part for answer in answers for part in ("--answers", answer)], **options)
+        if options.get("status", 0) == 0 and not (self.shared / "cases.jsonl").exists():
+            shutil.copy(place / "cases.jsonl", self.shared)
+        return place, result
+
+    def cases(self):
+        """Law, severity and seed of each exported case, from its number in the grid."""
+        departures = [("coulomb_viscous", 0.0)] + [(law, s) for law in ("contact_compliance", "detuning", "static_friction") for s in (0.01, 0.1, 0.3)]
+        return [(*departures[place // SEEDS], place % SEEDS) for place in self.key["numbers"]]
+
+    def write(self, name, rows, columns):
+        path = self.folder / name
+        with path.open("w", newline="") as file:
+            writer = csv.DictWriter(file, columns)
+            writer.writeheader()
+            writer.writerows(rows)
+        return path
+
+    def test_exported_records_tell_nothing(self):
+        files = sorted((self.export / "cases").iterdir())
+        self.assertEqual([file.name for file in files], [f"{i:06d}.csv" for i in range(1, 41)])
+        self.assertEqual(sorted(self.key["numbers"]), list(range(40)))
+        self.assertNotEqual(self.key["numbers"], list(range(40)))
+        for path in [*files, self.export / "constants.csv"]:
+            text = path.read_text()
+            for line in text.splitlines()[1:]:
+                self.assertRegex(line, r"^[-+.eE0-9,]+$")
+            self.assertNotRegex(text, "(?i)coulomb|compliance|detuning|static|severity|seed|rig|law|0\\.0987|4\\.39")
+        constants = table(self.export / "constants.csv")
+        self.assertEqual({(row["mass [kg]"], row["stiffness [N/m]"]) for row in constants}, {("1.042", "1568")})
+
+    def test_the_same_seed_gives_the_same_files_and_a_hidden_one_others(self):
+        self.call("stress", "export", SCENARIO, "--out", self.folder / "again", "--seed", 7, "--jobs", 1)
+        for path in self.export.rglob("*.*"):
+            self.assertEqual(path.read_bytes(), (self.folder / "again" / path.relative_to(self.export)).read_bytes())
+        for name in ("first", "second"):
+            self.call("stress", "export", SCENARIO, "--out", self.folder / name)
+        seeds = {json.loads((self.folder / name / "key.json").read_text())["seed"] for name in ("first", "second")}
+        self.assertEqual(len(seeds), 2)
+
+    def reentered(self):
+        """Answers of resonance_least_squares to the exported files, by the program's own command."""
+        rows = []
+        for known in table(self.export / "constants.csv"):
+            data = self.export / "cases" / f"{int(known['case']):06d}.csv"
+            result = subprocess.run([PROGRAM, "identify", str(data), "--mass", known["mass [kg]"] + " kg", "--stiffness",
+                                     known["stiffness [N/m]"] + " N/m", "--frequency", known["frequency [rad/s]"] + " rad/s", "--method",
+                                     "resonance_least_squares", "--json", "--out", str(self.folder / "identified")],
+                                    capture_output=True, text=True, timeout=60)
+            estimates = json.loads(result.stdout)["result"]["estimates"]
+            if not estimates or estimates[0].get("zeta") is None:
+                continue
+            estimate = estimates[0]
+            interval = estimate.get("interval95") or {}
+            # The method's own test; what `identify` says beside asks the ledger of assumptions too.
+            lack = estimate["diagnostics"]["lack_of_fit"]
+            row = {"case": known["case"], "zeta": estimate["zeta"], "F0": estimate["F0"], "p_value": lack["p_value"], "usable": not lack["fired"]}
+            for name in ("zeta", "F0"):
+                low, high = interval.get(name) or (None, None)
+                row |= {f"{name}_low": low, f"{name}_high": high}
+            rows.append(row)
+        return rows
+
+    def test_a_built_in_method_that_enters_as_a_program_scores_as_itself(self):
+        answers = self.write("answers.csv", self.reentered(), ["usable", "case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value"])
+        out, _ = self.score(f"outside={answers}")
+        for name in ("scores", "families", "ranking"):
+            rows = table(out / f"{name}.csv")
+            inside = [plain(row) for row in rows if row["method"] == "resonance_least_squares"]
+            outside = [plain(row) for row in rows if row["method"] == "outside"]
+            self.assertGreater(len(inside), 0)
+            self.assertEqual(inside, outside)
+        difference = [row for row in table(out / "differences.csv") if {row["better"], row["worse"]} == {"outside", "resonance_least_squares"}]
+        self.assertEqual([(float(row["difference"]), row["significant"]) for row in difference], [(0.0, "0")])
+
+    def drawn(self):
+        """Answers of all kinds: with and without intervals, p-values, verdicts; some missing."""
+        draws = random.Random(3)
+        rows = []
+        for case in range(1, 41):
+            if draws.random() < 0.1:
+                continue
+            row = {"case": case, "zeta": ZETA * draws.uniform(0.8, 1.3), "F0": F0 * draws.uniform(0.5, 1.2)}
+            for name, truth in (("zeta", ZETA), ("F0", F0)):
+                if draws.random() < 0.8:
+                    row[f"{name}_low"], row[f"{name}_high"] = truth * draws.uniform(0.5, 1.1), truth * draws.uniform(1.1, 1.9)
+            if draws.random() < 0.7:
+                row["p_value"] = draws.choice([0.01, 0.04, 0.2, draws.random()])
+            if draws.random() < 0.5:
+                row["usable"] = draws.choice(["yes", "no"])
+            rows.append(row)
+        return rows
+
+    @staticmethod
+    def marked(row):
+        """rejected, confidence, loss and per parameter (covers, score) of one answer, by the definitions."""
+        if row is None:
+            return True, -3, 1, {"zeta": (None, 2), "F0": (None, 2)}
+        usable, p = row.get("usable"), row.get("p_value")
+        rejected = usable == "no" if usable else p is not None and p < 0.05
+        confidence = (1 if p is None else p) - (2 if usable == "no" else 0)
+        loss = min(1, max(abs(row["zeta"] / ZETA - 1), abs(row["F0"] / F0 - 1)))
+        parameters = {}
+        for name, truth in (("zeta", ZETA), ("F0", F0)):
+            if usable == "no" or f"{name}_low" not in row:
+                parameters[name] = (None, 2)
+            else:
+                low, high = row[f"{name}_low"], row[f"{name}_high"]
+                parameters[name] = (low <= truth <= high, interval_score(low, high, truth))
+        return rejected, confidence, loss, parameters
+
+    def test_cells_recomputed_from_the_definitions(self):
+        drawn = self.drawn()
+        answers = self.write("drawn.csv", drawn, ["case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value", "usable"])
+        out, _ = self.score(f"drawn={answers}")
+        cells = {}
+        by_case = {row["case"]: row for row in drawn}
+        for i, (law, severity, _) in enumerate(self.cases()):
+            cells.setdefault((law, severity), []).append(self.marked(by_case.get(i + 1)))
+        rows = {(row["law"], float(row["severity"])): row for row in table(out / "scores.csv") if row["method"] == "drawn"}
+        self.assertEqual(set(rows), set(cells))
+        checked = 0
+        for cell, marks in cells.items():
+            row = rows[cell]
+            rejections = sum(mark[0] for mark in marks) / len(marks)
+            expected = {"false_alarm" if cell[0] == "coulomb_viscous" else "power": rejections,
+                        "power" if cell[0] == "coulomb_viscous" else "false_alarm": None,
+                        "selective_risk_area": risk_area([(mark[1], mark[2]) for mark in marks])}
+            for name in ("zeta", "F0"):
+                covered = [mark[3][name][0] for mark in marks if mark[3][name][0] is not None]
+                expected[f"coverage_{name}"] = sum(covered) / len(covered) if covered else None
+                expected[f"interval_score_{name}"] = sum(mark[3][name][1] for mark in marks) / len(marks)
+            for metric, value in expected.items():
+                if value is None:
+                    self.assertEqual(row[metric], "", (cell, metric))
+                else:
+                    self.assertAlmostEqual(float(row[metric]), value, delta=1e-5 * max(1, value), msg=f"{cell} {metric}")
+                checked += 1
+        self.assertGreaterEqual(checked, 12 * 5)
+        self.check_families(out, rows)
+
+    def check_families(self, out, rows):
+        """Departures first, then families."""
+        families = {"presliding": ["contact_compliance"], "drive": ["detuning"], "velocity": ["static_friction"], "none": ["coulomb_viscous"]}
+        means = {}
+        for family, laws in families.items():
+            for metric in METRICS[:-1]:
+                values = [number(row[metric]) for (law, _), row in rows.items() if law in laws]
+                values = [value for value in values if value is not None]
+                means[family, metric] = sum(values) / len(values) if values else None
+        found = {row["family"]: row for row in table(out / "families.csv") if row["method"] == "drawn"}
+        overall = next(row for row in table(out / "ranking.csv") if row["method"] == "drawn")
+        for (family, metric), value in means.items():
+            if value is not None:
+                self.assertAlmostEqual(float(found[family][metric]), value, delta=1e-9)
+        for metric in METRICS[:-1]:
+            values = [value for (_, name), value in means.items() if name == metric and value is not None]
+            self.assertAlmostEqual(float(overall[metric]), sum(values) / len(values), delta=1e-9)
+        self.assertAlmostEqual(float(overall["interval_score"]), (float(overall["interval_score_zeta"]) + float(overall["interval_score_F0"])) / 2, delta=1e-9)
+
+    @staticmethod
+    def steady_state(zeta, friction, Y, omega):
+        """Amplitude and phase lag of the fundamental, from Den Hartog's half period between two turning points."""
+        wn = math.sqrt(STIFFNESS / MASS)
+        r = omega / wn
+        s, beta = math.sqrt(1 - zeta**2), wn / omega
+        a, b = math.pi * zeta * beta, math.pi * s * beta
+        G = (math.sinh(a) - zeta / s * math.sin(b)) / (math.cosh(a) + math.cos(b))
+        H = beta / s * math.sin(b) / (math.cosh(a) + math.cos(b))
+        forced = Y / math.sqrt((1 - r**2) ** 2 + (2 * zeta * r) ** 2)
+        x_f = friction / STIFFNESS
+        x = math.sqrt(forced**2 - (H * x_f) ** 2) - G * x_f
+        best = None
+        for sign in (1, -1):  # the one that reaches the other turning point
+            angle = math.atan2(sign * H * x_f, x + G * x_f)
+            A = x - x_f - forced * math.cos(angle)
+            B = (zeta * wn * A + omega * forced * math.sin(angle)) / (s * wn)
+
+            def position(t, A=A, B=B, angle=angle):
+                return x_f + forced * math.cos(omega * t + angle) + math.exp(-zeta * wn * t) * (A * math.cos(s * wn * t) + B * math.sin(s * wn * t))
+
+            miss = abs(position(math.pi / omega) + x)
+            if best is None or miss < best[0]:
+                best = miss, angle, position
+        miss, angle, position = best
+        assert miss < 1e-9 * x, miss
+        n = 400  # Simpson's rule over the half period
+        cosine = sine = 0.0
+        for i in range(n + 1):
+            weight = (1 if i in (0, n) else 4 if i % 2 else 2) / (3 * n) * 2
+            value = position(i / n * math.pi / omega)
+            cosine += weight * value * math.cos(math.pi * i / n)
+            sine += weight * value * math.sin(math.pi * i / n)
+        drive = angle + math.atan2(2 * zeta * r, 1 - r**2)
+        return x, (drive + math.atan2(sine, cosine)) % (2 * math.pi)
+
+    def nearest(self, data, deviations, levels, omega):
+        """Distance and the (zeta, F0) of the least-squares Coulomb + viscous motion, over the truth less 1."""
+
+        def residuals(p):
+            readings = [value for Y in levels for value in self.steady_state(ZETA * math.exp(p[0]), F0 * math.exp(p[1]), Y, omega)]
+            return [(d - f) / s for d, f, s in zip(data, readings, deviations)]
+
+        p = [0.0, 0.0]
+        for _ in range(30):
+            here, h = residuals(p), 1e-6
+            J = [[(t - r) / h for t, r in zip(residuals([p[0] + h * (j == 0), p[1] + h * (j == 1)]), here)] for j in (0, 1)]
+            (aa, ab), bb = [sum(u * v for u, v in zip(J[0], J[k])) for k in (0, 1)], sum(v * v for v in J[1])
+            ga, gb = (-sum(u * r for u, r in zip(J[k], here)) for k in (0, 1))
+            determinant = aa * bb - ab * ab
+            p = [p[0] + (bb * ga - ab * gb) / determinant, p[1] + (aa * gb - ab * ga) / determinant]
+        return math.sqrt(sum(r * r for r in residuals(p))), math.exp(p[0]) - 1, math.exp(p[1]) - 1
+
+    def test_distance_and_harm_of_a_detuned_drive_are_those_of_den_hartogs_law(self):
+        wn = math.sqrt(STIFFNESS / MASS)
+        levels = [4.5e-3 + i * 0.75e-3 for i in range(5)]
+        x_noise, y_noise, periods = math.hypot(20e-6, 3e-6 / math.sqrt(12)), 20e-6, 12
+        out = self.folder / "detuned"
+        self.call("run", SCENARIO, "--set", "analysis.laws=[detuning]", "--set", "analysis.severities=[0.003, 0.01, 0.03]", "--set",
+                  "expect=[{value: cases.failed, equals: 0}]", "--out", out, "--quiet")
+        rows = {(row["law"], float(row["severity"])): row for row in table(out / "consequences.csv")}
+        for severity in (0.003, 0.01, 0.03):  # none of these motions rests
+            data, deviations = [], []
+            for Y in levels:
+                x, phase = self.steady_state(ZETA, F0, Y, wn * (1 + severity))
+                slope = (self.steady_state(ZETA, F0, Y * 1.001, wn)[0] - self.steady_state(ZETA, F0, Y, wn)[0]) / (0.001 * Y)
+                data += [x, phase]
+                deviations += [math.hypot(x_noise, slope * y_noise) / math.sqrt(2 * periods), math.hypot(x_noise / x, y_noise / Y) / math.sqrt(periods)]
+            distance, zeta, friction = self.nearest(data, deviations, levels, wn)
+            row = rows["detuning", severity]
+            self.assertAlmostEqual(number(row["distance"]) / distance, 1, delta=1e-3)
+            self.assertAlmostEqual(number(row["harm_zeta"]), zeta, delta=1e-3 * max(abs(zeta), 0.01))
+            self.assertAlmostEqual(number(row["harm_F0"]), friction, delta=1e-3 * max(abs(friction), 0.01))
+
+    def test_consequences(self):
+        out, _ = self.score()
+        rows = {(row["law"], float(row["severity"])): row for row in table(out / "consequences.csv")}
+        self.assertEqual(number(rows["coulomb_viscous", 0]["distance"]), 0)
+        self.assertLess(number(rows["static_friction", 0.3]["harm"]), 1e-12)  # the motion never rests
+        for law in ("contact_compliance", "detuning"):
+            distances = [number(rows[law, s]["distance"]) for s in (0.01, 0.1, 0.3)]
+            self.assertEqual(distances, sorted(distances))
+        for row in rows.values():
+            distance = number(row["distance"])
+            power = 0.5 * math.erfc(-(distance - 1.6448536269514722) / math.sqrt(2))
+            self.assertAlmostEqual(number(row["attainable_power"]), power, delta=1e-12)
+
+    def test_examples_of_programs_outside(self):
+        python = self.folder / "python.csv"
+        self.call(command=[sys.executable, str(ROOT / "docs/benchmark/answers.py"), str(self.export), str(python)])
+        entries = [f"python={python}"]
+        octave = shutil.which("octave-cli") or shutil.which("octave")
+        if octave:
+            matlab = self.folder / "octave.csv"
+            self.call(command=[octave, "--no-gui", "--norc", str(ROOT / "docs/benchmark/answers.m"), str(self.export), str(matlab)])
+            entries.append(f"octave={matlab}")
+        out, _ = self.score(*entries)
+        rows = {row["method"]: row for row in table(out / "ranking.csv")}
+        inside = rows["resonance_least_squares"]
+        for entry in (entry.split("=")[0] for entry in entries):
+            # A line through the same points by a law of first order: intervals about as good, and no rejection.
+            self.assertLess(abs(float(rows[entry]["interval_score_zeta"]) - float(inside["interval_score_zeta"])), 5)
+            self.assertEqual(float(rows[entry]["power"]), 0)
+        if octave:
+            self.assertEqual(plain(rows["python"])["interval_score"][:8], plain(rows["octave"])["interval_score"][:8])
+        page = (out / "report.html").read_text()
+        self.assertIn("python", page)
+
+    def test_answers_are_refused_with_their_place(self):
+        for text, message in [("zeta\n1\n", "the column 'case' is missing"), ("case,beta\n1,2\n", "there is no column of this name"),
+                              ("case,zeta\n41,1\n", "there is no such case"), ("case,zeta\n1,1\n1,2\n", "answered twice"),
+                              ("case,zeta\n1,abc\n", "is no number"), ("case,zeta_low,zeta_high\n1,3,2\n", "ends below its begin"),
+                              ("case,zeta_low\n1,3\n", "one end"), ("case,p_value\n1,1.5\n", "out of range"), ("case,usable\n1,perhaps\n", "neither yes nor no"),
+                              ("case,zeta\n1\n", "another number of fields"), ("", "no header")]:
+            path = self.folder / "bad.csv"
+            path.write_text(text)
+            _, result = self.score(f"bad={path}", out=f"bad{hash(text)}", status=3)
+            self.assertIn(message, result.stderr)
+            self.assertIn("bad.csv", result.stderr)
+        good = self.write("good.csv", [], ["case"])
+        for answers, message in [([f"{good}"], "answers need a name"), ([f"a={good}", f"a={good}"], "under one name"),
+                                 ([f"resonance_two_point={good}"], "under one name")]:
+            _, result = self.score(*answers, out=f"name{hash(message + answers[0])}", status=3)
+            self.assertIn(message, result.stderr)
+        result = self.call("stress", "score", SCENARIO, "--set", "analysis.seeds=5", "--key", self.export / "key.json", status=3)
+        self.assertIn("another stress test", result.stderr)
+        result = self.call("stress", "export", ROOT / "scenarios/examples/coulomb.yaml", "--out", self.folder / "x", status=3)
+        self.assertNotEqual(result.stderr, "")
+
+    def test_nobody_answers(self):
+        out, _ = self.score(f"silent={self.write('silent.csv', [], ['case'])}")
+        row = next(row for row in table(out / "ranking.csv") if row["method"] == "silent")
+        self.assertEqual([float(row[name]) for name in ("interval_score", "power", "false_alarm", "selective_risk_area")], [2, 1, 1, 1])
+        self.assertEqual(row["coverage_F0"], "")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
