@@ -54,12 +54,12 @@ function rankingTable() {
 }
 
 /** Family by method: one metric. */
-function familyMap(title, metric, colour, text) {
+function familyMap(title, metric, colour, text, only = null) {
   const rows = rowsOf("families").filter((row) => row[metric] !== null);
   if (!rows.length) return [];
   const families = [...new Set(rows.map((row) => row.family))];
-  const methods = rowsOf("ranking").map((row) => row.method);
-  const body = methods.map((method) => [{ text: method, class: "text" }, ...families.map((family) => {
+  const methods = rowsOf("ranking").map((row) => row.method).slice(0, only ? 1 : undefined);
+  const body = methods.map((method) => [{ text: only ?? method, class: "text" }, ...families.map((family) => {
     const row = rows.find((item) => item.family === family && item.method === method);
     return row ? { text: metricText(row, metric), class: "heat", style: heat(colour(row[metric], row)), title: `${family}, ${method}` } : { text: "–" };
   })]);
@@ -68,20 +68,21 @@ function familyMap(title, metric, colour, text) {
 
 function departureTable() {
   return [make("details", {}, make("summary", {}, "What the departures and their severities are"),
-    grid(["departure", "family", "severity"], Object.entries(run.result.departures).map(([law, { family, severity }]) => [{ text: law, class: "text" }, { text: family, class: "text" }, { text: severity, class: "long" }]), { caption: "Departures" }))];
+    grid(["departure", "family", "severity"], rowsOf("departures").map(({ departure, family, severity }) => [{ text: departure, class: "text" }, { text: family, class: "text" }, { text: severity, class: "long" }]), { caption: "Departures" }))];
 }
 
 /** What a departure comes to: harm over distance, one point a motion. */
 function consequenceChart() {
   const rows = rowsOf("consequences").filter((row) => row.distance > 0 && row.harm > 0);
   if (!rows.length) return [];
-  const families = [...new Set(rows.map((row) => run.result.departures[row.law].family))];
+  const familyOf = Object.fromEntries(rowsOf("departures").map((row) => [row.departure, row.family]));
+  const families = [...new Set(rows.map((row) => familyOf[row.law]))];
   return [chart({
     title: "What departures cost, and what could be known of them",
     note: "Harm: relative error of zeta or F0 of the nearest Coulomb + viscous motion, that of a perfect fit. Distance: of its readings from those measured, in units of noise. Left of 1.6 even the best test finds a departure in less than half of the cases.",
     x: { label: "distance", unit: "", log: true }, y: { label: "harm", unit: "", log: true },
     series: families.map((family, i) => {
-      const here = rows.filter((row) => run.result.departures[row.law].family === family);
+      const here = rows.filter((row) => familyOf[row.law] === family);
       return { label: family, x: here.map((row) => row.distance), y: here.map((row) => row.harm), colour: i, kind: "points" };
     }),
   })];
@@ -94,7 +95,7 @@ function stressTables() {
     ...familyMap("Who is right: interval score by family", "interval_score_F0", (value) => value / 10, "Mean interval score of F0, relative to the truth. 0 is best; an interval from 0 to twice the truth scores 2; an answer that is off by its whole 40."),
     ...familyMap("Coverage by family", "coverage_F0", (value) => (0.95 - value) / 0.95, "Share of 95 % intervals that hold the true F0."),
     ...familyMap("Who knows: power by family", "power", (value, row) => row.attainable_power - value, "Share of cases with a departure that the method rejects. The colour is the distance to the power of the best test that knows the departure: what could be known and is not said."),
-    ...familyMap("What nobody can know: attainable power by family", "attainable_power", (value) => 1 - value, "Power of the best test that knows the departure and the noise of the sensors."),
+    ...familyMap("What nobody can know: attainable power by family", "attainable_power", (value) => 1 - value, "Power of the best test that knows the departure and the noise of the sensors.", "best possible test"),
     ...departureTable()];
 }
 

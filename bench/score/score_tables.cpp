@@ -67,6 +67,7 @@ Table ranking_table(const Scores& scores, const Grid& grid) {
                column("rank_from", "", list, &Rank::from), column("rank_to", "", list, &Rank::to),
                column("interval_score", "", list, &Rank::interval_score),
                column("interval_score_se", "", list, &Rank::interval_score_se)}};
+  table.is_long = true;  // a terminal has the short one
   add_metrics(table, list);
   table.key = "ranking";
   return table;
@@ -116,6 +117,33 @@ Table consequence_table(const MarkedCases& cases, const Grid& grid) {
   return table;
 }
 
+Table departure_table(const Grid& grid) {
+  const std::vector<const Rig*>& list = grid.question().laws;
+  Table table{"departures",
+              {text_column("departure", list, [](const Rig* law) { return law->name; }),
+               text_column("family", list, [](const Rig* law) { return name_of(law->family); }),
+               text_column("severity", list, [](const Rig* law) { return law->severity; })},
+              true};
+  table.key = "departures";
+  return table;
+}
+
+/// What of the ranking fits a terminal.
+Table short_ranking(const Scores& scores, const Grid& grid) {
+  const std::vector<Rank>& list = scores.ranking;
+  Table table{"ranking",
+              {text_column("method", list, [&](const Rank& r) { return grid.question().entrant(r.entrant); }),
+               column("rank_from", "", list, &Rank::from), column("rank_to", "", list, &Rank::to),
+               column("interval_score", "", list, &Rank::interval_score),
+               column("interval_score_se", "", list, &Rank::interval_score_se)}};
+  for (const Metric metric :
+       {Metric::coverage_zeta, Metric::coverage_F0, Metric::power, Metric::attainable_power, Metric::false_alarm})
+    table.columns.push_back(column(std::string(metric_names.at(static_cast<std::size_t>(metric))), "", list,
+                                   [metric](const Rank& r) { return r.value[metric]; }));
+  table.is_file = false;
+  return table;
+}
+
 Json summary(const MarkedCases& cases, const Grid& grid) {
   const StressTest& question = grid.question();
   Json json;
@@ -124,10 +152,8 @@ Json summary(const MarkedCases& cases, const Grid& grid) {
                    {"motions", grid.motions()},
                    {"rigs", question.rigs.size()},
                    {"estimates", grid.cases() * question.entrants()}};
-  json["departures"] = Json::object();
-  for (const Rig* law : question.laws)
-    json["departures"][std::string(law->name)] = {{"family", name_of(law->family)}, {"severity", law->severity}};
-  for (const char* key : {"ranking", "families", "differences", "scores", "consequences"}) json[key] = nullptr;
+  for (const char* key : {"ranking", "families", "departures", "differences", "scores", "consequences"})
+    json[key] = nullptr;
   return json;
 }
 
@@ -155,8 +181,9 @@ scenarios::Answer answer_of(const MarkedCases& cases, const Grid& grid) {
   const Scores scores = score(cases, grid);
   scenarios::Answer answer;
   answer.result = summary(cases, grid);
-  answer.tables = {ranking_table(scores, grid), family_table(scores, grid), difference_table(scores, grid),
-                   cell_table(scores, grid), consequence_table(cases, grid)};
+  answer.tables = {short_ranking(scores, grid),   ranking_table(scores, grid),    family_table(scores, grid),
+                   departure_table(grid),         difference_table(scores, grid), cell_table(scores, grid),
+                   consequence_table(cases, grid)};
   if (cases.failed_cases > 0) answer.status = core::ExitStatus::some_cases_failed;
   return answer;
 }
@@ -174,6 +201,9 @@ std::vector<scenarios::ResultField> score_fields() {
       {"ranking[].interval_score", "1", "mean of the interval scores of zeta and F0: what the ranking goes by"},
       {"ranking[].interval_score_se", "1", "its standard error"}};
   add_metric_fields(fields, "ranking");
+  fields.push_back({"departures[].departure", "", "its name"});
+  fields.push_back({"departures[].family", "", "what it is a departure of"});
+  fields.push_back({"departures[].severity", "", "what its severity is"});
   fields.push_back({"families[].family", "", "family of departures, or none"});
   fields.push_back({"families[].method", "", "a method or an entry"});
   add_metric_fields(fields, "families");
