@@ -59,8 +59,11 @@ class Input {
       const std::size_t column = (first + done) % length;
       const std::size_t count = std::min(length - column, out.size() - done);
       const double* place = start_of_row((first + done) / length);
-      for (std::size_t i = 0; i < count; ++i)
-        out[done + i] = place[static_cast<py::ssize_t>(column + i) * strides_.back()];
+      const auto to = out.begin() + static_cast<std::ptrdiff_t>(done);
+      if (strides_.back() == 1)
+        std::copy_n(place + column, count, to);
+      else
+        std::fill_n(to, count, *place);
       done += count;
     }
   }
@@ -114,15 +117,17 @@ struct Output {
       : peak(size), trough(size), lag(size), radius(size), stops(size), outcome(size) {}
 
   void take(const sim::BatchSteadyStates& states, std::size_t first) {
+    const auto place = static_cast<std::ptrdiff_t>(first);
+    std::ranges::copy(states.peak, peak.begin() + place);
+    std::ranges::copy(states.trough, trough.begin() + place);
+    std::ranges::copy(states.lag, lag.begin() + place);
+    std::ranges::copy(states.radius, radius.begin() + place);
+    std::ranges::copy(states.stops, stops.begin() + place);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < states.outcome.size(); ++i) {
-      const bool is_done = states.outcome[i] == core::OutcomeKind::done;
-      peak[first + i] = is_done ? states.peak[i] : none;
-      trough[first + i] = is_done ? states.trough[i] : none;
-      lag[first + i] = is_done ? states.lag[i] : none;
-      radius[first + i] = is_done ? states.radius[i] : none;
-      stops[first + i] = states.stops[i];
       outcome[first + i] = static_cast<unsigned char>(states.outcome[i]);
+      if (states.outcome[i] == core::OutcomeKind::done) continue;
+      for (std::vector<double>* numbers : {&peak, &trough, &lag, &radius}) (*numbers)[first + i] = none;
     }
   }
 
@@ -131,19 +136,18 @@ struct Output {
   std::vector<unsigned char> outcome;
 };
 
-/// Many oscillators are handed over in chunks, whose numbers stay in the cache of the processor.
-constexpr std::size_t chunk_size = 32'768;
+/// Many oscillators are handed over in chunks: the memory for them is bounded, and threads rarely wait for each
+/// other.
+constexpr std::size_t chunk_size = 131'072;
 
-sim::OscillatorBatch chunk_of(const std::vector<Input>& inputs, sim::ExcitationType type, sim::DamperTo damper_to,
-                              std::size_t first, std::size_t count) {
-  sim::OscillatorBatch chunk{.type = type, .damper_to = damper_to};
+/// Fills the chunk with `count` oscillators from `first` on; its memory is used again and again.
+void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::size_t first, std::size_t count) {
   std::vector<double>* const columns[] = {&chunk.mass,         &chunk.damping,   &chunk.stiffness, &chunk.kinetic,
                                           &chunk.static_level, &chunk.amplitude, &chunk.frequency};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     columns[i]->resize(count);
     inputs[i].read(first, *columns[i]);
   }
-  return chunk;
 }
 
 /// `values`: mass, damping, stiffness, kinetic, static, amplitude, frequency.
@@ -160,10 +164,11 @@ py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const
   const auto damper_to = damper_to_base ? sim::DamperTo::base : sim::DamperTo::ground;
   Output found = interruptible([&] {
     Output all(size);
-    for (std::size_t first = 0; first < size; first += chunk_size)
-      all.take(sim::steady_states(chunk_of(inputs, type, damper_to, first, std::min(chunk_size, size - first)),
-                                  {.threads = threads}),
-               first);
+    sim::OscillatorBatch chunk{.type = type, .damper_to = damper_to};
+    for (std::size_t first = 0; first < size; first += chunk_size) {
+      fill(chunk, inputs, first, std::min(chunk_size, size - first));
+      all.take(sim::steady_states(chunk, {.threads = threads}), first);
+    }
     return all;
   });
   return py::make_tuple(output(std::move(found.peak), shape), output(std::move(found.trough), shape),
