@@ -276,3 +276,31 @@ TEST_CASE("Universal files: what is no time response is left out, what is damage
   CHECK(mentions(refusal_of(uff58(UniversalFunction{.label = "x", .values = ramp(20)}) + uff58(later)),
                  "not sampled at the times"));
 }
+
+TEST_CASE("One signal is read as it stands, whatever else the file holds") {
+  const std::string csv = "clock [ms],way,remark,v [kg]\n0,1,up,x\n7,3,,x\n10,2,down,x\n";
+  const ReadOptions named{.units = {{"y", "mm"}}, .columns = {{"t", "clock"}, {"y", "way"}}, .name = "data.csv"};
+  const auto signal = identify::parse_signal(csv, "y", named);
+  CHECK(signal.warnings.empty());
+  CHECK(signal.sha256 == core::sha256(csv));
+  CHECK(signal.times == std::vector<double>{0.0, 7e-3, 10e-3});
+  CHECK(signal.values == std::vector<double>{1e-3, 3e-3, 2e-3});
+  // A vector x of another length, and data sets of other signals.
+  const TemporaryFile matlab("drive.mat", mat4("t", ramp(20)) + mat4("force", ramp(20)) + mat4("x", ramp(30)));
+  CHECK(identify::read_signal(matlab.path(), "force").values == ramp(20));
+  CHECK(identify::read_signal(matlab.path(), "force").warnings.empty());
+  UniversalFunction later{.label = "x", .start = 1.0, .values = ramp(20)};
+  const std::string universal = uff58({.label = "y", .values = ramp(20)}) + uff58(later);
+  CHECK(identify::parse_signal(universal, "y", {.name = "data.uff"}).values == ramp(20));
+}
+
+TEST_CASE("Signals that drive nothing are refused") {
+  const auto refused = [](const std::string& text) {
+    return refusal([&] { return identify::parse_signal(text, "y", ReadOptions{.name = "data.csv"}); });
+  };
+  CHECK(mentions(refused("t,x\n0,1\n1,2\n"), "there is no column y"));
+  CHECK(mentions(refused("x,y\n0,1\n1,2\n"), "there is no column t"));
+  CHECK(mentions(refused("t,y\n0,1\n"), "too few samples"));
+  CHECK(mentions(refused("t,y\n0,1\n2,1\n1,2\n0.5,3\n"), "data.csv:4"));
+  CHECK(mentions(refused("t,y\n0,1\n1,2\nt,y\n2,1\n3,2\n"), "several tests"));
+}
