@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/random.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/verification.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/scenarios/answers.hpp"
 #include "tests/scenarios/files.hpp"
 
