@@ -178,52 +178,24 @@ bool SmoothEngine::find_hit(Hit& hit) {
 double SmoothEngine::first_negative(std::size_t watch) {
   const Watch& w = watches_[watch];
   const double floor = -resolution * w.scale;
-  const auto part = [](std::size_t k) { return static_cast<double>(k) / (points - 1); };
-  Triple edge;
-  // Of the points alone, none shows a minimum before the second or behind the last but one.
-  if (falls_at_edge(watch, 0, edge)) {
-    const double lowest = dip(watch, edge);
-    if (lowest >= 0.0) return crossing(watch, 0.0, lowest);
-  }
   for (std::size_t k = 1; k < points; ++k) {
-    if (w.values[k] < floor) return crossing(watch, part(k - 1), part(k));
+    const double part = static_cast<double>(k) / (points - 1);
+    const double before = static_cast<double>(k - 1) / (points - 1);
+    if (w.values[k] < floor) return crossing(watch, before, part);
     if (k + 1 == points || w.values[k] > w.values[k - 1] || w.values[k] > w.values[k + 1]) continue;
-    const double lowest =
-        dip(watch, {{part(k - 1), part(k), part(k + 1)}, {w.values[k - 1], w.values[k], w.values[k + 1]}});
-    if (lowest >= 0.0) return crossing(watch, part(k - 1), lowest);
-  }
-  if (falls_at_edge(watch, points - 1, edge)) {
-    const double lowest = dip(watch, edge);
-    if (lowest >= 0.0) return crossing(watch, part(points - 2), lowest);
+    const double lowest = dip(watch, k);
+    if (lowest >= 0.0) return crossing(watch, before, lowest);
   }
   return -1.0;
 }
 
-/// Whether a guard that is lowest, of the points, at the begin or the end of the step falls from there into the
-/// step, and may reach zero: three points around that minimum.
-bool SmoothEngine::falls_at_edge(std::size_t watch, std::size_t edge, Triple& around) const {
-  constexpr double near = 1e-5;
+/// Whether a minimum near this point goes below zero: where; below zero when not. One that only grazes is a
+/// grazing.
+double SmoothEngine::dip(std::size_t watch, std::size_t point) {
   const Watch& w = watches_[watch];
-  const bool begins = edge == 0;
-  const std::size_t next = begins ? 1 : edge - 1;
-  const auto [least, largest] = std::ranges::minmax(w.values);
-  if (w.values[edge] > w.values[next] || w.values[edge] > largest - least) return false;
-  const double at = begins ? near : 1.0 - near;
-  const double value = guard(watch, at);
-  if (!(value < w.values[edge])) return false;
-  const double part = static_cast<double>(next) / (points - 1);
-  around = begins ? Triple{{0.0, at, part}, {w.values[edge], value, w.values[next]}}
-                  : Triple{{part, at, 1.0}, {w.values[next], value, w.values[edge]}};
-  return true;
-}
-
-/// Whether the minimum between these points goes below zero: where, as a part of the step; below zero when not. One
-/// that only grazes is a grazing.
-double SmoothEngine::dip(std::size_t watch, Triple around) {
-  const Watch& w = watches_[watch];
-  auto& [at, value] = around;
-  const double before = value[0];
-  const double after = value[2];
+  std::array<double, 3> at = {static_cast<double>(point) - 1.0, static_cast<double>(point),
+                              static_cast<double>(point) + 1.0};
+  std::array<double, 3> value = {w.values[point - 1], w.values[point], w.values[point + 1]};
   for (int i = 0; i < 3; ++i) {
     const double left = (value[1] - value[0]) / (at[1] - at[0]);
     const double right = (value[2] - value[1]) / (at[2] - at[1]);
@@ -231,8 +203,8 @@ double SmoothEngine::dip(std::size_t watch, Triple around) {
     const double lowest = 0.5 * (at[0] + at[1]) - 0.5 * left / bend;
     // Nearer than rounding lets a parabola tell.
     if (!(bend > 0.0 && lowest > at[0] && lowest < at[2]) || std::abs(lowest - at[1]) < 1e-9) break;
-    const double there = guard(watch, lowest);
-    if (there < -resolution * w.scale) return lowest;
+    const double there = guard(watch, lowest / (points - 1));
+    if (there < -resolution * w.scale) return lowest / (points - 1);
     const std::size_t replaced = lowest < at[1] ? 2 : 0;
     at[replaced] = at[1];
     value[replaced] = value[1];
@@ -240,8 +212,9 @@ double SmoothEngine::dip(std::size_t watch, Triple around) {
     value[1] = there;
   }
   const double grazed = 100.0 * model_.solver.tolerance * w.scale;
-  if (value[1] < grazed && before > grazed && after > grazed)
-    grazings_.push_back({static_cast<int>(watch), at[1] * taken_});
+  if (value[1] < grazed && w.values[point - 1] > grazed && w.values[point + 1] > grazed) {
+    grazings_.push_back({static_cast<int>(watch), at[1] / (points - 1) * taken_});
+  }
   return -1.0;
 }
 
