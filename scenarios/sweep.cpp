@@ -294,6 +294,8 @@ class Sweep {
   Scenario whole(std::optional<Entry> expect) {
     const std::vector<ResultField> fields = first_.result_fields;
     first_.result_fields = fields_of_sweep(fields);
+    for (const SweptColumn& key : columns_)
+      first_.result_fields.push_back({"sweep[].values." + key.path, "", "value of the swept key, SI"});
     first_.warnings.clear();  // each point has its own
     first_.verify = false;    // each point is
     Json expected;

@@ -74,11 +74,12 @@ std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& stat
       at_levels({low->Y, middle, high->Y}, shared_out(count, 3), omega), has_phase);
   add("the same states at levels twice as high", scaled(same, 2.0, 1.0), has_phase);
   const double aside = 1.0 + std::clamp(zeta, 0.01, 0.2);
-  add("the same levels at a frequency above, off the resonance by zeta", scaled(same, 1.0, aside), has_phase);
-  add("the same levels at a frequency above, with their phases", scaled(same, 1.0, aside), true);
-  add("the resonance curve at the middle level", resonance_curve(middle, natural, zeta, std::max(count, 5)), false);
-  add("the resonance curve at the middle level, with phases",
-      resonance_curve(middle, natural, zeta, std::max(count, 5)), true);
+  const States other_frequency = scaled(same, 1.0, aside);
+  const States curve = resonance_curve(middle, natural, zeta, std::max(count, 5));
+  if (!has_phase) add("the same levels at a frequency above, off the resonance by zeta", other_frequency, false);
+  add("the same levels at a frequency above, off the resonance by zeta, with phases", other_frequency, true);
+  if (!has_phase) add("the resonance curve at the middle level", curve, false);
+  add("the resonance curve at the middle level, with phases", curve, true);
   list.push_back({"release the mass from the largest amplitude and read its extremes",
                   PlannedDecay{largest_x, std::max(count, 8)}, false, false, 1.0});
   return list;

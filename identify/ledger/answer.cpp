@@ -92,12 +92,17 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
   // It has all data and has set free what is violated: a narrower interval beside it is narrower by chance.
   const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
   if (joint != estimates.end() && std::isfinite(area(*joint))) return place(joint);
-  const auto narrowest = std::ranges::min_element(estimates, {}, area);
+  // Ranges over laws are for where nothing narrower can be used.
+  const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
+  const auto size = [others](const Estimate& e) {
+    return others && e.laws ? std::numeric_limits<double>::infinity() : area(e);
+  };
+  const auto narrowest = std::ranges::min_element(estimates, {}, size);
   if (narrowest == estimates.end()) return std::nullopt;
-  if (std::isfinite(area(*narrowest))) return place(narrowest);
+  if (std::isfinite(size(*narrowest))) return place(narrowest);
   std::vector<std::size_t> usable;
   for (std::size_t i = 0; i < estimates.size(); ++i)
-    if (estimates[i].usable) usable.push_back(i);
+    if (estimates[i].usable && !estimates[i].laws) usable.push_back(i);
   if (usable.empty()) return std::nullopt;
   std::ranges::sort(usable, {},
                     [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });

@@ -20,7 +20,7 @@ std::string_view name_of(scenarios::Kind kind) {
   static const std::map<scenarios::Kind, std::string_view> names = {
       {text, "text"},         {word, "word"},       {boolean, "boolean"}, {integer, "integer"},
       {quantity, "quantity"}, {quantities, "list"}, {grid, "grid"},       {integers, "integers"},
-      {word_list, "words"},   {scalar, "scalar"},   {choice, "mapping"}};
+      {word_list, "words"},   {scalar, "scalar"},   {choice, "mapping"},  {sweep, "mapping"}};
   return names.at(kind);
 }
 

@@ -102,6 +102,8 @@ const Interval* Engine::next(double horizon) {
   if (drive_.has_pieces() && drive_.piece() != periods_passed_) {
     local_time_ = 0.0;
     drive_.enter(periods_passed_);
+    // A drive that jumps sets a mass in motion that nothing holds.
+    if (direction_ == Direction::none && model_.friction.empty()) settle();
   }
   const double left = (horizon - period_begin_) - local_time_;
   const double in_piece = drive_.period() - local_time_;

@@ -127,6 +127,8 @@ Eigen::VectorXd newton_step(const ForcingPeriod& period) {
   if (!same_mode(period.begin, period.end)) return {};
   const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
+  // A neighbour's matrix, of an orbit that holds in another mode, has other coordinates.
+  if (period.monodromy.rows() != n) return {};
   Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - period.monodromy;
   for (Eigen::Index row = 2; row < n; ++row) {
     if (gap[row] == 0.0 && period.holds(row)) system(row, row) = 1.0;

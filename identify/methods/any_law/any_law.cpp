@@ -66,7 +66,9 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
 Estimate any_law(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   Estimate estimate;
   estimate.method = any_law_method.name;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
+  std::string fault = lacks_readings(record);
+  if (fault.empty()) fault = fault_of(constants);
+  if (!fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }

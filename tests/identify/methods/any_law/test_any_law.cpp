@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/rigs/rigs.hpp"
@@ -118,15 +119,15 @@ TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull hol
 }
 
 TEST_CASE("any_law: amplitudes alone allow more laws than amplitudes and phases") {
-  Normal normal(13);
-  const Record record = states("contact_compliance", 0.15, false, normal);
-  const Estimate estimate = any_law(record, known);
-  REQUIRE(estimate.outcome.ok());
-  CHECK_FALSE(law_of(estimate, "coulomb_viscous").rejected);
-  CHECK_FALSE(law_of(estimate, "detuning").rejected);
-  CHECK(holds(estimate.laws->zeta_hull, zeta));
-  REQUIRE_FALSE(estimate.laws->aliases.empty());
-  CHECK(estimate.laws->aliases.front().size() > 3);
+  const auto allowed = [](bool phases) {
+    Normal normal(13);
+    const Estimate estimate = any_law(states("contact_compliance", 0.15, phases, normal), known);
+    REQUIRE(estimate.outcome.ok());
+    CHECK(holds(estimate.laws->zeta_hull, zeta));
+    CHECK_FALSE(estimate.laws->aliases.empty());
+    return std::ranges::count_if(estimate.laws->laws, [](const LawAnswer& law) { return !law.rejected; });
+  };
+  CHECK(allowed(false) > allowed(true));
 }
 
 TEST_CASE("any_law: extremes of a free vibration") {
@@ -158,6 +159,24 @@ TEST_CASE("any_law: what it cannot read is refused with a reason") {
   CHECK_FALSE(any_law(few, known).outcome.ok());
   CHECK_FALSE(any_law({}, known).outcome.ok());
   CHECK_FALSE(any_law(states(nullptr, 0.0, true, normal), {mass, unknown, natural}).outcome.ok());
+}
+
+TEST_CASE("any_law: a level that sticks beside wild amplitudes ends with a statement, not in a crash") {
+  // One amplitude has a digit too many, one input has lost its first.
+  Record record;
+  record.pairs.emplace();
+  for (const auto& [Y, x] : {std::pair{4.4e-3, 5.786548e-3},
+                             {4.8e-3, 7.454486e-3},
+                             {5.2e-3, 9.122229e-3},
+                             {5.6e-3, 10.7829818e-3},
+                             {6.0e-3, 102.457284e-3},
+                             {0.4e-3, 14.12465e-3}})
+    record.pairs->pairs.push_back({.Y = Y, .x = x, .number = static_cast<int>(record.pairs->pairs.size()) + 1});
+  const Estimate estimate = any_law(record, known);
+  if (estimate.outcome.ok())
+    CHECK(estimate.laws->inflation > 1.0);
+  else
+    CHECK_FALSE(estimate.outcome.reason.empty());
 }
 
 TEST_CASE("any_law: uncertain constants widen its ranges as they widen another estimate's") {

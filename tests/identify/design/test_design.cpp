@@ -1,0 +1,80 @@
+#include "identify/design/design.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "identify/rigs/rigs.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "tests/identify/records.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr double mass = 1.042;
+constexpr double stiffness = 1568.0;
+const double natural = std::sqrt(stiffness / mass);
+
+/// Eight amplitudes at resonance, without phases, of a rig with a compliant contact.
+Record amplitudes(Normal& normal) {
+  constexpr double zeta = 0.08;
+  constexpr double F0 = 3.0;
+  constexpr double X = 0.01;
+  Record record;
+  record.pairs.emplace();
+  for (int i = 0; i < 8; ++i) {
+    bench::Truth rig;
+    rig.F0 = F0;
+    rig.model.oscillator = {
+        .mass = mass, .stiffness = stiffness, .damping = 2.0 * zeta * std::sqrt(mass * stiffness)};
+    const double x = X * (0.5 + i / 7.0);
+    rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                            .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
+                            .frequency = natural};
+    const bench::ReferenceMotion reference{
+        .amplitude = X, .frequency = natural, .Y = rig.model.excitation.amplitude};
+    const sim::SteadyState state =
+        sim::steady_state(bench::departed(*bench::find_departure("contact_compliance"), rig, reference, 0.15));
+    REQUIRE(state.outcome.ok());
+    Pair pair{.Y = rig.model.excitation.amplitude, .x = state.amplitude + 0.003 * X * normal(), .number = i + 1};
+    pair.omega = natural;
+    record.pairs->pairs.push_back(pair);
+  }
+  return record;
+}
+
+const Advice& named(const Design& design, const std::string& name) {
+  const auto found =
+      std::ranges::find(design.advice, name, [](const Advice& advice) { return advice.candidate.name; });
+  REQUIRE(found != design.advice.end());
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("design: after amplitudes alone their phases tell laws apart, and repetition does not") {
+  Normal normal(21);
+  const auto found = design_after(amplitudes(normal), {mass, stiffness, natural}, {}, {});
+  REQUIRE(std::holds_alternative<Design>(found));
+  const Design& design = std::get<Design>(found);
+  const Advice& phases = named(design, "record the phase of the same states");
+  const Advice& again = named(design, "repeat the same states");
+  CHECK(phases.power > 0.6);
+  CHECK(phases.power > 1.5 * again.power);
+  CHECK(phases.hull.zeta < again.hull.zeta);
+  CHECK(phases.hull.F0 < again.hull.F0);
+  CHECK(phases.text.find("record the phase of the same states: zeta's range goes from") == 0);
+}
+
+TEST_CASE("design: a record without steady states gets no advice, with the reason") {
+  Record record;
+  record.decay = DecayRecord{{1.0, -0.9, 0.8, -0.7, 0.6, -0.5}, {}};
+  const auto found = design_after(record, {mass, stiffness, natural}, {}, {});
+  REQUIRE(std::holds_alternative<std::string>(found));
+  CHECK(std::get<std::string>(found).find("steady states") != std::string::npos);
+}
