@@ -2,8 +2,8 @@
 /// The stress test: every method against every departure from Coulomb + viscous friction.
 ///
 /// The grid is computed motion by motion, on all threads of all processes; each finished case is written at once
-/// (`scenarios/results/case_file.hpp`); when all are there they are put in order and scored. Results depend neither on the number of
-/// threads or processes nor on interruptions.
+/// (`scenarios/results/case_file.hpp`); when all are there they are put in order and scored. Results depend neither
+/// on the number of threads or processes nor on interruptions.
 ///
 /// Errors: those of `scenarios::CaseFile`.
 
