@@ -271,6 +271,20 @@ class Sweep {
                            {}});
   }
 
+  /// `static` is `kinetic` where a file does not state it: at each point its own, not that of the first. A stated
+  /// one would be below another point's `kinetic`, which is refused.
+  static void drop_default_static(Json& values, const SweptColumn& key) {
+    constexpr std::string_view name = ".kinetic";
+    if (!key.path.ends_with(name) || std::ranges::max(key.si) <= key.si.front()) return;
+    std::string pointer = "/" + key.path.substr(0, key.path.size() - name.size());
+    std::ranges::replace_if(pointer, [](char c) { return c == '.' || c == '['; }, '/');
+    std::erase(pointer, ']');
+    const Json::json_pointer place(pointer);
+    if (!values.contains(place)) return;
+    Json& law = values[place];
+    if (law.is_object() && law.contains("static") && law.at("static") == law.at("kinetic")) law.erase("static");
+  }
+
   /// The file as it was read, the first point's values in it and the swept ones beside them: words such as
   /// `natural` stay, because they mean another number at another point.
   [[nodiscard]] Json resolved(const Json& expect) const {
@@ -284,6 +298,7 @@ class Sweep {
         values["sweep"][key.path].push_back(is_bare ? Json(*core::read_number(value.text).value)
                                                     : Json(value.text));
       }
+    for (const SweptColumn& key : columns_) drop_default_static(values, key);
     if (!expect.is_null()) values["expect"] = expect;
     if (values.contains("system"))
       put_in_order(values["system"], points_.format().find("system")->choice->variants.front().section);

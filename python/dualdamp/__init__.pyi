@@ -176,6 +176,8 @@ def law(
     viscous_backward: Quantity | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_gradient: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -212,6 +214,7 @@ def law(
     contact_damping: Quantity | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_gradient: Quantity | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -223,6 +226,8 @@ def law(
     static: Quantity | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_gradient: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -235,6 +240,7 @@ def law(
     exponent: Quantity | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -251,6 +257,21 @@ def law(
     elastic_limit: Quantity,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
+    fluctuation: Mapping[str, Any] | None = None,
+    warming: Mapping[str, Any] | None = None,
+) -> Law: ...
+@overload
+def law(
+    name: Literal["free_play"],
+    *,
+    kinetic: Quantity,
+    static: Quantity | None = None,
+    play: Quantity,
+    drift: Quantity | None = None,
+    position_slope: Quantity | None = None,
+    load_gradient: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -267,8 +288,17 @@ def law(
     delay: bool | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_gradient: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
+) -> Law: ...
+@overload
+def law(
+    name: Literal["gap_spring"],
+    *,
+    stiffness: Quantity,
+    gap: Quantity,
 ) -> Law: ...
 @overload
 def law(
@@ -281,6 +311,7 @@ def law(
     attraction: Quantity,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -321,6 +352,7 @@ def law(
     sigma2: Quantity | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -378,6 +410,8 @@ def law(
     form: Literal["gaussian", "exponential", "lorentz"] | None = None,
     drift: Quantity | None = None,
     position_slope: Quantity | None = None,
+    load_gradient: Quantity | None = None,
+    load_modulation: Mapping[str, Any] | None = None,
     fluctuation: Mapping[str, Any] | None = None,
     warming: Mapping[str, Any] | None = None,
 ) -> Law: ...
@@ -455,6 +489,76 @@ def excitation(
     bandwidth: Quantity,
     seed: int | None = None,
 ) -> Excitation: ...
+@overload
+def excitation(
+    type: Literal["base_chirp"],
+    *,
+    amplitude: Quantity,
+    to: Quantity,
+    duration: Quantity,
+    spacing: Literal["linear", "log"] | None = None,
+    phase: Quantity | None = None,
+) -> Excitation: ...
+@overload
+def excitation(
+    type: Literal["force_chirp"],
+    *,
+    amplitude: Quantity,
+    to: Quantity,
+    duration: Quantity,
+    spacing: Literal["linear", "log"] | None = None,
+    phase: Quantity | None = None,
+) -> Excitation: ...
+@overload
+def excitation(
+    type: Literal["base_table"],
+    *,
+    times: Sequence[Quantity],
+    values: Sequence[Quantity],
+    interpolation: Literal["linear", "cubic", "step"] | None = None,
+    repeat: bool | None = None,
+) -> Excitation: ...
+@overload
+def excitation(
+    type: Literal["force_table"],
+    *,
+    times: Sequence[Quantity],
+    values: Sequence[Quantity],
+    interpolation: Literal["linear", "cubic", "step"] | None = None,
+    repeat: bool | None = None,
+) -> Excitation: ...
+@overload
+def excitation(
+    type: Literal["measured_base"],
+    *,
+    file: str,
+    column: str | None = None,
+    unit: str | None = None,
+    time_column: str | None = None,
+    scale: str | None = None,
+    decimal: Literal[".", ","] | None = None,
+    no_header: bool | None = None,
+    interpolation: Literal["linear", "cubic", "step"] | None = None,
+    repeat: bool | None = None,
+    detrend: Literal["none", "mean", "line"] | None = None,
+    offset: Quantity | None = None,
+) -> Excitation: ...
+@overload
+def excitation(
+    type: Literal["measured_force"],
+    *,
+    file: str,
+    column: str | None = None,
+    unit: str | None = None,
+    time_column: str | None = None,
+    scale: str | None = None,
+    decimal: Literal[".", ","] | None = None,
+    no_header: bool | None = None,
+    interpolation: Literal["linear", "cubic", "step"] | None = None,
+    repeat: bool | None = None,
+    detrend: Literal["none", "mean", "line"] | None = None,
+    offset: Quantity | None = None,
+) -> Excitation: ...
 def identify(
     data: Path | Mapping[str, Any] | NDArray[Any] | Any,
     *,
@@ -476,9 +580,11 @@ def identify(
     cutoffs: Sequence[Quantity] | None = None,
     forgetting: Quantity | None = None,
     free_natural_frequency: bool | None = None,
+    largest_severity: Quantity | None = None,
     least_speed: Quantity | None = None,
     pairs: Sequence[int] | None = None,
     profile: bool | None = None,
+    severity_deviation: Quantity | None = None,
     sigma_Y: Quantity | None = None,
     sigma_x: Quantity | None = None,
     sign_width: Quantity | None = None,
@@ -487,6 +593,36 @@ def identify(
     least_change: Quantity | None = None,
     robust: bool | None = None,
 ) -> Result: ...
+def fit(
+    law: str | Law | Mapping[str, Any] | Sequence[str],
+    data: Any,
+    *,
+    mass: Quantity | None = None,
+    stiffness: Quantity | None = None,
+    damping: Quantity | None = None,
+    frequency: str | None = None,
+    amplitude: Quantity | None = None,
+    excitation: Excitation | Mapping[str, Any] | None = None,
+    initial: Mapping[str, Any] | None = None,
+    validate: Any = None,
+    record: Mapping[str, Any] | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+    free: str | None = None,
+    bounds: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = None,
+    robust: bool | None = None,
+    profile: bool | None = None,
+    starts: int | None = None,
+) -> Result: ...
+def predict(
+    fitted: Result,
+    data: Any,
+    *,
+    excitation: Excitation | Mapping[str, Any] | None = None,
+    record: Mapping[str, Any] | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+) -> Result: ...
 def simulate(
     system: System | Mapping[str, Any],
     excitation: Excitation | Mapping[str, Any] | None = None,
@@ -494,6 +630,7 @@ def simulate(
     duration: Quantity | None = None,
     cycles: Quantity | None = None,
     sample_rate: Quantity | None = None,
+    measured: Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None,
     numerics: Mapping[str, Any] | None = None,
     title: str | None = None,
@@ -581,6 +718,7 @@ class System:
         damping_ratio: Quantity | None = None,
         cubic_stiffness: Quantity | None = None,
         gravity_stiffness: Quantity | None = None,
+        loss_factor: Quantity | None = None,
         damper_to: Literal["ground", "base"] | None = None,
         friction: Law | Mapping[str, Any] | Sequence[Law | Mapping[str, Any]] | None = None,
     ) -> None: ...
@@ -594,6 +732,7 @@ class System:
         duration: Quantity | None = None,
         cycles: Quantity | None = None,
         sample_rate: Quantity | None = None,
+        measured: Mapping[str, Any] | None = None,
         initial: Mapping[str, Any] | None = None,
         numerics: Mapping[str, Any] | None = None,
         title: str | None = None,
@@ -693,6 +832,8 @@ class _Laws:
         viscous_backward: Quantity | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_gradient: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -726,6 +867,7 @@ class _Laws:
         contact_damping: Quantity | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_gradient: Quantity | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -736,6 +878,8 @@ class _Laws:
         static: Quantity | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_gradient: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -747,6 +891,7 @@ class _Laws:
         exponent: Quantity | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -762,6 +907,20 @@ class _Laws:
         elastic_limit: Quantity,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
+        fluctuation: Mapping[str, Any] | None = None,
+        warming: Mapping[str, Any] | None = None,
+    ) -> Law: ...
+    def free_play(
+        self,
+        *,
+        kinetic: Quantity,
+        static: Quantity | None = None,
+        play: Quantity,
+        drift: Quantity | None = None,
+        position_slope: Quantity | None = None,
+        load_gradient: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -777,8 +936,16 @@ class _Laws:
         delay: bool | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_gradient: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
+    ) -> Law: ...
+    def gap_spring(
+        self,
+        *,
+        stiffness: Quantity,
+        gap: Quantity,
     ) -> Law: ...
     def generalized_maxwell_slip(
         self,
@@ -790,6 +957,7 @@ class _Laws:
         attraction: Quantity,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -827,6 +995,7 @@ class _Laws:
         sigma2: Quantity | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -880,6 +1049,8 @@ class _Laws:
         form: Literal["gaussian", "exponential", "lorentz"] | None = None,
         drift: Quantity | None = None,
         position_slope: Quantity | None = None,
+        load_gradient: Quantity | None = None,
+        load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
     ) -> Law: ...
@@ -952,11 +1123,76 @@ class _Excitations:
         bandwidth: Quantity,
         seed: int | None = None,
     ) -> Excitation: ...
+    def base_chirp(
+        self,
+        *,
+        amplitude: Quantity,
+        to: Quantity,
+        duration: Quantity,
+        spacing: Literal["linear", "log"] | None = None,
+        phase: Quantity | None = None,
+    ) -> Excitation: ...
+    def force_chirp(
+        self,
+        *,
+        amplitude: Quantity,
+        to: Quantity,
+        duration: Quantity,
+        spacing: Literal["linear", "log"] | None = None,
+        phase: Quantity | None = None,
+    ) -> Excitation: ...
+    def base_table(
+        self,
+        *,
+        times: Sequence[Quantity],
+        values: Sequence[Quantity],
+        interpolation: Literal["linear", "cubic", "step"] | None = None,
+        repeat: bool | None = None,
+    ) -> Excitation: ...
+    def force_table(
+        self,
+        *,
+        times: Sequence[Quantity],
+        values: Sequence[Quantity],
+        interpolation: Literal["linear", "cubic", "step"] | None = None,
+        repeat: bool | None = None,
+    ) -> Excitation: ...
+    def measured_base(
+        self,
+        *,
+        file: str,
+        column: str | None = None,
+        unit: str | None = None,
+        time_column: str | None = None,
+        scale: str | None = None,
+        decimal: Literal[".", ","] | None = None,
+        no_header: bool | None = None,
+        interpolation: Literal["linear", "cubic", "step"] | None = None,
+        repeat: bool | None = None,
+        detrend: Literal["none", "mean", "line"] | None = None,
+        offset: Quantity | None = None,
+    ) -> Excitation: ...
+    def measured_force(
+        self,
+        *,
+        file: str,
+        column: str | None = None,
+        unit: str | None = None,
+        time_column: str | None = None,
+        scale: str | None = None,
+        decimal: Literal[".", ","] | None = None,
+        no_header: bool | None = None,
+        interpolation: Literal["linear", "cubic", "step"] | None = None,
+        repeat: bool | None = None,
+        detrend: Literal["none", "mean", "line"] | None = None,
+        offset: Quantity | None = None,
+    ) -> Excitation: ...
 class _Methods:
     def __iter__(self) -> Iterator[str]: ...
     def __contains__(self, name: str) -> bool: ...
     def __len__(self) -> int: ...
     acceleration_velocity_displacement: Record
+    any_law: Record
     den_hartog_fit: Record
     energy_balance: Record
     extended_kalman: Record

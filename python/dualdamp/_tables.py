@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import keyword as words
 import textwrap
 from functools import lru_cache
 
@@ -39,7 +40,7 @@ def signature_of(keys, first=(), last=()):
     named = [
         inspect.Parameter(key["name"], keyword, default=inspect.Parameter.empty if key["required"] else None)
         for key in keys
-        if key["name"].isidentifier()
+        if key["name"].isidentifier() and not words.iskeyword(key["name"])  # others by **{"from": ...}
     ]
     return inspect.Signature([*first, *named, *last])
 

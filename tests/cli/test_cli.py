@@ -252,7 +252,7 @@ class Refusals(Case):
         self.assertFalse((self.folder / "results").exists())
 
     def test_a_command_that_is_none_is_named(self):
-        for words, message in ((["runn", "base.yaml"], "there is no command 'runn'; there are: run, stress, check,"), ([], "a command is missing; there are: run, check,")):
+        for words, message in ((["runn", "base.yaml"], "there is no command 'runn'; there are: run, stress, check,"), ([], "a command is missing; there are: run, stress, check,")):
             with self.subTest(words=words):
                 self.assertIn(message, self.run_program(*words, status=2).stderr)
 
