@@ -176,8 +176,7 @@ TEST_CASE("crosscheck: a crash, an endless loop and an exception are entries and
   CHECK(endings[14].text == "answer 14");
 }
 
-TEST_CASE("crosscheck: two hundred random systems have no disagreement, crash or hang",
-          "[crosscheck][campaign]") {
+TEST_CASE("crosscheck: two hundred random systems have no disagreement, crash or hang", "[crosscheck][campaign]") {
   const auto [seed, first] = GENERATE(std::pair{31, 0}, std::pair{32, 0});
   crosscheck::Summary summary;
   crosscheck::run_campaign(static_cast<std::uint64_t>(seed), static_cast<std::uint32_t>(first), 100,
