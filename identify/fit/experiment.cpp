@@ -26,6 +26,8 @@ Eigen::Index Experiment::size() const {
   return count;
 }
 
+std::unique_ptr<Experiment> Experiment::first_part(double /*share*/) const { return nullptr; }
+
 std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) const {
   return std::make_unique<Alike>(*this);
 }

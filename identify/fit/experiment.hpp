@@ -53,7 +53,6 @@ class Experiment {
  public:
   Experiment() = default;
   virtual ~Experiment() = default;
-  Experiment(const Experiment&) = delete;
   Experiment& operator=(const Experiment&) = delete;
 
   ExperimentKind kind = ExperimentKind::history;
@@ -72,8 +71,14 @@ class Experiment {
   /// Outputs in the order of the signals. False: the model has no such motion.
   [[nodiscard]] virtual bool predict(const sim::Model& model, const OwnValues& own,
                                      Eigen::VectorXd& outputs) const = 0;
+  /// The record up to this share of its duration, 0 < share <= 1; nothing: it has no order in time that a search
+  /// could follow.
+  [[nodiscard]] virtual std::unique_ptr<Experiment> first_part(double share) const;
   /// By default they are predicted like any other.
   [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const;
+
+ protected:
+  Experiment(const Experiment&) = default;  ///< for parts of it
 };
 
 /// What a record has of its own as a parameter; `is_alone`: there is no other record to tell it from.

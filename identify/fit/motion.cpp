@@ -28,6 +28,21 @@ std::pair<double, double> begin_of(const std::vector<double>& signal, double rat
   return {found[0], found[1]};
 }
 
+/// A signal whose rate of change was measured: its integral swings about zero, or about a straight line where its
+/// rate may be off by a constant.
+std::vector<double> integral_of(const std::vector<double>& of_rate, double rate, bool about_line) {
+  const auto count = static_cast<Eigen::Index>(of_rate.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index i = 1; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    sum[i] = sum[i - 1] + 0.5 / rate * (of_rate[at - 1] + of_rate[at]);
+  }
+  Eigen::MatrixXd trend = Eigen::MatrixXd::Ones(count, about_line ? 2 : 1);
+  if (about_line) trend.col(1) = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
+  sum -= trend * pivoted_least_squares(trend, sum);
+  return {sum.data(), sum.data() + count};
+}
+
 class MeasuredMotion final : public Experiment {
  public:
   MeasuredMotion(const History& history, const ExperimentOptions& options)
@@ -81,12 +96,22 @@ class MeasuredMotion final : public Experiment {
     return engine->outcome().ok() && next == samples_ && outputs.allFinite();
   }
 
+  [[nodiscard]] std::unique_ptr<Experiment> first_part(double share) const override {
+    auto part = std::make_unique<MeasuredMotion>(*this);
+    part->samples_ = std::min(samples_, static_cast<std::size_t>(std::ceil(share * static_cast<double>(samples_))));
+    for (Signal& signal : part->signals) {
+      signal.measured.resize(part->samples_);
+      signal.at.resize(part->samples_);
+    }
+    return part;
+  }
+
  private:
-  /// A motion that takes a hundred times the usual steps is one of numbers far off.
+  /// A motion that takes ten times the usual steps is one of numbers far off.
   [[nodiscard]] long most_work(const sim::Model& model) const {
-    constexpr double least = 2e5;
-    constexpr double of_sample = 50.0;
-    constexpr double of_swing = 5e3;
+    constexpr double least = 1e5;
+    constexpr double of_sample = 10.0;
+    constexpr double of_swing = 500.0;
     const double swings = static_cast<double>(samples_) / rate_ * sim::natural_frequency(model.oscillator);
     return static_cast<long>(least + of_sample * static_cast<double>(samples_) + of_swing * swings);
   }
@@ -95,7 +120,10 @@ class MeasuredMotion final : public Experiment {
     double& position = own_start[static_cast<std::size_t>(Own::position)];
     double& velocity = own_start[static_cast<std::size_t>(Own::velocity)];
     if (!history.x.empty()) std::tie(position, velocity) = begin_of(history.x, rate_);
-    if (!history.v.empty()) velocity = begin_of(history.v, rate_).first;
+    const bool only_a = history.x.empty() && history.v.empty();
+    const std::vector<double> v = only_a ? integral_of(history.a, rate_, false) : history.v;
+    if (!v.empty()) velocity = begin_of(v, rate_).first;
+    if (history.x.empty()) position = integral_of(v, rate_, true).front();
   }
 
   void write(const sim::Sample& sample, double offset, std::size_t i, Eigen::VectorXd& outputs) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "core/diagnostics.hpp"
 #include "friction_models/law_fault.hpp"
@@ -54,13 +55,36 @@ struct FitProblem::Column {
 
 FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
                        const std::vector<double>& sizes)
-    : rig_(rig), parameters_(parameters), experiments_(experiments) {
+    : rig_(rig), parameters_(parameters) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     coordinates_.push_back(coordinate_of(parameters[i], sizes[i]));
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
+  for (const auto& experiment : experiments) experiments_.push_back(experiment.get());
+  number_rows();
+}
+
+FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
+    : rig_(whole.rig_),
+      parameters_(whole.parameters_),
+      parts_(std::move(parts)),
+      experiments_(whole.experiments_),
+      coordinates_(whole.coordinates_) {
+  for (std::size_t e = 0; e < parts_.size(); ++e)
+    if (parts_[e]) experiments_[e] = parts_[e].get();
+  number_rows();
+}
+
+std::optional<FitProblem> FitProblem::first_part(double share) const {
+  Experiments parts;
+  for (const Experiment* experiment : experiments_) parts.push_back(experiment->first_part(share));
+  if (std::ranges::none_of(parts, [](const auto& part) { return part != nullptr; })) return std::nullopt;
+  return FitProblem(*this, std::move(parts));
+}
+
+void FitProblem::number_rows() {
+  for (std::size_t e = 0; e < experiments_.size(); ++e) {
     begins_.push_back(rows_);
-    for (std::size_t s = 0; s < experiments[e]->signals.size(); ++s) {
-      const auto count = static_cast<Eigen::Index>(experiments[e]->signals[s].measured.size());
+    for (std::size_t s = 0; s < experiments_[e]->signals.size(); ++s) {
+      const auto count = static_cast<Eigen::Index>(experiments_[e]->signals[s].measured.size());
       signals_.push_back({e, s, rows_, rows_ + count});
       rows_ += count;
     }
@@ -118,7 +142,7 @@ Eigen::MatrixXd FitProblem::slope(const Eigen::VectorXd& q) const {
 std::vector<OwnValues> FitProblem::own(const Eigen::VectorXd& values) const {
   std::vector<OwnValues> result;
   result.reserve(experiments_.size());
-  for (const auto& experiment : experiments_) result.push_back(experiment->own_start);
+  for (const Experiment* experiment : experiments_) result.push_back(experiment->own_start);
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (parameters_[i].owner == Owner::record)
       result[parameters_[i].index][static_cast<std::size_t>(parameters_[i].own)] =

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "identify/fit/experiment.hpp"
@@ -40,6 +41,10 @@ class FitProblem {
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes);
 
+  /// The same with the first share of each motion only, 0 < share <= 1; nothing if there is no motion. `this`
+  /// outlives it.
+  [[nodiscard]] std::optional<FitProblem> first_part(double share) const;
+
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
@@ -64,11 +69,13 @@ class FitProblem {
  private:
   struct Column;
 
-  [[nodiscard]] Eigen::Index begin_of(std::size_t experiment) const { return begins_[experiment]; }
+  FitProblem(const FitProblem& whole, Experiments parts);
+  void number_rows();
 
   const Rig& rig_;
   const std::vector<FitParameter>& parameters_;
-  const Experiments& experiments_;
+  Experiments parts_;  ///< that this problem has made
+  std::vector<const Experiment*> experiments_;
   std::vector<Coordinate> coordinates_;
   std::vector<SignalRows> signals_;
   std::vector<Eigen::Index> begins_;  ///< of each experiment

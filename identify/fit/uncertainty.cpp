@@ -28,7 +28,9 @@ class Uncertainty {
       const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low) * near);
       const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high) * near);
       fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
-      if (!low && !high) free_.push_back(i);
+      // A logarithm ends where the parameter has no effect any more. A zero that the data do not exclude has one,
+      // and what it could be widens the others.
+      if (!(c.logarithmic && (low || high))) free_.push_back(i);
     }
     rows_ = end.weights.asDiagonal() * end.jacobian;
     residuals_ = end.weights.cwiseProduct(end.misses);
@@ -214,7 +216,7 @@ class Uncertainty {
   const FitEnd& end_;
   Fit& fit_;
   Eigen::Index size_;
-  std::vector<Eigen::Index> free_;  ///< parameters that lie at no bound
+  std::vector<Eigen::Index> free_;  ///< parameters with an effect
   Eigen::MatrixXd rows_;            ///< weighted jacobian
   Eigen::VectorXd residuals_;       ///< weighted
   std::vector<double> variances_;   ///< of the weighted residuals of each signal

@@ -319,15 +319,6 @@ class Others(Case):
         self.assertIn("Exit status", self.run_program("--help").stdout)
         self.assertIn("--set", self.run_program("run", "--help").stdout)
 
-    def test_shipped_scenarios(self):
-        files = sorted((ROOT / "scenarios/paper").glob("*.yaml")) + sorted((ROOT / "scenarios/examples").glob("*.yaml"))
-        # Friction departs from Coulomb and viscous there, or the method reads the damping alone.
-        without = {"open_question_two_frequencies", "random_decrement", "section4_laws", "section4_subsets"}
-        answered = [file for file in files if file.stem not in without]
-        self.run_program("run", *answered, "--jobs", "2", "--quiet", timeout=900)  # open_question.yaml alone takes a minute
-        for file in set(files) - set(answered):
-            self.run_program("run", file, "--quiet", status=4)
-
 
 class Identify(Case):
     PAIRS = "Y [m],x [m]\n0.1,0.1860780979567862\n0.6,1.4361439607891241\n"

@@ -112,7 +112,7 @@ def test_fit_as_the_program(program, tmp_path):
 
 def test_fit_of_arrays_and_prediction():
     rig = dd.System(mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", friction=dd.law("coulomb", kinetic="1 N"))
-    records = [rig.simulate(initial={"position": start}, duration="0.7 s", sample_rate="200 Hz").history[["t", "x"]] for start in ("20 mm", "30 mm")]
+    records = [rig.simulate(initial={"position": start}, duration="1 s", sample_rate="200 Hz").history[["t", "x"]] for start in ("20 mm", "30 mm")]
     rng = np.random.default_rng(3)
     noisy = [{"t": record["t"], "x": record["x"] + 2e-6 * rng.standard_normal(len(record))} for record in records]
     found = dd.fit({"law": "coulomb"}, noisy[0], mass="1 kg", stiffness="1000 N/m", profile=False)

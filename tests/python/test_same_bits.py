@@ -12,6 +12,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIOS = sorted(path.relative_to(ROOT) for folder in ("examples", "paper") for path in (ROOT / "scenarios" / folder).glob("*.yaml"))
 
+# Friction departs from Coulomb and viscous there, or the method reads the damping alone.
+WITHOUT_ANSWER = {"open_question_two_frequencies", "random_decrement", "section4_laws", "section4_subsets"}
+
 
 def same(document):
     """Without what differs from run to run."""
@@ -50,7 +53,8 @@ def test_scenario(path, program, tmp_path):
             result = dd.run(path)
         except (dd.NumericalFailure, dd.CheckFailed) as failure:
             result = failure.result
-    assert result.status == status, message
+    assert status == (4 if path.stem in WITHOUT_ANSWER else 0), message
+    assert result.status == status
     document = json.loads((tmp_path / "program" / "result.json").read_text())
     assert same(result.document) == same(document)
 

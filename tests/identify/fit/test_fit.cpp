@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "friction_models/registry.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;
@@ -54,6 +55,52 @@ TEST_CASE("fit: a history without noise gives the law's numbers back", "[identif
     for (const std::string& name : test::law_case_of(law).sought)
       CHECK(named(fit, name).value == Approx(test::truth_of(rig, name)).epsilon(1e-4));
   }
+}
+
+TEST_CASE("fit: a free vibration to its rest gives friction and damping, whichever signal shows it",
+          "[identify][fit]") {
+  // The sum of squares has a false minimum for each number of swings before the rest.
+  identify::Rig truth = test::rig_with(test::law_case_of("coulomb"));
+  truth.known.excitation = {};
+  const double damping = truth.known.oscillator.damping;
+  const double kinetic = test::truth_of(truth, "kinetic");
+  identify::Rig sought = truth;
+  sought.known.oscillator.damping = identify::unknown;
+  sought.laws[0].values = {};
+  for (const double swings : {4.0, 9.0, 20.0})
+    for (const std::string signal : {"x", "v", "a"}) {
+      CAPTURE(swings, signal);
+      // Of few swings the acceleration alone does not tell where the motion began.
+      if (signal == "a" && swings < 9.0) continue;
+      const double release = 2.0 * kinetic / truth.known.oscillator.stiffness * swings;
+      constexpr double frequency = 5.0;  // Hz, of the rig
+      sim::Model model = *identify::model_of(truth);
+      model.initial = {release, 0.0};
+      identify::History history;
+      history.sample_rate = 200.0;
+      const auto motion =
+          sim::simulate(model, {.duration = (swings + 2.0) / frequency, .sample_rate = history.sample_rate});
+      for (const sim::Sample& sample : motion.samples) {
+        if (signal == "x") history.x.push_back(sample.x);
+        if (signal == "v") history.v.push_back(sample.v);
+        if (signal == "a") history.a.push_back(sample.a);
+      }
+      Record record;
+      record.histories.push_back(std::move(history));
+      std::vector<std::string> faults;
+      identify::Experiments experiments;
+      std::string fault;
+      for (auto& experiment : identify::experiments_of(record, {.name = "record"}, fault))
+        experiments.push_back(std::move(experiment));
+      std::vector<identify::FitParameter> parameters = identify::unstated_parameters(sought, faults);
+      REQUIRE(faults.empty());
+      for (const identify::Own own : experiments.at(0)->own_free)
+        parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
+      const Fit fit = identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
+      REQUIRE(fit.outcome.ok());
+      CHECK(named(fit, "damping").value == Approx(damping).epsilon(1e-5));
+      CHECK(named(fit, "kinetic").value == Approx(kinetic).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("fit: intervals cover the truth", "[identify][fit]") {

@@ -1,0 +1,225 @@
+#include "identify/fit/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "identify/fit/starts.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/median.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
+
+/// Weights and steps.
+class Search {
+ public:
+  Search(const FitProblem& problem, const SearchOptions& options)
+      : problem_(problem), options_(options), weights_(Eigen::VectorXd::Ones(problem.rows())) {
+    for (const SignalRows& rows : problem.signals()) deviations_.push_back(first_deviation(rows));
+    spread();
+  }
+
+  [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
+
+  /// Sum of squares; infinite where there is no motion.
+  [[nodiscard]] double squares(const Eigen::VectorXd& q) const {
+    Eigen::VectorXd outputs;
+    if (!problem_.outputs(q, outputs)) return infinity;
+    const double sum = (outputs - problem_.measured()).cwiseProduct(weights_).squaredNorm();
+    return std::isfinite(sum) ? sum : infinity;
+  }
+
+  [[nodiscard]] LeastSquaresFit improve(const Eigen::VectorXd& start, double tolerance, int most_iterations) const {
+    LeastSquaresProblem least;
+    least.residuals = problem_.rows();
+    least.start = start;
+    least.low.resize(start.size());
+    least.high.resize(start.size());
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      least.low[i] = problem_.coordinates()[static_cast<std::size_t>(i)].low;
+      least.high[i] = problem_.coordinates()[static_cast<std::size_t>(i)].high;
+    }
+    least.tolerance = tolerance;
+    least.most_iterations = most_iterations;
+    least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
+      Eigen::VectorXd outputs;
+      if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, *jacobian))
+        return false;
+      residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
+      if (jacobian != nullptr) *jacobian = weights_.asDiagonal() * *jacobian;
+      return true;
+    };
+    return fit(least);
+  }
+
+  /// Weights from the residuals of a fit; how much the largest change of a deviation is, relative.
+  double reweight(const Eigen::VectorXd& outputs, Eigen::Index parameters) {
+    const Eigen::VectorXd misses = outputs - problem_.measured();
+    const double spent = static_cast<double>(parameters) / static_cast<double>(problem_.rows());
+    double change = 0.0;
+    for (std::size_t s = 0; s < deviations_.size(); ++s) {
+      const SignalRows& rows = problem_.signals()[s];
+      const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
+      const double own = options_.robust ? robust_deviation(part) : rms(part);
+      const double found =
+          problem_.signal(rows).is_stated ? deviations_[s] : own / std::sqrt(1.0 - std::min(spent, 0.9));
+      if (!(found > 0.0)) continue;
+      change = std::max(change, std::abs(std::log(found / deviations_[s])));
+      deviations_[s] = found;
+    }
+    spread();
+    if (options_.robust) bound(misses);
+    return change;
+  }
+
+ private:
+  /// Noise where it is known; else a share of the signal, for weights alone.
+  [[nodiscard]] double first_deviation(const SignalRows& rows) const {
+    const Signal& signal = problem_.signal(rows);
+    if (signal.noise > 0.0) return signal.noise;
+    if (signal.unit == "rad") return 0.01;
+    const Eigen::VectorXd part = problem_.measured().segment(rows.begin, rows.end - rows.begin);
+    const double size = (part.array() - part.mean()).matrix().norm() / std::sqrt(static_cast<double>(part.size()));
+    return size > 0.0 ? 0.01 * size : 1.0;
+  }
+
+  static double robust_deviation(const Eigen::VectorXd& part) {
+    std::vector<double> sizes(part.data(), part.data() + part.size());
+    for (double& size : sizes) size = std::abs(size);
+    constexpr double to_deviation = 1.4826;
+    return to_deviation * upper_median(sizes);
+  }
+
+  void spread() {
+    for (std::size_t s = 0; s < deviations_.size(); ++s) {
+      const SignalRows& rows = problem_.signals()[s];
+      weights_.segment(rows.begin, rows.end - rows.begin).setConstant(1.0 / deviations_[s]);
+    }
+  }
+
+  /// Huber's weights: a residual beyond the bound pulls like one at it.
+  void bound(const Eigen::VectorXd& misses) {
+    constexpr double huber = 1.345;
+    for (Eigen::Index i = 0; i < misses.size(); ++i) {
+      const double size = std::abs(misses[i]) * weights_[i];
+      if (size > huber) weights_[i] *= std::sqrt(huber / size);
+    }
+  }
+
+  const FitProblem& problem_;
+  const SearchOptions& options_;
+  std::vector<double> deviations_;  ///< of each signal
+  Eigen::VectorXd weights_;
+};
+
+std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::vector<FitParameter>& parameters,
+                                          const std::vector<double>& sizes, int count) {
+  std::vector<Eigen::VectorXd> points;
+  for (int i = 0; i < count; ++i) points.push_back(problem.coordinates(start_of(parameters, sizes, i)));
+  return points;
+}
+
+/// Those from which the search has the least way to go, best first.
+std::vector<Eigen::VectorXd> best_of(const std::vector<Eigen::VectorXd>& points, const Search& search,
+                                     std::size_t wanted) {
+  std::vector<std::pair<double, std::size_t>> order(points.size());
+  sim::in_parts(points.size(), 1, 0,
+                [&](std::size_t i, std::size_t) { order[i] = {search.squares(points[i]), i}; });
+  std::ranges::sort(order);
+  std::vector<Eigen::VectorXd> best;
+  for (const auto& [squares, i] : order)
+    if (std::isfinite(squares) && best.size() < wanted) best.push_back(points[i]);
+  return best;
+}
+
+/// The first steps of a search: enough to choose among several.
+constexpr double rough = 1e-3;
+
+void take_better(LeastSquaresFit found, const FitProblem& problem, std::optional<LeastSquaresFit>& best) {
+  if (!std::isfinite(found.sum_of_squares) || found.jacobian.rows() != problem.rows()) return;
+  if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
+}
+
+/// From the best of these points by the first share of each motion, with more and more of it.
+std::optional<LeastSquaresFit> search_growing(const std::vector<Eigen::VectorXd>& points, double first,
+                                              const Search& search, const FitProblem& problem,
+                                              const SearchOptions& options) {
+  constexpr int few = 8;
+  std::vector<Eigen::VectorXd> starts;
+  for (double share = first; share < 1.0; share *= 2.0) {
+    const std::optional<FitProblem> part = problem.first_part(share);
+    if (!part) return std::nullopt;
+    const Search beginning(*part, options);
+    if (share == first) starts = best_of(points, beginning, 2);
+    for (Eigen::VectorXd& q : starts) q = beginning.improve(q, rough, few).parameters;
+  }
+  std::optional<LeastSquaresFit> best;
+  for (const Eigen::VectorXd& q : best_of(starts, search, 1))
+    take_better(search.improve(q, rough, 2 * few), problem, best);
+  return best;
+}
+
+/// Of searches that begin with different parts of the motions; where these do not end alike, or there are no
+/// motions, also from several starts with all readings.
+std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, std::size_t most_starts,
+                                              const Search& search, const FitProblem& problem,
+                                              const SearchOptions& options) {
+  std::optional<LeastSquaresFit> best = search_growing(points, 0.1, search, problem, options);
+  if (best) {
+    std::optional<LeastSquaresFit> other = search_growing(points, 0.35, search, problem, options);
+    constexpr double alike = 0.01;
+    const bool agree = other && std::abs(other->sum_of_squares / best->sum_of_squares - 1.0) < alike;
+    if (other) take_better(std::move(*other), problem, best);
+    if (agree) return best;
+  }
+  const std::vector<Eigen::VectorXd> starts = best_of(points, search, most_starts);
+  constexpr int few = 8;
+  for (const Eigen::VectorXd& start : starts)
+    take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), problem, best);
+  return best;
+}
+
+/// To the end, with the weights that the residuals of each signal ask for.
+std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, const FitProblem& problem,
+                                      bool several_weights) {
+  constexpr double fine = 1e-8;
+  constexpr int most_rounds = 12;
+  constexpr double settled = 1e-3;
+  for (int round = 0; round < most_rounds; ++round) {
+    Eigen::VectorXd outputs;
+    LeastSquaresFit next = search.improve(found.parameters, fine, 100);
+    if (next.jacobian.rows() == problem.rows() && next.jacobian.allFinite()) found = std::move(next);
+    if (!problem.outputs(found.parameters, outputs)) return std::nullopt;
+    const double change = search.reweight(outputs, found.parameters.size());
+    if (!several_weights || change < settled) break;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<SearchResult> search_parameters(const FitProblem& problem,
+                                              const std::vector<FitParameter>& parameters,
+                                              const std::vector<double>& sizes, const SearchOptions& options) {
+  Search search(problem, options);
+  const bool all_stated =
+      std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
+  const std::vector<Eigen::VectorXd> points = parameters.empty()
+                                                  ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
+                                                  : start_points(problem, parameters, sizes, options.starts);
+  std::optional<LeastSquaresFit> best = search_roughly(points, all_stated ? 2 : 3, search, problem, options);
+  if (!best) return std::nullopt;
+  best = finish(std::move(*best), search, problem, options.robust || problem.signals().size() > 1);
+  if (!best) return std::nullopt;
+  return SearchResult{best->parameters, search.weights()};
+}
+
+}  // namespace dualdamp::identify
