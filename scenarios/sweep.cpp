@@ -16,6 +16,7 @@
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/swept_keys.hpp"
 #include "scenarios/format/values.hpp"
+#include "scenarios/results/files.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
@@ -147,6 +148,7 @@ class SweepQuestion final : public Question, public Campaign {
     std::string head;
     std::getline(finished, head);
     for (std::string& line : lines) std::getline(finished, line);
+    if (!finished) throw OutputError("points of the sweep are missing in " + file.path());
     return true;
   }
 
@@ -233,7 +235,9 @@ class Sweep {
         complain(point, key.place, "'" + key.path + "' is no number of this scenario",
                  "a key whose value is a number");
     }
-    Json values = reading.values;
+    if (point > 0 && is_fine && !first_values_.is_null())
+      keep_common(first_values_, reading.values, reading.places, "");
+    Json values = point == 0 ? reading.values : Json();
     Scenario scenario = points_.scenario(document, std::move(reading));
     rows_ += scenario.result_rows;
     if (dynamic_cast<const Campaign*>(scenario.question.get()) != nullptr)
@@ -271,18 +275,25 @@ class Sweep {
                            {}});
   }
 
-  /// `static` is `kinetic` where a file does not state it: at each point its own, not that of the first. A stated
-  /// one would be below another point's `kinetic`, which is refused.
-  static void drop_default_static(Json& values, const SweptColumn& key) {
-    constexpr std::string_view name = ".kinetic";
-    if (!key.path.ends_with(name) || std::ranges::max(key.si) <= key.si.front()) return;
-    std::string pointer = "/" + key.path.substr(0, key.path.size() - name.size());
-    std::ranges::replace_if(pointer, [](char c) { return c == '.' || c == '['; }, '/');
-    std::erase(pointer, ']');
-    const Json::json_pointer place(pointer);
-    if (!values.contains(place)) return;
-    Json& law = values[place];
-    if (law.is_object() && law.contains("static") && law.at("static") == law.at("kinetic")) law.erase("static");
+  /// Takes away what a point has otherwise although the file does not state it: a default that follows a swept key,
+  /// as `static` follows `kinetic`. Each point fills it in anew.
+  static void keep_common(Json& first, const Json& other, const std::map<std::string, Place>& stated,
+                          const std::string& path) {
+    if (first.is_array() && other.is_array())
+      for (std::size_t i = 0; i < std::min(first.size(), other.size()); ++i)
+        keep_common(first[i], other[i], stated, path + "[" + std::to_string(i) + "]");
+    if (!first.is_object() || !other.is_object()) return;
+    std::vector<std::string> followers;
+    for (auto& [key, value] : first.items()) {
+      const std::string place = path.empty() ? key : path + "." + key;
+      const bool is_same = other.contains(key) && other.at(key) == value;
+      if (is_same) continue;
+      if (stated.contains(place))
+        keep_common(value, other.value(key, Json()), stated, place);
+      else
+        followers.push_back(key);
+    }
+    for (const std::string& key : followers) first.erase(key);
   }
 
   /// The file as it was read, the first point's values in it and the swept ones beside them: words such as
@@ -298,7 +309,6 @@ class Sweep {
         values["sweep"][key.path].push_back(is_bare ? Json(*core::read_number(value.text).value)
                                                     : Json(value.text));
       }
-    for (const SweptColumn& key : columns_) drop_default_static(values, key);
     if (!expect.is_null()) values["expect"] = expect;
     if (values.contains("system"))
       put_in_order(values["system"], points_.format().find("system")->choice->variants.front().section);

@@ -110,6 +110,30 @@ TEST_CASE("sweep: a key may be left out elsewhere, and what depends on it follow
   CHECK(testing::result_of(scenarios::run(again)).at("sweep").dump() == points.dump());
 }
 
+TEST_CASE("sweep: a default that follows the swept key does so when the resolved scenario runs",
+          "[scenarios][sweep]") {
+  // `static` is `kinetic` where it is not stated, at each point its own: downwards that of the first one would
+  // change the numbers in silence, upwards it would be refused. One that the file states stays.
+  const auto [friction, values] = GENERATE(table<std::string, std::string>(
+      {{"{law: coulomb, kinetic: 2 N}", "{system.friction.kinetic: {from: 3 N, to: 1 N, count: 3}}"},
+       {"{law: coulomb, kinetic: 2 N}", "{system.friction.kinetic: [1 N, 3 N, 2 N]}"},
+       {"[{law: coulomb, kinetic: 1 N}, {law: coulomb, kinetic: 2 N}]",
+        "{\"system.friction[1].kinetic\": [2 N, 1 N]}"},
+       {"{law: coulomb, kinetic: 2 N, static: 3 N}", "{system.friction.kinetic: [3 N, 1 N]}"}}));
+  const scenarios::Scenario scenario = scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: " + friction +
+          "}\nexcitation: {type: base_harmonic, amplitude: 0.1 m, frequency: natural}\n"
+          "analysis: {type: steady_state}\nsweep: " +
+          values + "\n",
+      "text.yaml");
+  const auto points = testing::result_of(scenarios::run(scenario)).at("sweep");
+  const scenarios::Scenario again = scenarios::parse_scenario(scenario.resolved, "resolved.yaml");
+  CHECK(again.resolved == scenario.resolved);
+  CHECK(testing::result_of(scenarios::run(again)).at("sweep").dump() == points.dump());
+  CHECK((scenario.resolved.find("\"static\":3.0") != std::string::npos) ==
+        (friction.find("static") != std::string::npos));
+}
+
 TEST_CASE("sweep: items of lists, and data of identifications", "[scenarios][sweep]") {
   const auto laws = scenarios::run(
       scenarios::parse_scenario("schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, "
