@@ -196,6 +196,7 @@ Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<c
   return [scenario = std::move(scenario), result = std::move(result)](std::ostream& out) {
     Json json = frame(result->status);
     json["provenance"] = provenance_json(result->provenance);
+    if (!scenario->written_units.empty()) json["provenance"]["written_units"] = scenario->written_units;
     json["scenario"] = Json::parse(scenario->resolved);
     json["analysis"] = scenario->analysis_name;
     if (scenario->model.oscillator.coordinate == core::Coordinate::angle)

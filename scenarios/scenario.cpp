@@ -217,6 +217,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
       {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
        std::move(checked.data), std::move(checked.files), values.contains("initial"), std::move(checked.compared)});
   scenario.expect = expectations(values, document, reading);
+  scenario.written_units = std::move(reading.written_units);
   return scenario;
 }
 

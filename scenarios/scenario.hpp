@@ -7,6 +7,7 @@
 /// `load_scenario` reads a file by the tables of the format and refuses it, with every problem at once, unless the
 /// whole of it can be run. Format: docs/user-guide.md. Errors: `core::InputError`.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,7 @@ struct Scenario {
   bool verify = false;                ///< the result is to be computed again in another way
   std::vector<std::string> warnings;  ///< of parameters of laws, and of the drive
 
+  std::map<std::string, std::string> written_units;  ///< of quantities, by path: what results are drawn in
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario
   std::string file_sha256;  ///< of the bytes of the file
   std::vector<std::string> data_sha256;  ///< of the bytes of its data files

@@ -33,8 +33,25 @@ function broken({ x, y, ...more }) {
 const unitOf = (name, column) => tables[name]?.get(column)?.unit ?? "";
 const axis = (name, column, label = column) => ({ label, unit: unitOf(name, column) });
 
+/** A curve that was stepped through: the way up and the way down, with their points. */
+function steppedView(name, over, label) {
+  const ways = [["up", 0, "line"], ["down", 1, "dashed"]].filter(([way]) => tables[name].get("direction").texts.includes(way));
+  const ofBoth = (column) => ways.flatMap(([way, colour, kind]) => {
+    const here = (get) => get("direction") === way;
+    const shown = part(name, over, column, here, { label: way, colour, kind });
+    return [shown, { ...shown, kind: way === "up" ? "points" : "open", size: shown.x.length > 200 ? 1 : 2.5 }];
+  });
+  return [["x", "Output amplitude", "output amplitude x"], ["phase", "Phase", "phase"], ["stops", "Stops in a period", "stops"]]
+    .filter(([column]) => values(name, column)).map(([column, title, text], i) => chart({
+      title, wide: i === 0, note: i === 0 ? "each level starts from the steady state of the level before" : null,
+      x: axis(name, over, label), y: { ...axis(name, column, text), whole: column === "stops" }, series: ofBoth(column),
+    }));
+}
+
 /** Output amplitude over a column, points with sticks apart from those without, unstable ones dashed. */
 function curveView(name, over, label) {
+  const directions = tables[name]?.get("direction")?.texts;
+  if (directions) return steppedView(name, over, label);
   const kinds = [
     { label: "slides through", kind: "points", colour: 0, keep: (get) => get("sticks") === 0 && get("stable") !== 0 },
     { label: "sticks in each period", kind: "open", colour: 1, keep: (get) => get("sticks") > 0 && get("stable") !== 0 },

@@ -101,6 +101,20 @@ struct CheckedValues {
   std::optional<identify::MeasuredSignal> compared = {};
 };
 
+/// What the main chart of a result shows: columns of one of its lists.
+struct MainChart {
+  std::string_view table;  ///< the list as a CSV file; empty: the list stands in the result alone
+  std::string_view list;   ///< its path in the result; empty: it is only a file
+  std::string_view x;      ///< column
+  std::string_view y;      ///< column
+  std::string_view x_label;
+  std::string_view y_label;
+  std::string_view further = {};  ///< a column that is drawn over x too
+  std::string_view by = {};       ///< rows that differ in this column are series of their own
+  enum class Kind { line, points, cells } kind = Kind::line;
+  std::string_view x_otherwise = {};  ///< column, where there is no column x
+};
+
 struct Analysis {
   std::string_view name;
   std::string_view summary;
@@ -109,6 +123,7 @@ struct Analysis {
   std::vector<ResultField> results;
   /// Single numbers by which results are compared and drawn, the most telling first: paths of `results`.
   std::vector<std::string_view> main = {};
+  MainChart chart = {};
   bool uses_uncertainties = false;  ///< those of the system's constants and of the frequency
   bool seeks_laws = false;          ///< what laws of the system lack is sought; the model has no friction
   bool steady_vibrations = false;   ///< the result is about steady vibrations alone: structural damping has a place

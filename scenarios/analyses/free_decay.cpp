@@ -40,13 +40,15 @@ Answer FreeDecayQuestion::run(const RunContext& context) const {
 }
 
 const Analysis& free_decay_analysis() {
-  static const Analysis analysis = {.name = "free_decay",
-                                    .summary = "extremes of the free vibration from the initial state",
-                                    .keys = {{peaks()}},
-                                    .needs = {needs_of_free_vibrations("")},
-                                    .results = fields(),
-                                    .verifiable = true,
-                                    .ask = ask};
+  static const Analysis analysis = {
+      .name = "free_decay",
+      .summary = "extremes of the free vibration from the initial state",
+      .keys = {{peaks()}},
+      .needs = {needs_of_free_vibrations("")},
+      .results = fields(),
+      .chart = {.table = "peaks", .list = "peaks", .x = "t", .y = "x", .x_label = "time t", .y_label = "extreme x"},
+      .verifiable = true,
+      .ask = ask};
   return analysis;
 }
 

@@ -22,6 +22,13 @@ const Analysis& frequency_branch_analysis() {
                                     .keys = {{range("frequencies", {"rad/s"}, "range of the forcing frequency")}},
                                     .needs = needs_of_steady_states({"amplitude"}),
                                     .results = branch_fields({"omega", "rad/s", "forcing frequency"}),
+                                    .chart = {.table = "branch",
+                                              .list = "points",
+                                              .x = "omega",
+                                              .y = "x",
+                                              .x_label = "frequency",
+                                              .y_label = "output amplitude x",
+                                              .by = "stable"},
                                     .ask = ask};
   return analysis;
 }

@@ -9,26 +9,37 @@ namespace dualdamp::scenarios {
 namespace {
 
 std::unique_ptr<const Question> ask(CheckedValues&& values) {
-  return std::make_unique<FrequencyResponseQuestion>(grid_values(values.analysis.at("frequencies")));
+  return std::make_unique<FrequencyResponseQuestion>(grid_values(values.analysis.at("frequencies")),
+                                                     stepping_of(values.analysis));
 }
 
 }  // namespace
 
 Answer FrequencyResponseQuestion::run(const RunContext& context) const {
-  const sim::Curve curve = sim::frequency_response(context.model, frequencies_, context.steady_states());
-  return answer_of_curve(curve, context.model, {"omega", &sim::CurvePoint::omega, "rad/s"}, true);
+  const sim::Curve curve =
+      stepping_ ? sim::stepped_frequency_response(context.model, frequencies_, *stepping_, context.steady_states())
+                : sim::frequency_response(context.model, frequencies_, context.steady_states());
+  return answer_of_curve(curve, context.model, {"omega", &sim::CurvePoint::omega, "rad/s"}, true, stepping_);
 }
 
 const Analysis& frequency_response_analysis() {
   static const Analysis analysis = {
       .name = "frequency_response",
       .summary = "output amplitude over frequency",
-      .keys = {{frequencies()}},
+      .keys = {{frequencies(), continue_key()}},
       .needs = needs_of_steady_states({"amplitude"}),
       .results = curve_fields({{"points[].omega", "rad/s", "forcing frequency"},
                                {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}}),
+      .chart = {.table = "curve",
+                .list = "points",
+                .x = "omega",
+                .y = "x",
+                .x_label = "frequency",
+                .y_label = "output amplitude x",
+                .by = "direction"},
       .steady_vibrations = true,
       .verifiable = true,
+      .check = check_stepping,
       .ask = ask,
       .length_of = number_of_points};
   return analysis;

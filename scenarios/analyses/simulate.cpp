@@ -160,6 +160,13 @@ const Analysis& simulate_analysis() {
                                     .needs = {{"", excitations().names(), {"amplitude", "frequency"}, true, ""}},
                                     .results = fields(),
                                     .main = {"final.x", "final.v", "energy.friction"},
+                                    .chart = {.table = "history",
+                                              .list = "",
+                                              .x = "t",
+                                              .y = "x",
+                                              .x_label = "time t",
+                                              .y_label = "displacement",
+                                              .further = "y"},
                                     .verifiable = true,
                                     .check = check,
                                     .ask = ask};

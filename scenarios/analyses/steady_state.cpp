@@ -100,6 +100,13 @@ const Analysis& steady_state_analysis() {
                                     .needs = needs_of_steady_states({"amplitude", "frequency"}),
                                     .results = fields(),
                                     .main = {"amplitude", "phase", "max_speed"},
+                                    .chart = {.table = "orbit",
+                                              .list = "",
+                                              .x = "t",
+                                              .y = "x",
+                                              .x_label = "time t",
+                                              .y_label = "displacement",
+                                              .further = "y"},
                                     .steady_vibrations = true,
                                     .verifiable = true,
                                     .ask = ask};

@@ -23,6 +23,13 @@ const Analysis& xy_branch_analysis() {
       .keys = {{range("amplitudes", {"m", "N"}, "range of the excitation amplitude")}},
       .needs = needs_of_steady_states({"frequency"}),
       .results = branch_fields({"Y", "m or N", "excitation amplitude"}),
+      .chart = {.table = "branch",
+                .list = "points",
+                .x = "Y",
+                .y = "x",
+                .x_label = "input amplitude Y",
+                .y_label = "output amplitude x",
+                .by = "stable"},
       .ask = ask};
   return analysis;
 }

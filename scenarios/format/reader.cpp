@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/format/law_values.hpp"
+#include "scenarios/format/values.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -245,6 +246,7 @@ class Reader {
       return nullptr;
     }
     if (!in_range(node, field, path, *text.value, core::unit_for(coordinate_, unit))) return nullptr;
+    note_unit(path, node.text, reading_.written_units);
     return in_json(*text.value, unit);
   }
 

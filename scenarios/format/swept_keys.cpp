@@ -22,14 +22,6 @@ Section range_section() {
            words("spacing", {"linear", "log"}, "equal steps, or equal ratios").with_fallback("linear")}};
 }
 
-/// What follows the number; it is the unit of "3 um".
-std::string unit_of(const Node& node) {
-  std::string unit = node.text.substr(core::read_number(node.text).length);
-  unit.erase(0, unit.find_first_not_of(' '));
-  unit.erase(unit.find_last_not_of(' ') + 1);
-  return unit;
-}
-
 class SweepReader {
  public:
   SweepReader(const Document& document, std::vector<core::Diagnostic>& problems)
@@ -82,9 +74,9 @@ class SweepReader {
                std::string(forms));
       return false;
     }
-    const std::string unit = unit_of(node);
-    if (unit.find("+-") != std::string::npos || unit.find("+/-") != std::string::npos ||
-        unit.find("±") != std::string::npos) {
+    const std::string unit = written_unit(node.text);
+    const std::string_view behind = std::string_view(node.text).substr(core::read_number(node.text).length);
+    if (behind.find('+') != std::string_view::npos || behind.find("±") != std::string_view::npos) {
       complain(node.place, where + " takes no uncertainty", std::string(forms), shortened(node.text));
       return false;
     }

@@ -27,6 +27,19 @@ double number_or(const Json& section, const std::string& key, double fallback) {
   return section.contains(key) ? number(section.at(key)) : fallback;
 }
 
+std::string written_unit(std::string_view quantity) {
+  quantity.remove_prefix(core::read_number(quantity).length);
+  if (quantity.find('+') != std::string_view::npos || quantity.find("±") != std::string_view::npos) return {};
+  const std::size_t begin = quantity.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return {};
+  return std::string(quantity.substr(begin, quantity.find_last_not_of(' ') + 1 - begin));
+}
+
+void note_unit(const std::string& path, std::string_view quantity, std::map<std::string, std::string>& units) {
+  const std::string unit = written_unit(quantity);
+  if (!unit.empty()) units.emplace(path.ends_with(']') ? path.substr(0, path.rfind('[')) : path, unit);
+}
+
 std::vector<double> grid_values(const Json& grid) {
   std::vector<double> values;
   if (grid.is_array()) {

@@ -2,7 +2,9 @@
 /// Numbers of a checked scenario as the reader returns them: SI, frequencies with their unit.
 
 #include <cstddef>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/format/json.hpp"
@@ -13,6 +15,12 @@ namespace dualdamp::scenarios {
 
 /// The number under `key`, or `fallback` where there is none.
 [[nodiscard]] double number_or(const Json& section, const std::string& key, double fallback);
+
+/// The unit of a quantity as the user wrote it: "um" of "3 um"; empty where there is none, or an uncertainty.
+[[nodiscard]] std::string written_unit(std::string_view quantity);
+
+/// Notes the unit of the quantity at a path; of a list that of its first item with one, under the list's path.
+void note_unit(const std::string& path, std::string_view quantity, std::map<std::string, std::string>& units);
 
 /// The values of a list, or of a grid {from, to, count, spacing}.
 [[nodiscard]] std::vector<double> grid_values(const Json& grid);

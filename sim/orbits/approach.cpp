@@ -29,9 +29,9 @@ constexpr double diverging = 0.03;
 
 constexpr const char* neighbours =
     "not unique: a Floquet multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
-    "the one approached from the initial state";
+    "the one that the motion approaches";
 constexpr const char* repelling =
-    "unstable: a Floquet multiplier lies outside the unit circle; the motion from the initial state stays on this "
+    "unstable: a Floquet multiplier lies outside the unit circle; the motion stays on this "
     "orbit only while nothing disturbs it";
 
 }  // namespace
@@ -58,7 +58,9 @@ Approach::Approach(const Model& model, const SteadyStateOptions& options, Period
 }
 
 std::optional<Orbit> Approach::find(SteadyState& result) {
-  ForcingPeriod period = map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
+  ForcingPeriod period =
+      options_.from ? map_.from(*options_.from, Monodromy::without)
+                    : map_.from_start(model_.initial.position, model_.initial.velocity, Monodromy::without);
   recurrence_.add(period.begin, period.size);
   std::optional<Orbit> orbit;
   while (map_.outcome().ok()) {
@@ -173,8 +175,8 @@ std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
   if (!candidate_ || growth_.is_endless()) return std::nullopt;
   const Attraction& attraction = candidate_->attraction;
   if (!(attraction.deviation() < 0.9 * attraction.first_deviation())) return std::nullopt;
-  result.warnings.emplace_back("the motion from the initial state still approaches this steady state after " +
-                               std::to_string(passed_) + " forcing periods");
+  result.warnings.emplace_back("the motion still approaches this steady state after " + std::to_string(passed_) +
+                               " forcing periods");
   return at_start(*candidate_);
 }
 
@@ -208,8 +210,8 @@ core::Outcome Approach::failure() const {
   }
   if (divergence_ > diverging) {
     return {core::OutcomeKind::no_steady_state,
-            "no steady state: the motion from the initial state is aperiodic: it has not come back within " +
-                std::to_string(passed_) + " forcing periods, and neighbouring motions run away from it"};
+            "no steady state: the motion is aperiodic: it has not come back within " + std::to_string(passed_) +
+                " forcing periods, and neighbouring motions run away from it"};
   }
   if (motions_ == Motions::meet_sliding) {
     return {
@@ -219,19 +221,15 @@ core::Outcome Approach::failure() const {
   }
   if (is_followed_enough()) {
     return {core::OutcomeKind::no_steady_state,
-            "no steady state found: the motion from the initial state has not become periodic within " +
-                std::to_string(passed_) +
+            "no steady state found: the motion has not become periodic within " + std::to_string(passed_) +
                 " forcing periods, and it has so many events or steps in each that it is followed no longer"};
   }
   const std::string after = " after " + std::to_string(passed_) + " forcing periods";
   if (recurrence_.closure(1) < creeping) {
-    return {
-        core::OutcomeKind::not_unique,
-        "not unique: steady states form a continuum, and the motion from the initial state still creeps along it" +
-            after};
+    return {core::OutcomeKind::not_unique,
+            "not unique: steady states form a continuum, and the motion still creeps along it" + after};
   }
-  return {core::OutcomeKind::no_steady_state,
-          "no steady state: the motion from the initial state has not become periodic" + after};
+  return {core::OutcomeKind::no_steady_state, "no steady state: the motion has not become periodic" + after};
 }
 
 }  // namespace dualdamp::sim

@@ -1,32 +1,16 @@
 #include "sim/orbits/curves.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <span>
 
+#include "sim/orbits/curve_part.hpp"
 #include "sim/parallel.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::sim {
 
 namespace {
-
-/// Remarks and reasons in order of their first appearance.
-class Remarks {
- public:
-  void add(const std::string& text, std::size_t index, std::size_t count = 1) {
-    const auto [place, is_new] = places_.emplace(text, list_.size());
-    if (is_new) list_.push_back({text, index, 0});
-    list_[place->second].count += count;
-  }
-
-  [[nodiscard]] std::vector<Remark> take() { return std::move(list_); }
-
- private:
-  std::vector<Remark> list_;
-  std::map<std::string, std::size_t> places_;
-};
 
 /// What packs find of these points; nothing where the model is none for them, or closure is to be better than
 /// theirs.
@@ -39,68 +23,20 @@ std::vector<std::optional<SlidingOrbit>> in_packs(const Model& model, const Stea
   return sliding_orbits(*batch, width);
 }
 
-/// Consecutive points, done by one thread.
-class Chunk {
- public:
-  /// `first`: index of the first point.
-  void compute(Model model, const SteadyStateOptions& options, int width, std::span<CurvePoint> points,
-               std::size_t first) {
-    const std::vector<std::optional<SlidingOrbit>> orbits = in_packs(model, options, width, points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (orbits[i]) {
-        take(*orbits[i], options, points[i]);
-        continue;
-      }
-      model.excitation.frequency = points[i].omega;
-      model.excitation.amplitude = points[i].Y;
-      take(steady_state(model, options), points[i], first + i);
+/// Consecutive points, done by one thread; `first`: index of the first point.
+void compute(Model model, const SteadyStateOptions& options, int width, std::span<CurvePoint> points,
+             std::size_t first, CurvePart& part) {
+  const std::vector<std::optional<SlidingOrbit>> orbits = in_packs(model, options, width, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (orbits[i]) {
+      part.take(*orbits[i], options, points[i]);
+      continue;
     }
+    model.excitation.frequency = points[i].omega;
+    model.excitation.amplitude = points[i].Y;
+    part.take(steady_state(model, options), points[i], first + i);
   }
-
-  /// `points` are those of this chunk.
-  void merge_into(Curve& curve, std::span<CurvePoint> points, Remarks& remarks) {
-    std::vector<std::uint32_t> numbers = {0};
-    for (const std::string& reason : reasons_) numbers.push_back(number_in(curve.reasons, reason));
-    for (CurvePoint& point : points) point.reason = numbers[point.reason];
-    for (const Remark& remark : remarks_.take()) remarks.add(remark.text, remark.first, remark.count);
-    curve.certificate += certificate_;
-  }
-
- private:
-  void take(const SlidingOrbit& orbit, const SteadyStateOptions& options, CurvePoint& point) {
-    certificate_ += orbit.certificate;
-    point.x = orbit.peak;
-    if (options.full_account) point.phase = orbit.lag;
-    point.stable = true;
-  }
-
-  void take(const SteadyState& state, CurvePoint& point, std::size_t index) {
-    certificate_ += state.certificate;
-    if (state.outcome.ok()) {
-      point.x = state.amplitude;
-      point.phase = state.phase;
-      point.stops = state.stops_per_cycle;
-      point.sticks = state.rests;
-      point.stable = state.stable();
-    } else {
-      point.reason = number_of(state.outcome.reason);
-      remarks_.add(state.outcome.reason, index);
-    }
-    for (const std::string& warning : state.warnings) remarks_.add(warning, index);
-  }
-
-  static std::uint32_t number_in(std::vector<std::string>& list, const std::string& text) {
-    const auto found = std::ranges::find(list, text);
-    const auto number = static_cast<std::uint32_t>(found - list.begin());
-    if (found == list.end()) list.push_back(text);
-    return number;
-  }
-  [[nodiscard]] std::uint32_t number_of(const std::string& reason) { return number_in(reasons_, reason) + 1; }
-
-  std::vector<std::string> reasons_;
-  Remarks remarks_;
-  core::SearchCount certificate_;
-};
+}
 
 /// Fills in points that have their `omega` and `Y`.
 Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyStateOptions& options,
@@ -108,16 +44,16 @@ Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyS
   // Points for packs take a microsecond each, the others up to some ten milliseconds.
   const std::size_t chunk_size = batch_of(model, 1) ? 64 : 4;
   const std::span<CurvePoint> all(points);
-  std::vector<Chunk> chunks((points.size() + chunk_size - 1) / chunk_size);
+  std::vector<CurvePart> parts((points.size() + chunk_size - 1) / chunk_size);
   in_parts(points.size(), chunk_size, batch.threads, [&](std::size_t first, std::size_t count) {
-    chunks[first / chunk_size].compute(model, options, batch.width, all.subspan(first, count), first);
+    compute(model, options, batch.width, all.subspan(first, count), first, parts[first / chunk_size]);
   });
 
   Curve curve;
   Remarks remarks;
   for (std::size_t first = 0; first < points.size(); first += chunk_size) {
     const std::size_t count = std::min(chunk_size, points.size() - first);
-    chunks[first / chunk_size].merge_into(curve, all.subspan(first, count), remarks);
+    parts[first / chunk_size].merge_into(curve, all.subspan(first, count), remarks);
   }
   curve.points = std::move(points);
   curve.remarks = remarks.take();

@@ -152,9 +152,7 @@ void OrbitFinder::describe(SteadyState& result) {
   add_mirror_image(result);
   if (!result.others.empty())
     result.warnings.emplace_back(
-        "not the only steady state: the one that the motion from the initial state approaches; others attract "
-        "other "
-        "motions");
+        "not the only steady state: the one that the motion approaches; others attract other motions");
 }
 
 void OrbitFinder::list_others(const std::vector<Orbit>& others, SteadyState& result) {

@@ -1,8 +1,9 @@
 #pragma once
-/// Steady states: the periodic orbit approached from the model's initial state. Its period is the forcing period or
-/// a multiple of it, up to 64 (subharmonic motion).
+/// Steady states: the periodic orbit approached from the model's initial state, or from another. Its period is the
+/// forcing period or a multiple of it, up to 64 (subharmonic motion).
 
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,9 @@ struct SteadyStateOptions {
   /// Under laws none of which holds the mass (smooth laws, compliant contacts) it never quite sticks: a rest is
   /// then a time longer than `shortest_rest` of a period at a speed below `rest_speed` times the largest.
   bool judge_rests = false;
+  /// Where the motion begins at t = 0, with the memories of the laws: the `start` of a steady state of a model with
+  /// the same laws. Nothing: in the model's initial state, laws at their start.
+  std::optional<State> from = {};
 };
 
 inline constexpr double rest_speed = 1e-3;

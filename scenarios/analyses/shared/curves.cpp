@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
+#include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/results/cells.hpp"
 
@@ -10,7 +11,19 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase) {
+/// Which way each point was reached.
+Column direction_column(const sim::Curve& curve, sim::Stepping stepping) {
+  Column column{.name = "direction", .texts = {"up", "down"}, .kind = CellKind::text};
+  const std::size_t up = stepping == sim::Stepping::up     ? curve.points.size()
+                         : stepping == sim::Stepping::down ? 0
+                                                           : curve.points.size() / 2;
+  column.choices.assign(curve.points.size(), 1);
+  std::fill_n(column.choices.begin(), up, 0);
+  return column;
+}
+
+Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase,
+                  std::optional<sim::Stepping> stepping) {
   using sim::CurvePoint;
   Table table{.name = "curve", .key = "points", .is_complete = true};
   std::vector<Column>& columns = table.columns;
@@ -20,6 +33,7 @@ Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase) {
   columns.push_back(point_column("stops", "", curve, CellKind::count, &CurvePoint::stops));
   columns.push_back(point_column("sticks", "", curve, CellKind::count, &CurvePoint::sticks));
   columns.push_back(point_column("stable", "", curve, CellKind::truth, &CurvePoint::stable));
+  if (stepping) columns.push_back(direction_column(curve, *stepping));
   add_reasons(table, curve);
   return table;
 }
@@ -53,9 +67,10 @@ Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const 
   return answer;
 }
 
-Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis, bool with_phase) {
+Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis, bool with_phase,
+                       std::optional<sim::Stepping> stepping) {
   Answer answer = answer_of_points(curve, model, "curve", {axis});
-  if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, axis, with_phase));
+  if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, axis, with_phase, stepping));
   return answer;
 }
 
@@ -65,7 +80,28 @@ ResultFields curve_fields(const ResultFields& own) {
                  {"points[].stops", "1", "stops in a period"},
                  {"points[].sticks", "1", "sticks in a period"},
                  {"points[].stable", "", "all Floquet multipliers inside the unit circle"},
+                 {"points[].direction", "", "with 'continue': the way the point was reached, up or down"},
                  {"points[].reason", "", "for a point without numbers: the reason"}});
+}
+
+Field continue_key() {
+  return words(
+      "continue", {"up", "down", "both"},
+      "each level starts from the steady state of the level before, in ascending order, in descending order, "
+      "or up and then down again: jumps and hysteresis as on a shaker; default: from 'initial'");
+}
+
+std::optional<sim::Stepping> stepping_of(const Json& analysis) {
+  if (!analysis.contains("continue")) return std::nullopt;
+  const auto word = analysis.at("continue").get<std::string>();
+  return word == "up" ? sim::Stepping::up : word == "down" ? sim::Stepping::down : sim::Stepping::both;
+}
+
+void check_stepping(CheckedFile& file) {
+  const auto count = number_of_points(file, "points");
+  if (count && static_cast<double>(*count) > max_points)
+    file.complain("analysis.continue", "the curve has too many points up and down",
+                  "at most " + core::format_number(max_points, 7), std::to_string(*count));
 }
 
 std::optional<std::size_t> number_of_points(const CheckedFile& file, std::string_view list) {
@@ -77,6 +113,7 @@ std::optional<std::size_t> number_of_points(const CheckedFile& file, std::string
     else if (file.stands_in_file("analysis", key))
       return std::nullopt;
   }
+  if (count && file.text_at("analysis", "continue") == "both") *count *= 2;
   return count;
 }
 

@@ -8,6 +8,7 @@
 #include "scenarios/analyses/analysis.hpp"
 #include "scenarios/results/motion.hpp"
 #include "sim/orbits/curves.hpp"
+#include "sim/orbits/stepped_curves.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -36,9 +37,16 @@ struct Axis {
 [[nodiscard]] Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const std::string& what,
                                       const std::vector<Axis>& axes);
 
-/// A curve over one axis; its points have a phase `with_phase`.
+/// A curve over one axis; its points have a phase `with_phase`, and a direction where they were stepped through.
 [[nodiscard]] Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis,
-                                     bool with_phase);
+                                     bool with_phase, std::optional<sim::Stepping> stepping);
+
+/// The key `continue`: in which direction the levels are stepped through.
+[[nodiscard]] Field continue_key();
+/// Nothing without the key: each level on its own.
+[[nodiscard]] std::optional<sim::Stepping> stepping_of(const Json& analysis);
+/// Levels that are stepped through twice are twice as many.
+void check_stepping(CheckedFile& file);
 /// The fields of a curve; `own`: those of its axis.
 [[nodiscard]] ResultFields curve_fields(const ResultFields& own);
 
