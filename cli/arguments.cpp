@@ -13,6 +13,9 @@ namespace dualdamp::cli {
 
 namespace {
 
+/// Curves that a chart can show and a legend can name.
+constexpr int most_compared = 50;
+
 constexpr auto usage = static_cast<int>(core::ExitStatus::usage);
 
 std::string version_text() {
@@ -109,6 +112,7 @@ class Parser {
         ->excludes(resume);
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again by another engine and compare; the same as numerics.verify");
+    add_plot(*run_command_, run_.plot);
     add_plugins(*run_command_);
   }
 
@@ -147,6 +151,14 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("NAME=FILE");
     add_output_options(*score_command_, score_.out, score_.json, score_.quiet);
+  }
+
+  static void add_plot(CLI::App& command, std::string& plot) {
+    command.add_option("--plot", plot, "Also draw the main chart into this SVG file")
+        ->type_name("FILE.svg")
+        ->check([](const std::string& text) {
+          return text.ends_with(".svg") ? std::string() : "'" + text + "' does not end in .svg";
+        });
   }
 
   void add_check() {
@@ -321,6 +333,16 @@ class Parser {
     report_command_->add_option("DIR", report_.directories, "Directories with a result.json")
         ->required()
         ->type_name("");
+    add_plot(*report_command_, report_.plot);
+    compare_command_ = app_.add_subcommand("compare", "Draw the curves of several results over each other");
+    compare_command_->add_option("DIR", compare_.directories, "Two or more directories with a result.json")
+        ->required()
+        ->expected(2, most_compared)
+        ->type_name("");
+    compare_command_->add_option("--out", compare_.out, "Directory for compare.html, compare.csv and compare.svg")
+        ->type_name("DIR")
+        ->capture_default_str()
+        ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
   }
 
   void add_lists() {
@@ -373,6 +395,7 @@ class Parser {
     if (fit_command_->parsed()) return fit_;
     if (predict_command_->parsed()) return predict_;
     if (report_command_->parsed()) return report_;
+    if (compare_command_->parsed()) return compare_;
     if (laws_command_->parsed()) return laws_;
     if (methods_command_->parsed()) return methods_;
     if (analyses_command_->parsed()) return analyses_;
@@ -391,6 +414,7 @@ class Parser {
   CLI::App* fit_command_ = nullptr;
   CLI::App* predict_command_ = nullptr;
   CLI::App* report_command_ = nullptr;
+  CLI::App* compare_command_ = nullptr;
   CLI::App* laws_command_ = nullptr;
   CLI::App* methods_command_ = nullptr;
   CLI::App* analyses_command_ = nullptr;
@@ -405,6 +429,7 @@ class Parser {
   FitCommand fit_;
   PredictCommand predict_;
   ReportCommand report_;
+  CompareCommand compare_;
   LawsCommand laws_;
   MethodsCommand methods_;
   AnalysesCommand analyses_;

@@ -18,6 +18,7 @@ struct RunCommand {
   bool resume = false;
   bool overwrite = false;
   bool verify = false;  ///< compute every result again in another way
+  std::string plot;     ///< SVG file for the main chart; empty: none
 };
 
 /// `stress export`: records for programs outside.
@@ -127,6 +128,12 @@ struct PredictCommand : FileOptions {
 
 struct ReportCommand {
   std::vector<std::string> directories;
+  std::string plot;  ///< SVG file for the main chart; empty: none
+};
+
+struct CompareCommand {
+  std::vector<std::string> directories;  ///< two or more
+  std::string out = "compare";
 };
 
 /// Nothing to do but to print and leave: help, version, or a wrong command line.
@@ -138,7 +145,7 @@ struct Leave {
 
 using Command = std::variant<RunCommand, ExportCommand, ScoreCommand, CheckCommand, LawsCommand, MethodsCommand,
                              AnalysesCommand, SchemaCommand, IdentifyCommand, NextCommand, FitCommand,
-                             PredictCommand, ReportCommand, Leave>;
+                             PredictCommand, ReportCommand, CompareCommand, Leave>;
 
 /// A command line.
 struct Call {

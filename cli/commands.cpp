@@ -15,6 +15,7 @@
 
 #include "bench/analyses.hpp"
 #include "bench/processes.hpp"
+#include "cli/charts.hpp"
 #include "cli/conformance.hpp"
 #include "cli/fit_scenario.hpp"
 #include "cli/identify_scenario.hpp"
@@ -195,6 +196,7 @@ Report run_file(const RunCommand& command, const std::string& file) {
         {.directory = output_directory(command, file), .threads = command.jobs, .found = found_cases(command)},
         command.quiet);
     is_done = true;
+    if (!command.plot.empty() && !is_silent()) add_plot(result, output_directory(command, file), command.plot);
     return result;
   });
   if (is_done || !bench::Processes::several()) return report;
@@ -234,6 +236,8 @@ int execute(const RunCommand& command) {
   for (const std::string& assignment : command.set)
     if (assignment.find('=') == std::string::npos)
       return say(refused(ExitStatus::usage, "--set needs PATH=VALUE, not '" + assignment + "'"), style);
+  if (!command.plot.empty() && command.files.size() > 1)
+    return say(refused(ExitStatus::usage, "--plot takes the chart of one scenario, not of several"), style);
   if (const std::string problem = clash(command); !problem.empty())
     return say(refused(ExitStatus::usage, problem), style);
   const Report joined = guarded([] {
@@ -316,6 +320,8 @@ int execute(const ScoreCommand& command) {
 }
 
 int execute(const ReportCommand& command) {
+  if (!command.plot.empty() && command.directories.size() > 1)
+    return say(refused(ExitStatus::usage, "--plot takes the chart of one directory, not of several"), {});
   ExitStatus worst = ExitStatus::done;
   for (const std::string& directory : command.directories) {
     const Report report = guarded([&] {
@@ -325,12 +331,23 @@ int execute(const ReportCommand& command) {
       scenarios::write_files(directory, {report_page(directory)});
       Report done;
       done.messages = "wrote " + (fs::path(directory) / "report.html").string() + "\n";
+      if (!command.plot.empty()) done.messages += plot_result(directory, command.plot);
       return done;
     });
     print(report, {});
     worst = std::max(worst, report.status);
   }
   return finish(worst);
+}
+
+int execute(const CompareCommand& command) {
+  return say(guarded([&] {
+               refuse_unusable(command.out);
+               Report report;
+               report.messages = compare_results(command.directories, command.out);
+               return report;
+             }),
+             {});
 }
 
 Report of_list(const Listing& listing) {

@@ -276,7 +276,8 @@ function chart(spec) {
     return element;
   };
   const tools = make("span", { class: "tools" }, button("+", "zoom in", () => move.zoom(0.7)), " ",
-    button("−", "zoom out", () => move.zoom(1 / 0.7)), " ", button("all", "show all", move.all));
+    button("−", "zoom out", () => move.zoom(1 / 0.7)), " ", button("all", "show all", move.all), " ",
+    button("SVG", "save as SVG", () => saveSvg(plot, legend, spec.title)), " ", button("PNG", "save as PNG", () => savePng(plot, legend, spec.title)));
   charts.push(draw);
   return make("figure", { class: spec.wide ? "wide" : null },
     make("figcaption", {}, make("span", { class: "row" }, spec.title, tools), spec.note ? make("small", {}, spec.note) : null),

@@ -52,6 +52,9 @@ EXAMPLES = {
     "identify_xy_curve": 3,
     "identify_free_decay": 3,
     "formula": 0,
+    "sweep": 4,
+    "sweep_curves": 1,
+    "stepped_response": 3,
 }
 
 
@@ -125,6 +128,72 @@ class Page(unittest.TestCase):
         dom, console = self.load(out / "report.html", probe, **options)
         self.assertEqual(console, [])
         return json.loads(html.unescape(re.search(r'data-answer="([^"]*)"', dom).group(1)))
+
+    def test_a_map_of_two_swept_keys(self):
+        out = self.folder / "swept_map"
+        text = (ROOT / "scenarios/examples/sweep.yaml").read_text()
+        (self.folder / "swept.yaml").write_text(text[: text.index("expect:")])  # that is about other points
+        self.run_program("run", self.folder / "swept.yaml", "--out", out, "--quiet", "--set",
+                         "sweep={system.friction.kinetic: {from: 1 N, to: 4 N, count: 8}, excitation.amplitude: {from: 10 cm, to: 30 cm, count: 7}}")
+        dom, console = self.load(out / "report.html")
+        self.assertEqual(console, [])
+        self.assertIn("amplitude [mm]", dom)
+        self.assertIn("excitation.amplitude [cm]", dom)
+
+    def test_charts_are_saved_as_files(self):
+        probe = """<script>
+          const texts = {};
+          window.save = (blob, name) => {
+            document.body.dataset[name.split(".").pop()] = `${name} ${blob.type} ${blob.size}`;
+            if (name.endsWith("svg")) blob.text().then((text) => {
+              const svg = new DOMParser().parseFromString(text, "image/svg+xml");
+              document.body.dataset.faults = svg.querySelectorAll("parsererror").length;
+              document.body.dataset.paths = svg.querySelectorAll("path.series").length;
+              document.body.dataset.says = [...svg.querySelectorAll("text")].map((t) => t.textContent).join("|");
+              document.body.dataset.strokes = [...svg.querySelectorAll("path.series")].map((t) => t.style.stroke).join("|");
+            });
+          };
+          for (const name of ["SVG", "PNG"]) [...document.querySelectorAll("figure button")].find((b) => b.textContent === name).click();
+        </script>"""
+        out = self.folder / "saved"
+        self.run_program("run", ROOT / "scenarios/examples/sweep_curves.yaml", "--out", out, "--quiet")
+        dom, console = self.load(out / "report.html", probe)
+        self.assertEqual(console, [])
+        said = {key: html.unescape(value) for key, value in re.findall(r'data-(svg|png|faults|paths|says|strokes)="([^"]*)"', dom)}
+        self.assertTrue(said["svg"].startswith("x_over_omega.svg image/svg+xml "), said)
+        self.assertTrue(said["png"].startswith("x_over_omega.png image/png "), said)
+        self.assertGreater(int(said["png"].split()[-1]), 5000)
+        self.assertEqual([said["faults"], said["paths"]], ["0", "7"])
+        for text in ("x over omega", "omega [rad/s]", "x [mm]", "kinetic = 6 N"):
+            self.assertIn(text, said["says"].split("|"))
+        self.assertNotIn("var", said["strokes"])
+
+    def test_a_comparison_has_its_page(self):
+        for friction in (1, 3):
+            self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", self.folder / f"friction{friction}", "--quiet",
+                             "--set", f"system.friction.kinetic={friction} N")
+        self.run_program("compare", self.folder / "friction1", self.folder / "friction3", "--out", self.folder / "both")
+        page = self.folder / "both/compare.html"
+        self.assertNotRegex(page.read_text(), r"""(src|href)=["']?(https?:)?//""", "the page is self-contained")
+        dom, console = self.load(page)
+        self.assertEqual(console, [])
+        self.assertIn('data-ready="true"', dom)
+        self.assertIn("input amplitude Y [mm]", dom)
+        for text in ("kinetic = 1 N", "kinetic = 3 N", "system.friction.kinetic"):
+            self.assertIn(text, dom)
+        self.assertGreater(int(re.search(r'data-inked="(\d+)"', dom).group(1)), 500)
+
+    def test_a_title_is_no_script(self):
+        title = "<img src=x onerror=document.body.dataset.ran=1></script><script>document.body.dataset.ran=1</script>"
+        for name in ("one", "two"):
+            self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", self.folder / name, "--quiet", "--set", f"title={title} {name}")
+        self.run_program("compare", self.folder / "one", self.folder / "two", "--out", self.folder / "hostile")
+        for page in ("one/report.html", "hostile/compare.html"):
+            with self.subTest(page):
+                dom, console = self.load(self.folder / page)
+                self.assertEqual(console, [])
+                self.assertNotRegex(dom, r"<body[^>]*data-ran")
+                self.assertIn(html.escape(title, quote=False), dom)
 
     def test_numbers_lose_no_digit_before_the_point(self):
         numbers = [100000, 123450, 12350, 120, 0, -0.5, 2.5e-7, 1200000]

@@ -141,6 +141,14 @@ class Sweep(unittest.TestCase):
         self.assertGreater(len(points.read_text().splitlines()), 2)
         self.assertFalse((self.folder / "out/result.json").exists())
 
+    def test_several_sweeps_in_one_call(self):
+        for name in ("one", "two", "three"):
+            self.write(f"{name}.yaml", TWO_KEYS)
+        self.run_program("run", "one.yaml", "two.yaml", "three.yaml", "--jobs", 2)
+        for name in ("two", "three"):
+            self.assertEqual(rows(self.folder / f"results/{name}/sweep.csv"), rows(self.folder / "results/one/sweep.csv"))
+        self.assertEqual(len(rows(self.folder / "results/one/sweep.csv")), 7)
+
     def test_another_sweep_is_not_mixed_in(self):
         self.write("two.yaml", TWO_KEYS)
         self.run_program("run", "two.yaml", "--out", "out")

@@ -1,0 +1,43 @@
+#include "cli/charts.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+#include "cli/report/comparison.hpp"
+#include "cli/report/main_chart.hpp"
+#include "cli/report/svg.hpp"
+#include "core/diagnostics.hpp"
+#include "scenarios/results/files.hpp"
+
+namespace dualdamp::cli {
+
+namespace fs = std::filesystem;
+
+std::string plot_result(const std::string& directory, const std::string& file) {
+  const Chart chart = main_chart(directory);
+  const fs::path path(file);
+  scenarios::write_files(path.has_parent_path() ? path.parent_path().string() : ".",
+                         {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}});
+  return "wrote " + file + "\n";
+}
+
+void add_plot(Report& report, const std::string& directory, const std::string& file) {
+  try {
+    report.messages += plot_result(directory, file);
+  } catch (const core::InputError& error) {
+    for (const core::Diagnostic& problem : error.diagnostics()) report.errors += core::format(problem) + "\n";
+    report.status = std::max(report.status, core::ExitStatus::usage);
+  }
+}
+
+std::string compare_results(const std::vector<std::string>& directories, const std::string& out) {
+  const std::vector<scenarios::OutputFile> files = comparison(directories);
+  scenarios::write_files(out, files);
+  std::string messages;
+  for (const scenarios::OutputFile& file : files)
+    messages += "wrote " + (fs::path(out) / file.name).string() + "\n";
+  return messages;
+}
+
+}  // namespace dualdamp::cli

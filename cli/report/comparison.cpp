@@ -1,0 +1,281 @@
+#include "cli/report/comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <set>
+
+#include "cli/report/assets.hpp"
+#include "cli/report/main_chart.hpp"
+#include "cli/report/page.hpp"
+#include "cli/report/svg.hpp"
+#include "core/build_info.hpp"
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+#include "core/units.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+using Json = StoredRun::Json;
+
+[[noreturn]] void refuse(const StoredRun& run, std::string message, std::string allowed, std::string found) {
+  throw core::InputError(core::Diagnostic{{(run.directory() / "result.json").string(), 0, 0, {}},
+                                          std::move(message),
+                                          std::move(allowed),
+                                          std::move(found),
+                                          {}});
+}
+
+/// A number of a resolved scenario, which is SI, in the unit the user wrote.
+std::string in_written_unit(double value, const std::string& unit) {
+  constexpr std::array dimensions = {"kg",    "m", "s",   "N",       "N/m",       "N.s/m", "m/s",   "rad",   "1",
+                                     "N/m^3", "J", "N.m", "N.m/rad", "N.m.s/rad", "N/s",   "m/s^2", "kg.m^2"};
+  for (const char* dimension : dimensions)
+    if (const auto factor = core::unit_factor(unit, dimension).value; !unit.empty() && factor && *factor > 0.0)
+      return core::format_number(value / *factor, 6) + " " + unit;
+  return core::format_number(value, 6);
+}
+
+/// What the values of a scenario look like, by path; a list of numbers is one value.
+void flatten(const Json& json, const std::string& path, const Json& units,
+             std::map<std::string, std::string>& values) {
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items())
+      if (!path.empty() || (key != "title" && key != "expect" && key != "schema"))
+        flatten(value, path.empty() ? key : path + "." + key, units, values);
+  } else if (json.is_array() && !json.empty() && json.front().is_structured()) {
+    for (std::size_t i = 0; i < json.size(); ++i)
+      flatten(json[i], path + "[" + std::to_string(i) + "]", units, values);
+  } else if (json.is_number_float()) {
+    values[path] = in_written_unit(json.get<double>(), units.value(path, ""));
+  } else if (json.is_string() && json.get<std::string>().ends_with(" rad/s") && units.contains(path)) {
+    const double value = core::read_number(json.get<std::string>()).value.value_or(0.0);
+    const auto unit = units.at(path).get<std::string>();
+    const auto factor = core::unit_factor(unit, "rad/s").value;
+    values[path] = factor ? core::format_number(value / *factor, 6) + " " + unit : json.get<std::string>();
+  } else {
+    constexpr std::size_t longest = 60;
+    const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
+    values[path] = text.size() > longest ? text.substr(0, longest) + "..." : text;
+  }
+}
+
+/// What a comparison needs of a result.
+struct Compared {
+  std::string directory;
+  std::string title;
+  std::string started;
+  std::string sha256;                         ///< of the resolved scenario
+  std::map<std::string, std::string> values;  ///< of the scenario, by path
+  std::set<std::string> written;              ///< paths of quantities that the user wrote
+  Chart chart;
+  std::string label;  ///< in the legend
+};
+
+class Comparison {
+ public:
+  explicit Comparison(const std::vector<std::string>& directories) {
+    const StoredRun first(directories.front());
+    analysis_ = first.document().at("analysis");
+    for (const std::string& directory : directories) {
+      const StoredRun run(directory);
+      run.read([&] { take(run, first); });
+    }
+    find_differences();
+    name_results();
+    lay_over();
+  }
+
+  [[nodiscard]] const Chart& chart() const { return chart_; }
+
+  [[nodiscard]] Json document() const {
+    const auto axis = [](const ChartAxis& a) {
+      return Json{{"label", a.label}, {"unit", a.unit}, {"log", a.is_log}, {"whole", a.is_whole}};
+    };
+    Json json = {{"program", {{"name", "dualdamp"}, {"version", core::build_info().version}}},
+                 {"analysis", analysis_},
+                 {"title", chart_.title},
+                 {"chart", {{"x", axis(chart_.x)}, {"y", axis(chart_.y)}, {"series", Json::array()}}},
+                 {"results", Json::array()},
+                 {"differing", Json::array()}};
+    for (const ChartSeries& series : chart_.series) json["chart"]["series"].push_back(series_json(series));
+    for (const Compared& one : compared_)
+      json["results"].push_back(
+          {{"label", one.label}, {"title", one.title}, {"directory", one.directory}, {"started", one.started}});
+    for (const std::string& key : differing_) {
+      Json list = Json::array();
+      for (const Compared& one : compared_) list.push_back(value_of(one, key, "-"));
+      json["differing"].push_back({{"key", key}, {"values", std::move(list)}});
+    }
+    return json;
+  }
+
+  void write_csv(std::ostream& out) const {
+    const core::BuildInfo build = core::build_info();
+    out << "# program: dualdamp " << build.version << "\n# commit: " << build.commit << "\n";
+    for (const Compared& one : compared_) out << "# result: " << one.directory << " " << one.sha256 << "\n";
+    const auto heading = [](const ChartAxis& axis) {
+      return field(axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]");
+    };
+    out << "result," << heading(chart_.x) << "," << heading(chart_.y) << "\n";
+    const auto number = [](double value) {
+      return std::isfinite(value) ? core::format_number(value) : std::string();
+    };
+    for (const ChartSeries& series : chart_.series)
+      for (std::size_t i = 0; i < series.x.size(); ++i)
+        out << field(series.label) << "," << number(series.x[i]) << "," << number(series.y[i]) << "\n";
+  }
+
+ private:
+  static std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\n#") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+  }
+
+  static Json series_json(const ChartSeries& series) {
+    const auto list = [](const std::vector<double>& numbers) {
+      Json json = Json::array();
+      for (const double value : numbers) json.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+      return json;
+    };
+    const char* kind = series.kind == SeriesKind::points   ? "points"
+                       : series.kind == SeriesKind::dashed ? "dashed"
+                                                           : "line";
+    return {{"label", series.label},
+            {"x", list(series.x)},
+            {"y", list(series.y)},
+            {"kind", kind},
+            {"colour", series.colour}};
+  }
+
+  void take(const StoredRun& run, const StoredRun& first) {
+    const Json& analysis = run.document().at("analysis");
+    if (analysis != analysis_)
+      refuse(run, "this is the result of another analysis than " + (first.directory() / "result.json").string(),
+             analysis_.is_string() ? analysis_.get<std::string>() : "",
+             analysis.is_string() ? analysis.get<std::string>() : "none");
+    std::optional<Chart> chart = main_chart(run, first);
+    if (!chart) refuse(run, "this result has no curve to compare", {}, {});
+    if (chart->series.front().kind == SeriesKind::cells)
+      refuse(run, "maps cannot be laid over each other", "results with curves", {});
+    if (!compared_.empty() && describe(*chart) != describe(compared_.front().chart))
+      refuse(run, "this curve is of other quantities than that of " + first.directory().string(),
+             describe(compared_.front().chart), describe(*chart));
+    const Json provenance = run.document().value("provenance", Json::object());
+    const Json units = provenance.value("written_units", Json::object());
+    Compared one{.directory = shown(run.directory()),
+                 .title = title_of(run),
+                 .started = provenance.value("started", ""),
+                 .sha256 = provenance.value("scenario_sha256", "")};
+    flatten(run.document().at("scenario"), "", units, one.values);
+    for (const auto& [path, unit] : units.items()) one.written.insert(path);
+    one.chart = std::move(*chart);
+    compared_.push_back(std::move(one));
+  }
+
+  static std::string describe(const Chart& chart) {
+    const auto axis = [](const ChartAxis& a) { return a.label + (a.unit.empty() ? "" : " [" + a.unit + "]"); };
+    return axis(chart.y) + " over " + axis(chart.x);
+  }
+
+  static std::string value_of(const Compared& one, const std::string& key, const char* otherwise) {
+    const auto found = one.values.find(key);
+    return found == one.values.end() ? otherwise : found->second;
+  }
+
+  void find_differences() {
+    std::set<std::string> keys;
+    for (const Compared& one : compared_)
+      for (const auto& [key, value] : one.values) keys.insert(key);
+    for (const std::string& key : keys)
+      if (std::ranges::any_of(compared_, [&](const Compared& one) {
+            return value_of(one, key, "") != value_of(compared_.front(), key, "");
+          }))
+        differing_.push_back(key);
+  }
+
+  /// Of the keys that differ those that somebody wrote; others follow them, as static friction follows kinetic.
+  [[nodiscard]] std::vector<std::string> telling_keys() const {
+    std::vector<std::string> keys;
+    for (const std::string& key : differing_)
+      if (std::ranges::any_of(compared_, [&](const Compared& one) { return one.written.contains(key); }))
+        keys.push_back(key);
+    return keys.empty() ? differing_ : keys;
+  }
+
+  [[nodiscard]] bool are_distinct() const {
+    std::set<std::string> labels;
+    for (const Compared& one : compared_) labels.insert(one.label);
+    return labels.size() == compared_.size();
+  }
+
+  void name_results() {
+    for (Compared& one : compared_) one.label = one.title;
+    if (are_distinct()) return;
+    constexpr std::size_t most_keys = 3;
+    const std::vector<std::string> keys = telling_keys();
+    if (!keys.empty() && keys.size() <= most_keys)
+      for (Compared& one : compared_) {
+        one.label.clear();
+        for (const std::string& key : keys)
+          one.label +=
+              (one.label.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " + value_of(one, key, "none");
+      }
+    if (are_distinct()) return;
+    std::map<std::string, int> times;
+    for (Compared& one : compared_) {
+      one.label = one.directory;
+      // The same directory twice.
+      if (const int time = ++times[one.directory]; time > 1) one.label += " (" + std::to_string(time) + ")";
+    }
+  }
+
+  void lay_over() {
+    chart_.x = compared_.front().chart.x;
+    chart_.y = compared_.front().chart.y;
+    const bool has_one_title =
+        std::ranges::all_of(compared_, [&](const Compared& one) { return one.title == compared_.front().title; });
+    chart_.title =
+        has_one_title ? compared_.front().title : "Comparison of " + std::to_string(compared_.size()) + " results";
+    int colour = 0;
+    for (Compared& one : compared_) {
+      const bool has_several = one.chart.series.size() > 1;
+      bool is_first = true;
+      for (ChartSeries& series : one.chart.series) {
+        series.label = has_several ? one.label + ", " + series.label : one.label;
+        series.colour = colour;
+        if (!is_first && series.kind == SeriesKind::line) series.kind = SeriesKind::dashed;
+        is_first = false;
+        chart_.series.push_back(std::move(series));
+      }
+      ++colour;
+    }
+    make_readable(chart_);
+  }
+
+  Json analysis_;  ///< its name
+  std::vector<Compared> compared_;
+  std::vector<std::string> differing_;  ///< paths
+  Chart chart_;
+};
+
+}  // namespace
+
+std::vector<scenarios::OutputFile> comparison(const std::vector<std::string>& directories) {
+  const auto compared = std::make_shared<const Comparison>(directories);
+  return {{"compare.csv", [compared](std::ostream& out) { compared->write_csv(out); }},
+          {"compare.svg", [compared](std::ostream& out) { write_svg(out, compared->chart()); }},
+          {"compare.html", [compared](std::ostream& out) {
+             write_page(out, compared->document(), Json::object(), {assets::compare_js});
+           }}};
+}
+
+}  // namespace dualdamp::cli

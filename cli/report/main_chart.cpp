@@ -1,0 +1,347 @@
+#include "cli/report/main_chart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "bench/analyses.hpp"
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+#include "core/units.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+using Json = StoredRun::Json;
+using scenarios::MainChart;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Quantities of a scenario that are of the kind of a column.
+const std::vector<std::string>& quantities_like(const std::string& column) {
+  static const std::vector<std::string> nothing;
+  static const std::map<std::string, std::vector<std::string>> table = {
+      {"omega", {"analysis.frequencies", "excitation.frequency"}},
+      {"Y", {"analysis.amplitudes", "excitation.amplitude"}},
+      {"y", {"analysis.amplitudes", "excitation.amplitude"}},
+      {"x", {"initial.position", "analysis.amplitudes", "excitation.amplitude"}},
+      {"t", {"analysis.duration"}},
+      {"v", {"initial.velocity"}}};
+  const auto found = table.find(column);
+  return found == table.end() ? nothing : found->second;
+}
+
+struct ShownUnit {
+  std::string unit;
+  double factor = 1.0;  ///< numbers in SI times this are in the unit
+};
+
+/// The unit that the user wrote for such a quantity, if it is one of `unit`.
+std::optional<ShownUnit> written_unit(const StoredRun& run, const std::string& column, const std::string& unit) {
+  const Json provenance = run.document().value("provenance", Json());
+  if (!provenance.is_object() || !provenance.contains("written_units")) return std::nullopt;
+  const Json& written = provenance.at("written_units");
+  for (const std::string& quantity : quantities_like(column))
+    for (const std::string& path : {quantity, quantity + ".from"}) {
+      if (!written.contains(path)) continue;
+      const auto name = written.at(path).get<std::string>();
+      const core::QuantityText factor = core::unit_factor(name, unit);
+      if (factor.value && *factor.value > 0.0) return ShownUnit{name, 1.0 / *factor.value};
+    }
+  return std::nullopt;
+}
+
+/// A prefix that makes numbers up to `largest` pleasant to read: 0.004 m is 4 mm.
+ShownUnit readable(const std::string& unit, double largest) {
+  constexpr std::array scalable = {"m", "m/s", "s", "N", "N.m", "J"};
+  constexpr std::array<std::pair<double, const char*>, 4> prefixes = {
+      {{1.0, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}}};
+  if (std::ranges::find(scalable, unit) == scalable.end() || !(largest > 0.0)) return {unit, 1.0};
+  for (const auto& [size, prefix] : prefixes)
+    if (largest >= size) return {prefix + unit, 1.0 / size};
+  return {unit, 1.0};
+}
+
+double largest_of(const std::vector<ChartSeries>& series, std::vector<double> ChartSeries::* list) {
+  double largest = 0.0;
+  for (const ChartSeries& one : series)
+    for (const double value : one.*list)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+std::vector<double> all_of(const std::vector<ChartSeries>& series, std::vector<double> ChartSeries::* list) {
+  std::vector<double> all;
+  for (const ChartSeries& one : series) all.insert(all.end(), (one.*list).begin(), (one.*list).end());
+  return all;
+}
+
+/// Rows that belong to one value of a column, in order.
+struct Group {
+  std::string label;
+  std::vector<std::size_t> rows;
+};
+
+std::vector<Group> groups_of(const StoredTable& table, std::string_view by) {
+  const StoredColumn* column = by.empty() ? nullptr : table.find(by);
+  std::vector<Group> groups;
+  if (column == nullptr) return groups;
+  const auto label_of = [&](std::size_t row) {
+    if (column->is_text || column->name != "stable") return column->texts[row];
+    return std::string(column->numbers[row] == 1.0 ? "attracts" : "does not attract");
+  };
+  std::map<std::string, std::size_t> numbers;
+  for (std::size_t row = 0; row < column->texts.size(); ++row) {
+    const auto [entry, is_new] = numbers.emplace(label_of(row), groups.size());
+    if (is_new) groups.push_back({entry->first, {}});
+    groups[entry->second].rows.push_back(row);
+  }
+  return groups;
+}
+
+/// All rows of a column.
+std::vector<std::size_t> rows_of(const StoredColumn& column) {
+  std::vector<std::size_t> rows(column.numbers.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return rows;
+}
+
+/// Empty in the document of a scenario that was refused.
+std::string name_of_analysis(const StoredRun& run) {
+  const Json& analysis = run.document().at("analysis");
+  return analysis.is_string() ? analysis.get<std::string>() : std::string();
+}
+
+class ChartMaker {
+ public:
+  ChartMaker(const StoredRun& run, const StoredRun& units_of)
+      : run_(run),
+        units_of_(units_of),
+        analysis_(scenarios::find_analysis(bench::analyses(), name_of_analysis(run))) {}
+
+  std::optional<Chart> make() {
+    const Json& result = run_.document().at("result");
+    if (analysis_ == nullptr || !result.is_object()) return std::nullopt;
+    chart_.title = title_of(run_);
+    const bool is_made = result.contains("sweep") ? sweep() : ordinary();
+    if (!is_made || chart_.series.empty()) return std::nullopt;
+    return std::move(chart_);
+  }
+
+ private:
+  [[nodiscard]] std::string unit_of(const StoredColumn& column) const {
+    if (!column.unit.empty() || analysis_->chart.list.empty()) return column.unit;
+    const std::string path = std::string(analysis_->chart.list) + "[]." + column.name;
+    const Json units = run_.document().value("units", Json::object());
+    if (units.contains(path)) return units.at(path).get<std::string>();
+    const auto field = std::ranges::find(analysis_->results, path, &scenarios::ResultField::path);
+    if (field == analysis_->results.end() || field->unit == "1") return {};
+    if (field->unit != "m or N") return field->unit;
+    const Json excitation = run_.document().at("scenario").value("excitation", Json::object());
+    return excitation.value("type", "").starts_with("force") ? "N" : "m";
+  }
+
+  /// Numbers, in SI so far, in a unit for people.
+  void show(ChartAxis& axis, const std::string& column, const std::string& unit,
+            std::vector<double> ChartSeries::* list) {
+    const std::optional<ShownUnit> written = written_unit(units_of_, column, unit);
+    const ShownUnit shown = written.value_or(ShownUnit{unit, 1.0});
+    axis.is_written = written.has_value();
+    axis.unit = shown.unit;
+    for (ChartSeries& series : chart_.series)
+      for (double& value : series.*list) value *= shown.factor;
+  }
+
+  /// `breaks`: a line has a gap where rows in between belong to another series.
+  void add(std::string label, const StoredColumn& x, const StoredColumn& y, SeriesKind kind,
+           const std::vector<std::size_t>& rows, bool breaks) {
+    ChartSeries series{.label = std::move(label), .kind = kind, .colour = static_cast<int>(chart_.series.size())};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (breaks && i > 0 && rows[i] != rows[i - 1] + 1) {
+        series.x.push_back(none);
+        series.y.push_back(none);
+      }
+      series.x.push_back(x.numbers[rows[i]]);
+      series.y.push_back(y.numbers[rows[i]]);
+    }
+    chart_.series.push_back(std::move(series));
+  }
+
+  static SeriesKind kind_of(MainChart::Kind kind) {
+    return kind == MainChart::Kind::cells    ? SeriesKind::cells
+           : kind == MainChart::Kind::points ? SeriesKind::points
+                                             : SeriesKind::line;
+  }
+
+  bool ordinary() {
+    const MainChart& spec = analysis_->chart;
+    const StoredTable table = spec.table.empty() ? run_.list(spec.list) : run_.table(spec.table);
+    if (spec.x.empty()) return first_columns();
+    const StoredColumn* x = table.find(spec.x);
+    const bool is_otherwise = x == nullptr && !spec.x_otherwise.empty();
+    if (is_otherwise) x = table.find(spec.x_otherwise);
+    const StoredColumn* y = table.find(spec.y);
+    if (x == nullptr || y == nullptr) return false;
+    chart_.x.label = is_otherwise ? std::string(spec.x_otherwise) : std::string(spec.x_label);
+    chart_.x.is_whole = is_otherwise;
+    chart_.y.label = std::string(spec.y_label);
+    const std::vector<Group> groups = groups_of(table, spec.by);
+    for (const Group& group : groups)
+      add(group.label, *x, *y, kind_of(spec.kind), group.rows, spec.kind == MainChart::Kind::line);
+    if (groups.empty()) add(y->name, *x, *y, kind_of(spec.kind), rows_of(*x), false);
+    if (const StoredColumn* further = spec.further.empty() ? nullptr : table.find(spec.further))
+      add(further->name, *x, *further, spec.kind == MainChart::Kind::points ? SeriesKind::line : SeriesKind::dashed,
+          rows_of(*x), false);
+    if (spec.kind == MainChart::Kind::points) sort_lines();
+    finish(*x, *y);
+    return true;
+  }
+
+  /// Data come in any order, a line through them does not.
+  void sort_lines() {
+    for (ChartSeries& series : chart_.series) {
+      if (series.kind == SeriesKind::points) continue;
+      std::vector<std::pair<double, double>> points;
+      for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
+      std::ranges::sort(points);
+      for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
+    }
+  }
+
+  void finish(const StoredColumn& x, const StoredColumn& y) {
+    chart_.x.is_log = is_geometric(all_of(chart_.series, &ChartSeries::x));
+    chart_.y.is_log =
+        chart_.series.front().kind == SeriesKind::cells && is_geometric(all_of(chart_.series, &ChartSeries::y));
+    show(chart_.x, x.name, unit_of(x), &ChartSeries::x);
+    show(chart_.y, y.name, unit_of(y), &ChartSeries::y);
+  }
+
+  /// Of an analysis that names no chart: the first two columns of numbers of its first table.
+  bool first_columns() {
+    for (const std::filesystem::path& path : run_.tables()) {
+      const StoredTable table = run_.table(path.stem().string());
+      std::vector<const StoredColumn*> numbers;
+      for (const StoredColumn& column : table.columns)
+        if (!column.is_text) numbers.push_back(&column);
+      if (numbers.size() < 2) continue;
+      chart_.x.label = numbers[0]->name;
+      chart_.y.label = numbers[1]->name;
+      add(numbers[1]->name, *numbers[0], *numbers[1], SeriesKind::line, rows_of(*numbers[0]), false);
+      finish(*numbers[0], *numbers[1]);
+      return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::string label_of(const StoredTable& sweep, std::size_t row) const {
+    std::string label;
+    for (const auto& [key, values] : run_.document().at("scenario").at("sweep").items()) {
+      const StoredColumn& column = *sweep.find(key);
+      label += (label.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " +
+               core::format_number(column.numbers[row], 6) + (column.unit.empty() ? "" : " " + column.unit);
+    }
+    return label;
+  }
+
+  /// Curves over curves, or a number over a swept key.
+  bool sweep() {
+    const StoredTable points = run_.table("sweep");
+    if (points.columns.empty()) return false;
+    const MainChart& spec = analysis_->chart;
+    const StoredTable rows = run_.table("sweep_" + std::string(spec.list));
+    const StoredColumn* x = spec.list.empty() ? nullptr : rows.find(spec.x);
+    const StoredColumn* y = spec.list.empty() ? nullptr : rows.find(spec.y);
+    const bool are_curves = x != nullptr && y != nullptr && spec.kind == MainChart::Kind::line;
+    return are_curves ? curves(points, rows, *x, *y) : numbers(points);
+  }
+
+  /// Where curves are many, some of them.
+  bool curves(const StoredTable& points, const StoredTable& rows, const StoredColumn& x, const StoredColumn& y) {
+    constexpr std::size_t most = 12;
+    const std::vector<Group> all = groups_of(rows, "point");
+    const std::size_t shown = std::min(all.size(), most);
+    for (std::size_t i = 0; i < shown; ++i) {
+      const Group& group = all[shown < 2 ? 0 : i * (all.size() - 1) / (shown - 1)];
+      add(label_of(points, std::stoul(group.label)), x, y, SeriesKind::line, group.rows, false);
+    }
+    chart_.x.label = std::string(analysis_->chart.x_label);
+    chart_.y.label = std::string(analysis_->chart.y_label);
+    finish(x, y);
+    return true;
+  }
+
+  bool numbers(const StoredTable& points) {
+    std::vector<std::string> keys;
+    for (const auto& [key, values] : run_.document().at("scenario").at("sweep").items()) keys.push_back(key);
+    const auto y =
+        std::ranges::find_if(points.columns.begin() + static_cast<std::ptrdiff_t>(keys.size()) + 1,
+                             points.columns.end(), [](const StoredColumn& column) { return !column.is_text; });
+    if (y == points.columns.end()) return false;
+    const StoredColumn& x = *points.find(keys.front());
+    chart_.x.label = x.name;
+    chart_.y.label = y->name;
+    for (const Group& group : keys.size() == 2 ? groups_of(points, keys.back()) : std::vector<Group>()) {
+      const StoredColumn& other = *points.find(keys.back());
+      add(keys.back().substr(keys.back().rfind('.') + 1) + " = " + group.label +
+              (other.unit.empty() ? "" : " " + other.unit),
+          x, *y, SeriesKind::line, group.rows, false);
+    }
+    if (chart_.series.empty()) add(y->name, x, *y, SeriesKind::line, rows_of(x), false);
+    chart_.x.is_log = is_geometric(x.numbers);
+    chart_.x.unit = x.unit;
+    chart_.x.is_written = true;
+    show(chart_.y, y->name, y->unit, &ChartSeries::y);
+    return true;
+  }
+
+  const StoredRun& run_;
+  const StoredRun& units_of_;
+  const scenarios::Analysis* analysis_;
+  Chart chart_;
+};
+
+}  // namespace
+
+std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of) {
+  return ChartMaker(run, units_of).make();
+}
+
+void make_readable(Chart& chart) {
+  const auto scale = [&](ChartAxis& axis, std::vector<double> ChartSeries::* list) {
+    if (axis.is_written) return;
+    const ShownUnit shown = readable(axis.unit, largest_of(chart.series, list));
+    axis.unit = shown.unit;
+    for (ChartSeries& series : chart.series)
+      for (double& value : series.*list) value *= shown.factor;
+  };
+  scale(chart.x, &ChartSeries::x);
+  scale(chart.y, &ChartSeries::y);
+}
+
+Chart main_chart(const std::string& directory) {
+  const StoredRun run(directory);
+  std::optional<Chart> chart;
+  run.read([&] { chart = main_chart(run, run); });
+  if (chart) {
+    make_readable(*chart);
+    return std::move(*chart);
+  }
+  throw core::InputError(core::Diagnostic{{(run.directory() / "result.json").string(), 0, 0, {}},
+                                          "the result of analysis '" + name_of_analysis(run) + "' has no chart",
+                                          {},
+                                          {},
+                                          {}});
+}
+
+std::string title_of(const StoredRun& run) {
+  const Json& scenario = run.document().at("scenario");
+  if (scenario.is_object() && scenario.contains("title")) return scenario.at("title").get<std::string>();
+  return shown(run.directory().filename());
+}
+
+}  // namespace dualdamp::cli

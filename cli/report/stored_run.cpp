@@ -1,0 +1,186 @@
+#include "cli/report/stored_run.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = StoredRun::Json;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+[[noreturn]] void refuse(const fs::path& file, std::string message) {
+  core::Diagnostic problem;
+  problem.place.file = file.string();
+  problem.message = std::move(message);
+  throw core::InputError(std::move(problem));
+}
+
+/// The document without the far end of long lists: their rows are in the tables.
+Json read_document(const fs::path& path) {
+  constexpr int depth_of_items = 3;  // {result: {points: [item
+  constexpr std::size_t most_items = 5000;
+  std::ifstream file(path);
+  if (!file) refuse(path, "there is no result here: the file cannot be opened");
+  std::size_t items = 0;
+  const auto keep = [&](int depth, Json::parse_event_t event, const Json& /*parsed*/) {
+    if (event == Json::parse_event_t::array_start && depth < depth_of_items) items = 0;
+    const bool is_item = event == Json::parse_event_t::object_end && depth == depth_of_items;
+    return !is_item || ++items <= most_items;
+  };
+  Json json = Json::parse(file, keep, false);
+  if (json.is_discarded()) refuse(path, "the file is not a whole JSON document");
+  for (const char* key : {"program", "analysis", "status", "result", "warnings", "checks", "errors"})
+    if (!json.is_object() || !json.contains(key))
+      refuse(path, std::string("this is no result of dualdamp: there is no '") + key + "'");
+  // What the points of a sweep hold is in its tables.
+  if (json["result"].is_object() && json["result"].contains("sweep"))
+    for (Json& point : json["result"]["sweep"]) point.erase("result");
+  return json;
+}
+
+/// Was the table written by this run? What somebody else put into the directory was not.
+bool belongs_to(const std::map<std::string, std::string>& identity, const fs::path& path) {
+  std::size_t found = 0;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line) && line.starts_with("# ");) {
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string::npos) continue;
+    const auto entry = identity.find(line.substr(2, colon - 2));
+    if (entry == identity.end()) continue;
+    std::string value = entry->second;
+    std::ranges::replace_if(value, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    found += value == line.substr(colon + 2) ? 1 : 0;
+  }
+  return !identity.empty() && found == identity.size();
+}
+
+std::vector<fs::path> tables_of(const fs::path& directory, const Json& document) {
+  const std::map<std::string, std::string> identity = identity_of(document);
+  std::vector<fs::path> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+    if (entry.path().extension() == ".csv" && entry.is_regular_file() && belongs_to(identity, entry.path()))
+      paths.push_back(entry.path());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+/// Fields of one line of CSV.
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> list = {""};
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+      list.back() += line[i++];
+    else if (line[i] == '"')
+      is_quoted = !is_quoted;
+    else if (line[i] == ',' && !is_quoted)
+      list.emplace_back();
+    else
+      list.back() += line[i];
+  }
+  return list;
+}
+
+StoredColumn column_of(const std::string& heading) {
+  StoredColumn column{.name = heading};
+  const std::size_t open = heading.find(" [");
+  if (open == std::string::npos || !heading.ends_with(']')) return column;
+  column.name = heading.substr(0, open);
+  column.unit = heading.substr(open + 2, heading.size() - open - 3);
+  return column;
+}
+
+void finish(StoredColumn& column) {
+  for (const std::string& text : column.texts) {
+    const auto number = core::parse_number(text).value;
+    column.is_text = column.is_text || (!number && !text.empty());
+    column.numbers.push_back(number.value_or(none));
+  }
+}
+
+}  // namespace
+
+std::string shown(const fs::path& path) {
+  const std::string whole = Json(path.string()).dump(-1, ' ', false, Json::error_handler_t::replace);
+  auto text = Json::parse(whole).get<std::string>();
+  std::ranges::replace_if(text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+std::map<std::string, std::string> identity_of(const Json& document) {
+  std::map<std::string, std::string> identity;
+  for (const char* key : {"source", "scenario_sha256", "started"})
+    if (document.contains("provenance") && document["provenance"].is_object())
+      if (const auto found = document["provenance"].find(key);
+          found != document["provenance"].end() && found->is_string())
+        identity[key] = found->get<std::string>();
+  return identity;
+}
+
+const StoredColumn* StoredTable::find(std::string_view name) const {
+  const auto found = std::ranges::find(columns, name, &StoredColumn::name);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+StoredRun::StoredRun(const std::string& directory)
+    : directory_(directory),
+      document_(read_document(directory_ / "result.json")),
+      tables_(tables_of(directory_, document_)) {}
+
+void StoredRun::read(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const Json::exception&) {
+    refuse(directory_ / "result.json", "the file is not as a run wrote it: run the scenario again");
+  }
+}
+
+StoredTable StoredRun::table(std::string_view name) const {
+  StoredTable table;
+  const auto path = std::ranges::find(tables_, name, [](const fs::path& p) { return p.stem().string(); });
+  if (path == tables_.end()) return table;
+  std::ifstream file(*path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line.starts_with("#")) continue;
+    const std::vector<std::string> row = fields(line);
+    if (table.columns.empty()) {
+      for (const std::string& heading : row) table.columns.push_back(column_of(heading));
+      continue;
+    }
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      table.columns[i].texts.push_back(i < row.size() ? row[i] : "");
+  }
+  for (StoredColumn& column : table.columns) finish(column);
+  return table;
+}
+
+StoredTable StoredRun::list(std::string_view path) const {
+  StoredTable table;
+  std::string pointer = "/" + std::string(path);
+  std::ranges::replace(pointer, '.', '/');
+  const Json::json_pointer place(pointer);
+  const Json& result = document_.at("result");
+  if (!result.is_object() || !result.contains(place) || !result.at(place).is_array()) return table;
+  const Json& rows = result.at(place);
+  for (const Json& row : rows)
+    for (const auto& [key, value] : row.items())
+      if (table.find(key) == nullptr) table.columns.push_back({.name = key});
+  for (StoredColumn& column : table.columns)
+    for (const Json& row : rows) {
+      const Json value = row.value(column.name, Json());
+      column.numbers.push_back(value.is_number() ? value.get<double>() : none);
+      column.texts.push_back(value.is_string() ? value.get<std::string>() : "");
+      column.is_text = column.is_text || value.is_string();
+    }
+  return table;
+}
+
+}  // namespace dualdamp::cli

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Charts without a browser: the main chart of a result as SVG, and the curves of several results over each other.
+
+usage: test_charts.py PROGRAM ROOT [TEST...]
+"""
+
+import copy
+import csv
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+SVG = "{http://www.w3.org/2000/svg}"
+
+CURVE = """schema: dualdamp/1
+title: a rig
+system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}
+excitation: {type: base_harmonic, frequency: 10 rad/s}
+analysis: {type: xy_curve, amplitudes: {from: 10 cm, to: 30 cm, count: 5}}
+"""
+
+
+class Charts(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        (self.folder / "curve.yaml").write_text(CURVE)
+
+    def run_program(self, *arguments, status=0):
+        result = subprocess.run([PROGRAM, *(a if isinstance(a, bytes) else str(a) for a in arguments)], cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=300)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
+
+    def drawing(self, name):
+        """Texts, and the places of each series in pixels."""
+        root = ElementTree.parse(self.folder / name).getroot()
+        texts = ["".join(element.itertext()) for element in root.iter(f"{SVG}text")]
+        clipped = next(g for g in root.iter(f"{SVG}g") if g.get("clip-path"))
+        series = []
+        for path in clipped.iter(f"{SVG}path"):
+            numbers = re.findall(r"[ML](-?[\d.]+),(-?[\d.]+)", path.get("d"))
+            series.append([(float(x), float(y)) for x, y in numbers])
+        return texts, series
+
+    def test_plot_of_a_run(self):
+        result = self.run_program("run", "curve.yaml", "--out", "out", "--plot", "charts/curve.svg")
+        self.assertIn("wrote charts/curve.svg", result.stderr)
+        texts, series = self.drawing("charts/curve.svg")
+        # In the unit that the user wrote, on both axes.
+        for text in ("a rig", "input amplitude Y [cm]", "output amplitude x [cm]", "10", "30"):
+            self.assertIn(text, texts)
+        self.assertEqual(len(series), 1)
+        points = series[0]
+        self.assertEqual(len(points), 5)
+        # Levels are equally far apart, and where friction is the same x grows linearly with Y, nearly: so do pixels.
+        steps = [b[0] - a[0] for a, b in zip(points, points[1:])]
+        self.assertLess(max(steps) - min(steps), 0.02)
+        rises = [a[1] - b[1] for a, b in zip(points, points[1:])]
+        self.assertLess(max(rises) / min(rises), 1.01)
+
+    def test_plot_of_a_directory(self):
+        self.run_program("run", "curve.yaml", "--out", "out", "--plot", "a.svg")
+        self.run_program("report", "out", "--plot", "b.svg")
+        self.assertEqual((self.folder / "a.svg").read_bytes(), (self.folder / "b.svg").read_bytes())
+
+    def test_every_analysis_with_a_chart(self):
+        for name, words in [("regime_map", ["slides through", "frequency [rad/s]"]), ("free_decay", ["time t [s]", "extreme x [mm]"]),
+                            ("simulate", ["time t [s]"]), ("steady_state", ["displacement [mm]"]), ("xy_branch", ["input amplitude Y [m]"]),
+                            ("frequency_branch", ["frequency [rad/s]"]), ("my_rig", ["input amplitude Y [mm]", "fitted"]),
+                            ("sweep", ["system.friction.kinetic [N]", "amplitude = 10 cm"]),
+                            ("sweep_curves", ["frequency [Hz]", "kinetic = 6 N"]), ("stepped_response", ["frequency [Hz]", "up", "down"])]:
+            with self.subTest(name):
+                result = subprocess.run([PROGRAM, "run", ROOT / f"scenarios/examples/{name}.yaml", "--out", name, "--plot", f"{name}.svg", "--quiet"],
+                                        cwd=self.folder, capture_output=True, text=True, timeout=300)
+                self.assertIn(result.returncode, (0, 4), result.stderr)
+                texts, series = self.drawing(f"{name}.svg")
+                self.assertTrue(series)
+                for word in words:
+                    self.assertIn(word, texts)
+                self.assertIsNone(re.search(r"\b(nan|inf)\b", (self.folder / f"{name}.svg").read_text()))
+
+    def test_long_histories_are_thinned_out(self):
+        text = CURVE.replace("{type: base_harmonic, frequency: 10 rad/s}", "{type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}")
+        text = re.sub("analysis: .*", "analysis: {type: simulate, duration: 100 s, sample_rate: 2000 Hz}", text)
+        (self.folder / "long.yaml").write_text(text)
+        self.run_program("run", "long.yaml", "--out", "out", "--plot", "long.svg")
+        self.assertLess((self.folder / "long.svg").stat().st_size, 400_000)
+
+    def test_refused(self):
+        (self.folder / "other.yaml").write_text(CURVE)
+        self.assertIn("does not end in .svg", self.run_program("run", "curve.yaml", "--plot", "a.png", status=2).stderr)
+        self.assertIn("of one scenario", self.run_program("run", "curve.yaml", "other.yaml", "--plot", "a.svg", status=2).stderr)
+        formula = ROOT / "scenarios/examples/formula.yaml"
+        self.assertIn("has no chart", self.run_program("run", formula, "--out", "formula", "--plot", "a.svg", status=2).stderr)
+
+    def compare(self, *assignments, status=0):
+        names = []
+        for i, assignment in enumerate(assignments):
+            names.append(f"out{i}")
+            self.run_program("run", "curve.yaml", "--out", names[-1], "--set", assignment)
+        return self.run_program("compare", *names, "--out", "both", status=status)
+
+    def test_compare(self):
+        self.compare("system.friction.kinetic=1 N", "system.friction.kinetic=3 N")
+        texts, series = self.drawing("both/compare.svg")
+        self.assertEqual([len(points) for points in series], [5, 5])
+        for text in ("kinetic = 1 N", "kinetic = 3 N", "input amplitude Y [cm]"):
+            self.assertIn(text, texts)
+        lines = [line for line in (self.folder / "both/compare.csv").read_text().splitlines() if not line.startswith("#")]
+        table = list(csv.DictReader(lines))
+        self.assertEqual(list(table[0]), ["result", "input amplitude Y [cm]", "output amplitude x [cm]"])
+        self.assertEqual([row["result"] for row in table], ["kinetic = 1 N"] * 5 + ["kinetic = 3 N"] * 5)
+        alone = [line for line in (self.folder / "out1/curve.csv").read_text().splitlines() if not line.startswith("#")]
+        for row, line in zip(table[5:], list(csv.DictReader(alone))):
+            self.assertAlmostEqual(float(row["output amplitude x [cm]"]), 100 * float(line["x [m]"]), delta=1e-12)
+        self.assertIn("system.friction.kinetic", (self.folder / "both/compare.html").read_text())
+
+    def test_compare_by_title(self):
+        self.compare("title=one", "title=another")
+        texts, _ = self.drawing("both/compare.svg")
+        self.assertIn("one", texts)
+        self.assertIn("another", texts)
+
+    def test_titles_and_names_are_text(self):
+        title = "<script>alert(1)</script>]]>&\"'"
+        names = [b"<b>a\nb", b"not \xff utf-8"]
+        for name in names:
+            self.run_program("run", "curve.yaml", "--set", f"title='{title.replace(chr(39), chr(39) * 2)}'", "--out", name)
+        self.run_program("compare", *names, "--out", "both")
+        texts, series = self.drawing("both/compare.svg")
+        self.assertIn(title, texts)
+        self.assertIn("<b>a b", texts)
+        self.assertIn("not \ufffd utf-8", texts)
+        self.assertEqual(len(series), 2)
+        self.assertNotIn("<script>alert", (self.folder / "both/compare.html").read_text())
+        lines = (self.folder / "both/compare.csv").read_text().splitlines()
+        self.assertEqual([line for line in lines if not line.startswith("#")][0].split(",")[0], "result")
+
+    def test_results_that_were_changed(self):
+        self.run_program("run", "curve.yaml", "--out", "curve")
+        document = json.loads((self.folder / "curve/result.json").read_text())
+        (self.folder / "changed").mkdir()
+        for section, key, value in (("provenance", "scenario_sha256", 5), ("provenance", "written_units", [1]), ("scenario", "title", {}), ("scenario", "excitation", "x")):
+            with self.subTest(f"{section}.{key}"):
+                changed = copy.deepcopy(document)
+                changed[section][key] = value
+                (self.folder / "changed/result.json").write_text(json.dumps(changed))
+                for line in (["compare", "curve", "changed"], ["compare", "changed", "curve"]):
+                    self.assertIn("changed/result.json: error: ", self.run_program(*line, status=3).stderr)
+
+    def test_results_of_different_kinds(self):
+        self.run_program("run", "curve.yaml", "--out", "curve")
+        self.run_program("run", ROOT / "scenarios/examples/free_decay.yaml", "--out", "decay")
+        result = self.run_program("compare", "curve", "decay", "--out", "both", status=3)
+        self.assertIn("decay/result.json: error: this is the result of another analysis", result.stderr)
+        self.assertIn("found: free_decay", result.stderr)
+        self.assertFalse((self.folder / "both").exists())
+        self.run_program("run", ROOT / "scenarios/examples/regime_map.yaml", "--out", "map")
+        self.assertIn("maps cannot be laid over each other", self.run_program("compare", "map", "map", status=3).stderr)
+        self.assertIn("cannot be opened", self.run_program("compare", "curve", "nowhere", status=3).stderr)
+        self.run_program("compare", "curve", status=2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
