@@ -334,6 +334,10 @@ class Parser {
         ->required()
         ->type_name("");
     add_plot(*report_command_, report_.plot);
+    new_command_ = app_.add_subcommand("new", "Print a commented scenario to begin with");
+    new_command_->add_option("ANALYSIS", new_.analysis, "What it asks for, such as xy_curve; see dualdamp analyses")
+        ->required()
+        ->type_name("");
     compare_command_ = app_.add_subcommand("compare", "Draw the curves of several results over each other");
     compare_command_->add_option("DIR", compare_.directories, "Two or more directories with a result.json")
         ->required()
@@ -396,6 +400,7 @@ class Parser {
     if (predict_command_->parsed()) return predict_;
     if (report_command_->parsed()) return report_;
     if (compare_command_->parsed()) return compare_;
+    if (new_command_->parsed()) return new_;
     if (laws_command_->parsed()) return laws_;
     if (methods_command_->parsed()) return methods_;
     if (analyses_command_->parsed()) return analyses_;
@@ -415,6 +420,7 @@ class Parser {
   CLI::App* predict_command_ = nullptr;
   CLI::App* report_command_ = nullptr;
   CLI::App* compare_command_ = nullptr;
+  CLI::App* new_command_ = nullptr;
   CLI::App* laws_command_ = nullptr;
   CLI::App* methods_command_ = nullptr;
   CLI::App* analyses_command_ = nullptr;
@@ -430,6 +436,7 @@ class Parser {
   PredictCommand predict_;
   ReportCommand report_;
   CompareCommand compare_;
+  NewCommand new_;
   LawsCommand laws_;
   MethodsCommand methods_;
   AnalysesCommand analyses_;

@@ -131,6 +131,10 @@ struct ReportCommand {
   std::string plot;  ///< SVG file for the main chart; empty: none
 };
 
+struct NewCommand {
+  std::string analysis;
+};
+
 struct CompareCommand {
   std::vector<std::string> directories;  ///< two or more
   std::string out = "compare";
@@ -145,7 +149,7 @@ struct Leave {
 
 using Command = std::variant<RunCommand, ExportCommand, ScoreCommand, CheckCommand, LawsCommand, MethodsCommand,
                              AnalysesCommand, SchemaCommand, IdentifyCommand, NextCommand, FitCommand,
-                             PredictCommand, ReportCommand, CompareCommand, Leave>;
+                             PredictCommand, ReportCommand, CompareCommand, NewCommand, Leave>;
 
 /// A command line.
 struct Call {

@@ -21,6 +21,7 @@
 #include "cli/identify_scenario.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
+#include "cli/new_scenario.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
@@ -373,6 +374,8 @@ int execute(const LawsCommand& command) {
 int execute(const MethodsCommand& command) { return say(of_list(list_methods(command.name)), {}); }
 
 int execute(const AnalysesCommand& command) { return say(of_list(list_analyses(command.name)), {}); }
+
+int execute(const NewCommand& command) { return say(of_list(new_scenario(command.analysis)), {}); }
 
 int execute(const SchemaCommand& command) {
   Report report;

@@ -117,7 +117,11 @@ Listing list_laws(const std::string& name) {
     return {columns(rows)};
   }
   const friction::LawEntry* law = friction::find_law(name);
-  if (law == nullptr) return unknown("law", name, friction::laws());
+  if (law == nullptr) {
+    Listing listing = unknown("law", name, friction::laws());
+    listing.text += "; or that of a plugin, with --plugin LIB";
+    return listing;
+  }
   Rows rows = {{"parameter", "unit", "default", "values", "meaning"}};
   add_rows(rows, law->parameters, "");
   return {std::string(law->name) + ": " + std::string(law->summary) + "\n\n  " + std::string(law->equation) +

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/numbers.hpp"
+#include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
 
@@ -25,16 +26,23 @@ std::size_t width(const std::string& text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-Block block(const scenarios::Column& column, std::size_t rows) {
+/// The first rows of a column, in the unit the user wrote.
+Block block(const scenarios::Column& column, std::size_t rows, const scenarios::ShownUnits& units = {}) {
   Block result;
   result.is_number = column.kind != scenarios::CellKind::text;
-  result.cells.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+  double largest = 0.0;
+  if (result.is_number)
+    for (std::size_t i = 0; i < rows; ++i)
+      if (std::isfinite(column.numbers[i])) largest = std::max(largest, std::abs(column.numbers[i]));
+  const scenarios::ShownUnit shown =
+      scenarios::shown_unit(units, column.unit, largest).value_or(scenarios::ShownUnit{column.unit});
+  result.cells.push_back(shown.unit.empty() ? column.name : column.name + " [" + shown.unit + "]");
   for (std::size_t i = 0; i < rows; ++i) {
     if (!result.is_number)
       result.cells.push_back(column.text(i));
     else
-      result.cells.push_back(std::isfinite(column.numbers[i]) ? core::format_number(column.numbers[i], digits)
-                                                              : "-");
+      result.cells.push_back(
+          std::isfinite(column.numbers[i]) ? core::format_number(column.numbers[i] * shown.factor, digits) : "-");
   }
   return result;
 }
@@ -56,14 +64,39 @@ std::string aligned(const std::vector<Block>& blocks) {
 }
 
 /// The head, and as many rows as people read.
-std::string table_text(const scenarios::Table& table) {
+std::string table_text(const scenarios::Table& table, const scenarios::ShownUnits& units) {
   const std::size_t all = table.columns.empty() ? 0 : table.columns.front().size();
   const std::size_t rows = std::min(all, max_rows);
   std::vector<Block> blocks;
-  for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, rows));
+  for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, rows, units));
   std::string text = aligned(blocks);
   if (rows < all) text += "  ... " + std::to_string(all - rows) + " more rows in " + table.name + ".csv\n";
   return text;
+}
+
+constexpr std::string_view certificate = "certificate.";
+
+/// The single numbers of a result, without its certificate.
+std::string numbers_text(const scenarios::Table& summary) {
+  std::vector<Block> blocks;
+  for (const scenarios::Column& column : summary.columns) {
+    Block& shown = blocks.emplace_back(Block{{column.name}});
+    for (std::size_t i = 0; i < summary.size(); ++i)
+      if (!summary.columns[0].texts[i].starts_with(certificate)) shown.cells.push_back(column.texts[i]);
+  }
+  if (blocks.front().cells.size() == 1) return {};
+  blocks[1].is_number = true;  // lined up at the right like numbers
+  return "\n" + aligned(blocks);
+}
+
+/// How the result was found stands behind it, on one line.
+std::string certificate_text(const scenarios::Table& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.size(); ++i)
+    if (const std::string& name = summary.columns[0].texts[i]; name.starts_with(certificate))
+      text += (text.empty() ? "\ncertificate: " : ", ") + summary.columns[1].texts[i] + " " +
+              name.substr(certificate.size());
+  return text.empty() ? text : text + "\n";
 }
 
 /// A paragraph of lines that fit a terminal.
@@ -115,21 +148,17 @@ std::string columns(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string readable(const scenarios::Scenario& scenario, const scenarios::RunResult& result) {
+  const scenarios::ShownUnits units = scenarios::shown_units(scenario.written_units);
   std::string text = scenario.file + ": " + scenario.analysis_name;
   if (!scenario.title.empty()) text += ": " + scenario.title;
   text += "\n";
   if (!result.verdict.empty()) text += "\n" + folded(result.verdict) + "\n";
-  if (result.summary.columns.front().size() > 0) {
-    std::vector<Block> blocks;
-    for (const scenarios::Column& column : result.summary.columns)
-      blocks.push_back(block(column, result.summary.columns.front().size()));
-    blocks[1].is_number = true;  // lined up at the right like numbers
-    text += "\n" + aligned(blocks);
-  }
+  text += numbers_text(result.summary);
   for (const scenarios::Table& table : result.tables)
-    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table);
+    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table, units);
   if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
   if (result.verification) text += "\n" + folded(verification_text(*result.verification)) + "\n";
+  text += certificate_text(result.summary);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 
 #include "core/numbers.hpp"
@@ -9,6 +10,7 @@
 #include "friction_models/registry.hpp"
 #include "scenarios/expectations.hpp"
 #include "scenarios/results/completeness.hpp"
+#include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -21,6 +23,7 @@ bool is_document(const Json& value) {
 
 /// The numbers of the result that are no part of a list of records, in the order of the tables of the format.
 void summarise(const Scenario& scenario, const Json& result, Table& table) {
+  const ShownUnits units = shown_units(scenario.written_units);
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
     // Sentences are told apart from numbers; the verdict says the answer, and the table of estimates holds it.
     if (value.is_structured() || is_document(value) || name == "verdict" || name.ends_with(".text") ||
@@ -28,10 +31,12 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
       return;
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
-    table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(value.get<double>(), digits)
+    const double number = value.is_number_float() ? value.get<double>() : 0.0;
+    const ShownUnit shown = shown_unit(units, unit, std::abs(number)).value_or(ShownUnit{unit});
+    table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(number * shown.factor, digits)
                                      : value.is_string()     ? value.get<std::string>()
                                                              : value.dump());
-    table.columns[2].texts.push_back(unit == "1" ? "" : unit);
+    table.columns[2].texts.push_back(unit == "1" ? "" : shown.unit);
   };
   for (const ResultField& field : scenario.result_fields) {
     const std::string stem = field.path.substr(0, field.path.find("[]"));

@@ -32,7 +32,7 @@ struct RunResult {
   std::string result = "null";                       ///< JSON; null stands for a list that is one of `tables`
   std::string failure;                               ///< why there is no result, or no answer in it
   std::vector<std::string> warnings;
-  /// The single numbers of the result as text, for people.
+  /// The single numbers of the result as text, for people: in the units the user wrote.
   Table summary{"summary",
                 {{.name = "name", .kind = CellKind::text},
                  {.name = "value", .kind = CellKind::text},

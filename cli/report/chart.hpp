@@ -1,7 +1,9 @@
 #pragma once
 /// A chart as data: what the SVG writer draws and the page of a comparison gets.
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dualdamp::cli {
@@ -11,7 +13,8 @@ struct ChartAxis {
   std::string unit;     ///< of the numbers; empty: none
   bool is_log = false;  ///< all numbers are positive, and a factor lies between neighbours rather than a distance
   bool is_whole = false;
-  bool is_written = false;  ///< the unit is one that the user wrote
+  /// SI unit, and the factor from it, where the unit is one that the user wrote.
+  std::optional<std::pair<std::string, double>> written_for = {};
 };
 
 enum class SeriesKind {

@@ -61,8 +61,17 @@ function short(value, digits = 6) {
 
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
-/** Unit and factor that make numbers up to `largest` pleasant to read: 0.004 m is 4 mm. */
+/** The unit that the user wrote for such quantities, if numbers up to `largest` can be read in it. */
+function written(unit, largest) {
+  const told = run.shown_units?.[unit];
+  const most = told ? largest * told.factor : 0;
+  return told && (most === 0 || (most >= 1e-3 && most < 1e6)) ? told : null;
+}
+
+/** Unit and factor for numbers up to `largest`: as the user wrote it, else with a prefix, 0.004 m is 4 mm. */
 function readable(unit, largest) {
+  const told = written(unit, largest);
+  if (told) return told;
   if (!["m", "m/s", "s", "N", "N.m", "J"].includes(unit) || !(largest > 0)) return { unit, factor: 1 };
   const [size, prefix] = prefixes.find(([scale]) => largest >= scale) ?? prefixes[prefixes.length - 1];
   return { unit: prefix + unit, factor: 1 / size };

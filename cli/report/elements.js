@@ -16,10 +16,12 @@ const heading = (text) => make("h2", {}, text);
 
 /** Name, value and unit in boxes; each item {name, value, unit, path}. */
 function numbers(items) {
-  return make("dl", { class: "numbers" }, items.map(({ name, value, unit, path }) =>
-    make("div", {}, make("dt", {}, name),
-      make("dd", { "data-path": path, "data-value": JSON.stringify(value), title: String(value) },
-        short(value), unit && unit !== "1" ? ` ${unit}` : ""))));
+  return make("dl", { class: "numbers" }, items.map(({ name, value, unit, path }) => {
+    const shown = (typeof value === "number" && written(unit, Math.abs(value))) || { unit, factor: 1 };
+    return make("div", {}, make("dt", {}, name),
+      make("dd", { "data-path": path, "data-value": JSON.stringify(value), title: `${value}${unit && unit !== "1" ? ` ${unit}` : ""}` },
+        short(typeof value === "number" ? value * shown.factor : value), shown.unit && shown.unit !== "1" ? ` ${shown.unit}` : ""));
+  }));
 }
 
 /** A table with a head; cells are text, numbers, or {text, class, path, value}. */
@@ -47,10 +49,11 @@ function folded(name, { columns, rows, step }, most = 500) {
   const shown = Math.min(columns[0]?.values.length ?? 0, most);
   const all = shown === rows;
   const note = all ? "" : ` The page shows ${shown} of ${rows} rows${step > 1 ? `, every ${step}th` : ""}; all are in ${name}.csv.`;
-  const body = Array.from({ length: shown }, (_, i) =>
-    columns.map((column) => (column.isText ? column.texts[i] : { text: column.values[i], title: column.texts[i] })));
+  const units = columns.map(({ unit, values: list, isText }) => (!isText && written(unit, largest([list]))) || { unit, factor: 1 });
+  const body = Array.from({ length: shown }, (_, i) => columns.map(({ isText, texts, values: list }, j) =>
+    (isText ? texts[i] : { text: list[i] === null ? null : list[i] * units[j].factor, title: texts[i] })));
   return make("details", {}, make("summary", {}, `${name}.csv, ${rows} row${rows === 1 ? "" : "s"}`),
     note ? make("p", { class: "soft" }, note.trim()) : null,
-    grid(columns.map((column) => column.name + (column.unit ? ` [${column.unit}]` : "")), body,
+    grid(columns.map(({ name: title }, j) => title + (units[j].unit ? ` [${units[j].unit}]` : "")), body,
       { tall: true, caption: `${name}.csv` }));
 }

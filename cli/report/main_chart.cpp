@@ -11,7 +11,7 @@
 #include "bench/analyses.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/units.hpp"
+#include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
 
@@ -19,42 +19,12 @@ namespace {
 
 using Json = StoredRun::Json;
 using scenarios::MainChart;
+using scenarios::ShownUnit;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Quantities of a scenario that are of the kind of a column.
-const std::vector<std::string>& quantities_like(const std::string& column) {
-  static const std::vector<std::string> nothing;
-  static const std::map<std::string, std::vector<std::string>> table = {
-      {"omega", {"analysis.frequencies", "excitation.frequency"}},
-      {"Y", {"analysis.amplitudes", "excitation.amplitude"}},
-      {"y", {"analysis.amplitudes", "excitation.amplitude"}},
-      {"x", {"initial.position", "analysis.amplitudes", "excitation.amplitude"}},
-      {"t", {"analysis.duration"}},
-      {"v", {"initial.velocity"}}};
-  const auto found = table.find(column);
-  return found == table.end() ? nothing : found->second;
-}
-
-struct ShownUnit {
-  std::string unit;
-  double factor = 1.0;  ///< numbers in SI times this are in the unit
-};
-
-/// The unit that the user wrote for such a quantity, if it is one of `unit`.
-std::optional<ShownUnit> written_unit(const StoredRun& run, const std::string& column, const std::string& unit) {
-  const Json provenance = run.document().value("provenance", Json());
-  if (!provenance.is_object() || !provenance.contains("written_units")) return std::nullopt;
-  const Json& written = provenance.at("written_units");
-  for (const std::string& quantity : quantities_like(column))
-    for (const std::string& path : {quantity, quantity + ".from"}) {
-      if (!written.contains(path)) continue;
-      const auto name = written.at(path).get<std::string>();
-      const core::QuantityText factor = core::unit_factor(name, unit);
-      if (factor.value && *factor.value > 0.0) return ShownUnit{name, 1.0 / *factor.value};
-    }
-  return std::nullopt;
-}
+/// The units in which a run's numbers are shown.
+scenarios::ShownUnits shown_units_of(const StoredRun& run) { return scenarios::shown_units(written_units(run)); }
 
 /// A prefix that makes numbers up to `largest` pleasant to read: 0.004 m is 4 mm.
 ShownUnit readable(const std::string& unit, double largest) {
@@ -119,9 +89,9 @@ std::string name_of_analysis(const StoredRun& run) {
 
 class ChartMaker {
  public:
-  ChartMaker(const StoredRun& run, const StoredRun& units_of)
+  ChartMaker(const StoredRun& run, const StoredRun& other)
       : run_(run),
-        units_of_(units_of),
+        units_(shown_units_of(other)),
         analysis_(scenarios::find_analysis(bench::analyses(), name_of_analysis(run))) {}
 
   std::optional<Chart> make() {
@@ -147,14 +117,14 @@ class ChartMaker {
   }
 
   /// Numbers, in SI so far, in a unit for people.
-  void show(ChartAxis& axis, const std::string& column, const std::string& unit,
-            std::vector<double> ChartSeries::* list) {
-    const std::optional<ShownUnit> written = written_unit(units_of_, column, unit);
-    const ShownUnit shown = written.value_or(ShownUnit{unit, 1.0});
-    axis.is_written = written.has_value();
-    axis.unit = shown.unit;
+  void show(ChartAxis& axis, const std::string& unit, std::vector<double> ChartSeries::* list) {
+    axis.unit = unit;
+    const auto shown = units_.find(unit);
+    if (shown == units_.end()) return;
+    axis.unit = shown->second.unit;
+    axis.written_for = {unit, shown->second.factor};
     for (ChartSeries& series : chart_.series)
-      for (double& value : series.*list) value *= shown.factor;
+      for (double& value : series.*list) value *= shown->second.factor;
   }
 
   /// `breaks`: a line has a gap where rows in between belong to another series.
@@ -217,8 +187,8 @@ class ChartMaker {
     chart_.x.is_log = is_geometric(all_of(chart_.series, &ChartSeries::x));
     chart_.y.is_log =
         chart_.series.front().kind == SeriesKind::cells && is_geometric(all_of(chart_.series, &ChartSeries::y));
-    show(chart_.x, x.name, unit_of(x), &ChartSeries::x);
-    show(chart_.y, y.name, unit_of(y), &ChartSeries::y);
+    show(chart_.x, unit_of(x), &ChartSeries::x);
+    show(chart_.y, unit_of(y), &ChartSeries::y);
   }
 
   /// Of an analysis that names no chart: the first two columns of numbers of its first table.
@@ -294,13 +264,13 @@ class ChartMaker {
     if (chart_.series.empty()) add(y->name, x, *y, SeriesKind::line, rows_of(x), false);
     chart_.x.is_log = is_geometric(x.numbers);
     chart_.x.unit = x.unit;
-    chart_.x.is_written = true;
-    show(chart_.y, y->name, y->unit, &ChartSeries::y);
+    chart_.x.written_for = {x.unit, 1.0};
+    show(chart_.y, y->unit, &ChartSeries::y);
     return true;
   }
 
   const StoredRun& run_;
-  const StoredRun& units_of_;
+  scenarios::ShownUnits units_;
   const scenarios::Analysis* analysis_;
   Chart chart_;
 };
@@ -313,11 +283,19 @@ std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of)
 
 void make_readable(Chart& chart) {
   const auto scale = [&](ChartAxis& axis, std::vector<double> ChartSeries::* list) {
-    if (axis.is_written) return;
-    const ShownUnit shown = readable(axis.unit, largest_of(chart.series, list));
+    double factor = 1.0;
+    if (axis.written_for) {
+      const auto& [unit, written] = *axis.written_for;
+      const double largest = largest_of(chart.series, list) / written;
+      if (axis.unit == unit || scenarios::is_legible(largest, {axis.unit, written})) return;
+      axis.unit = unit;
+      factor = 1.0 / written;
+    }
+    const ShownUnit shown = readable(axis.unit, factor * largest_of(chart.series, list));
     axis.unit = shown.unit;
+    factor *= shown.factor;
     for (ChartSeries& series : chart.series)
-      for (double& value : series.*list) value *= shown.factor;
+      for (double& value : series.*list) value *= factor;
   };
   scale(chart.x, &ChartSeries::x);
   scale(chart.y, &ChartSeries::y);

@@ -10,6 +10,7 @@
 #include "cli/report/page.hpp"
 #include "cli/report/stored_run.hpp"
 #include "core/diagnostics.hpp"
+#include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
 
@@ -38,12 +39,22 @@ Json tables(const StoredRun& run) {
   return json;
 }
 
+/// The result with the units in which the page shows its numbers.
+Json document(const StoredRun& run) {
+  Json json = run.document();
+  run.read([&] {
+    for (const auto& [si, shown] : scenarios::shown_units(written_units(run)))
+      json["shown_units"][si] = {{"unit", shown.unit}, {"factor", shown.factor}};
+  });
+  return json;
+}
+
 }  // namespace
 
 scenarios::OutputFile report_page(const std::string& directory) {
   return {"report.html", [directory](std::ostream& out) {
             const StoredRun run(directory);
-            write_page(out, run.document(), tables(run),
+            write_page(out, document(run), tables(run),
                        {assets::views_js, assets::sweep_js, assets::views_of_analyses_js, assets::page_js});
           }};
 }

@@ -108,6 +108,12 @@ void finish(StoredColumn& column) {
 
 }  // namespace
 
+std::map<std::string, std::string> written_units(const StoredRun& run) {
+  const Json provenance = run.document().value("provenance", Json());
+  if (!provenance.is_object()) return {};
+  return provenance.value("written_units", Json::object()).get<std::map<std::string, std::string>>();
+}
+
 std::string shown(const fs::path& path) {
   const std::string whole = Json(path.string()).dump(-1, ' ', false, Json::error_handler_t::replace);
   auto text = Json::parse(whole).get<std::string>();

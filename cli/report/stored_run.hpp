@@ -54,6 +54,9 @@ class StoredRun {
 /// A name of a file as text: bytes that are not UTF-8 and line breaks are replaced.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);
 
+/// The units of quantities as the user wrote them, by path.
+[[nodiscard]] std::map<std::string, std::string> written_units(const StoredRun& run);
+
 /// What identifies a run, as its tables state it above their header.
 [[nodiscard]] std::map<std::string, std::string> identity_of(const StoredRun::Json& document);
 

@@ -114,6 +114,15 @@ function estimateTable(estimates) {
       {caption: 'Estimates'});
 }
 
+/** The straight lines x = a + b Y behind the estimates. */
+function lineTable(estimates) {
+  const at = (i, key) => `estimates[${i}].diagnostics.line.${key}`;
+  const rows = estimates.flatMap(({method, diagnostics: {line}}, i) => (line ? [[
+    {text: method, class: 'text'}, ...['slope', 'intercept', 'G'].map((key) => ({text: line[key], path: at(i, key)}))
+  ]] : []));
+  return rows.length ? [grid(['x = a + b Y by', 'slope b', `intercept a [${unitAt('estimates[].x_f', 'm')}]`, 'G'], rows, {caption: 'Lines'})] : [];
+}
+
 /** Curves that came with the estimates: METHOD_NAME.csv, the first column against each of the others. */
 function estimateCurves(estimates) {
   const out = [];
@@ -273,7 +282,7 @@ function furtherTables({estimates}) {
 
 views.identify = {
   opens: (result) => [answerBox(result), ...ledger(result)],
-  before: ({estimates}) => [heading('Estimates'), estimateTable(estimates)],
+  before: ({estimates}) => [heading('Estimates'), estimateTable(estimates), ...lineTable(estimates)],
   shown: ['answer', 'answer_reason', 'family_level', 'tested'],
   charts: identifyView,
   after: furtherTables,

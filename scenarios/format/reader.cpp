@@ -30,8 +30,6 @@ std::string shown(const Node& node) {
   return shortened(node.text);
 }
 
-std::string with_article(const Node& node) { return node.kind == Node::Kind::map ? "a map" : "a list"; }
-
 bool is_number_like(std::string_view text) {
   return !text.empty() && (std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos);
 }
@@ -374,11 +372,12 @@ class Reader {
     reading_.places.emplace(path + "." + choice.key, entry->value.place);
     const Variant* variant = choice.find(entry->value.text);
     if (variant == nullptr || entry->value.kind != Node::Kind::scalar) {
-      complain(entry->value.place,
-               "'" + path + "." + choice.key + "' cannot be " +
-                   (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'"
-                                                            : with_article(entry->value)),
-               joined(choice.names()), shown(entry->value), nearest(entry->value.text, choice.names()));
+      complain(
+          entry->value.place,
+          "'" + path + "." + choice.key + "' cannot be " +
+              (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'" : shown(entry->value)),
+          joined(choice.names()) + (choice.key == "law" ? "; or the law of a plugin, with --plugin LIB" : ""),
+          shown(entry->value), nearest(entry->value.text, choice.names()));
       return nullptr;
     }
     return variant;

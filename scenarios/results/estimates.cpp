@@ -233,6 +233,23 @@ Table readable_others(const std::vector<identify::Estimate>& estimates, const id
   return table;
 }
 
+/// The straight lines x = intercept + slope Y behind the estimates, for a terminal.
+Table readable_lines(const std::vector<identify::Estimate>& estimates, const identify::KnownConstants& constants) {
+  std::vector<identify::Estimate> lines;
+  std::ranges::copy_if(estimates, std::back_inserter(lines),
+                       [](const identify::Estimate& estimate) { return estimate.line && estimate.outcome.ok(); });
+  const auto line = [](double identify::LineFit::* value) {
+    return [value](const identify::Estimate& estimate) { return (*estimate.line).*value; };
+  };
+  Table table{"lines",
+              {text_column("x = a + b Y by", lines, &identify::Estimate::method),
+               column("slope b", "", lines, line(&identify::LineFit::slope)),
+               column("intercept a", constants.unit("m"), lines, line(&identify::LineFit::intercept)),
+               column("G", "", lines, line(&identify::LineFit::G))}};
+  table.is_file = false;
+  return table;
+}
+
 /// e_0, e_1, ... of the decrement law.
 std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f, std::size_t count) {
   std::vector<double> extremes;
@@ -367,6 +384,7 @@ Answer answer_of(const identify::Identification& found, const identify::Record& 
   answer.result["fit"] = fit_json(found, record);
   add_ledger(found, answer);
   answer.tables.push_back(readable_estimates(estimates, constants));
+  answer.tables.push_back(readable_lines(estimates, constants));
   answer.tables.push_back(readable_others(estimates, constants));
   answer.tables.push_back(estimate_table(estimates));
   for (const identify::Estimate& estimate : estimates)

@@ -137,7 +137,7 @@ class Page(unittest.TestCase):
                          "sweep={system.friction.kinetic: {from: 1 N, to: 4 N, count: 8}, excitation.amplitude: {from: 10 cm, to: 30 cm, count: 7}}")
         dom, console = self.load(out / "report.html")
         self.assertEqual(console, [])
-        self.assertIn("amplitude [mm]", dom)
+        self.assertIn("amplitude [cm]", dom)
         self.assertIn("excitation.amplitude [cm]", dom)
 
     def test_charts_are_saved_as_files(self):
@@ -164,7 +164,7 @@ class Page(unittest.TestCase):
         self.assertTrue(said["png"].startswith("x_over_omega.png image/png "), said)
         self.assertGreater(int(said["png"].split()[-1]), 5000)
         self.assertEqual([said["faults"], said["paths"]], ["0", "7"])
-        for text in ("x over omega", "omega [rad/s]", "x [mm]", "kinetic = 6 N"):
+        for text in ("x over omega", "omega [Hz]", "x [mm]", "kinetic = 6 N"):
             self.assertIn(text, said["says"].split("|"))
         self.assertNotIn("var", said["strokes"])
 
@@ -201,10 +201,10 @@ class Page(unittest.TestCase):
         self.assertEqual(shown, ["1e+5", "1.2345e+5", "12350", "120", "0", "−0.5", "2.5e-7", "1.2e+6"])
         self.assertEqual(self.ask("formula", "[short(100000), short(320160)]"), ["100000", "320160"])
 
-    def test_an_angle_is_shown_in_radians_and_a_torque_in_newton_metres(self):
+    def test_an_angle_is_shown_as_the_user_wrote_it_and_in_radians_otherwise(self):
         dom, _ = self.check("torsional_pendulum", 1)
-        self.assertIn("output amplitude x [rad]", dom)
-        self.assertIn("input amplitude Y [rad]", dom)
+        self.assertIn("output amplitude x [deg]", dom)
+        self.assertIn("input amplitude Y [deg]", dom)
         data = self.folder / "decay.csv"
         data.write_text("x [deg]\n20.000\n-18.006\n16.134\n-14.375\n12.724\n-11.173\n9.717\n")  # zeta 0.02, x_f 0.4 deg
         out = self.folder / "decay"

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""What a user sees on the terminal: units, order, hints, a scenario to begin with.
+
+usage: test_manners.py PROGRAM ROOT [TEST...]
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+
+
+class Manners(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def run_program(self, *arguments, status=0):
+        result = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
+
+    def test_the_units_of_the_user_are_shown(self):
+        text = (ROOT / "scenarios/examples/stepped_response.yaml").read_text().replace("count: 61", "count: 3")
+        self.write("hz.yaml", text[: text.index("expect:")].replace("amplitude: 1.2 N", "amplitude: 1200 mN") + "initial: {position: 0 mm}\n")
+        shown = self.run_program("run", "hz.yaml").stdout
+        self.assertRegex(shown, r"omega \[Hz\] +x \[mm\] +phase \[rad\]")
+        self.assertRegex(shown, r"\n +1\.4 +31\.238631\d +0\.29296545")
+        # The table is SI, whatever is shown.
+        self.assertIn("\nomega [rad/s],x [m],phase [rad],", (self.folder / "results/hz/curve.csv").read_text())
+        # A number that cannot be read in the unit stays SI: 0.03 m are 3e-5 km.
+        self.write("km.yaml", (self.folder / "hz.yaml").read_text().replace("0 mm", "0 km"))
+        self.assertRegex(self.run_program("run", "km.yaml").stdout, r"omega \[Hz\] +x \[m\]")
+
+    def test_the_answer_stands_first_and_the_certificate_last(self):
+        lines = self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", "xy").stdout.splitlines()
+        self.assertRegex(lines[2], r"^ +Y \[mm\] +x \[mm\]")
+        self.assertRegex(lines[-1], r"^certificate: \d+ searches, \d+ panels, \d+ splits, 0 grazings$")
+
+    def test_the_line_behind_an_estimate_is_told(self):
+        shown = self.run_program("run", ROOT / "scenarios/examples/identify_xy_curve.yaml", "--out", "line").stdout
+        self.assertRegex(shown, r"x = a \+ b Y by +slope b +intercept a \[\w+\] +G\n")
+        estimate = next(e for e in json.loads((self.folder / "line/result.json").read_text())["result"]["estimates"] if "line" in e["diagnostics"])
+        line = estimate["diagnostics"]["line"]
+        # b = 1/(2 zeta) and a = -G x_f, but for the small correction by the exact law.
+        self.assertAlmostEqual(line["slope"], 1 / (2 * estimate["zeta"]), delta=2e-3 * line["slope"])
+        self.assertAlmostEqual(-line["intercept"] / line["G"], estimate["x_f"], delta=2e-3 * estimate["x_f"])
+        row = next(text for text in shown.splitlines() if text.split()[:1] == [estimate["method"]] and "(" not in text)
+        self.assertAlmostEqual(float(row.split()[1]), line["slope"], delta=1e-8 * line["slope"])
+
+    def test_an_unknown_law_may_be_that_of_a_plugin(self):
+        self.write("plugin.yaml", (ROOT / "scenarios/examples/xy_curve.yaml").read_text().replace("law: coulomb", "law: bliman_sorine"))
+        self.assertIn("; or the law of a plugin, with --plugin LIB\n", self.run_program("check", "plugin.yaml", status=3).stderr)
+        self.assertIn("or that of a plugin, with --plugin LIB", self.run_program("laws", "bliman_sorine", status=2).stderr)
+
+    def test_a_scenario_to_begin_with(self):
+        names = [line.split()[0] for line in self.run_program("analyses").stdout.splitlines()]
+        self.assertIn("xy_curve", names)
+        needs_data = {"fit", "mechanisms", "predict"}
+        for name in names:
+            with self.subTest(name):
+                text = self.run_program("new", name).stdout
+                self.write("mine.yaml", text)
+                if name not in needs_data:
+                    self.run_program("check", "mine.yaml")
+                self.assertIn(f"  type: {name}  # ", text)
+                self.assertRegex(text, r"\n  mass: [\d.]+ kg  # ") if "\nsystem:" in text else None
+        self.assertIn("there are: ", self.run_program("new", "curve", status=2).stderr)
+        # Values are those of the example: the same numbers.
+        self.write("mine.yaml", self.run_program("new", "xy_curve").stdout)
+        self.run_program("run", "mine.yaml", "--out", "mine")
+        self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", "example")
+        rows = [[line for line in (self.folder / out / "curve.csv").read_text().splitlines() if not line.startswith("#")] for out in ("mine", "example")]
+        self.assertEqual(*rows)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
