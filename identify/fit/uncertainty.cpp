@@ -114,9 +114,9 @@ class Uncertainty {
     constexpr double huber = 1.345;
     double weight = 0.0;
     double inside = 0.0;
-    for (Eigen::Index i = 0; i < residuals_.size(); ++i) {
+    for (const double residual : residuals_) {
       // A bounded residual r has the weighted size sqrt(huber |r|).
-      const double size = std::abs(residuals_[i]);
+      const double size = std::abs(residual);
       weight += size > huber ? huber * huber / (size * size) : 1.0;
       inside += size > huber ? 0.0 : 1.0;
     }
