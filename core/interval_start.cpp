@@ -9,16 +9,26 @@ namespace {
 
 /// Whether a Taylor coefficient stands out of rounding.
 bool stands_out(const ExponentialBasis& basis, const ModeFunction& f, double value, double tolerance) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k)
-    sum += std::abs(f.re[k]) + std::abs(f.im[k]);
-  return std::abs(value) > guard_rounding * sum + tolerance;
+  return std::abs(value) > guard_rounding * start_amplitude(basis, f) + tolerance;
 }
 
 /// How fast a tolerance grows from one derivative to the next.
 double rate(const ExponentialBasis& basis) { return basis.fastest() > 0.0 ? basis.fastest() : 1.0; }
 
 }  // namespace
+
+double start_amplitude(const ExponentialBasis& basis, const ModeFunction& f) {
+  double sum = 0.0;
+  for (int k = 0; k < basis.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    double part = std::abs(f.re[i]) + std::abs(f.im[i]);
+    if (part == 0.0) continue;
+    for (int above = basis.parent(k); above != ExponentialBasis::no_parent; above = basis.parent(above))
+      part /= rate(basis);
+    sum += part;
+  }
+  return sum;
+}
 
 Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance, int from) {
   constexpr int examined = 4;

@@ -74,7 +74,10 @@ class ExactEngine::ExactInterval final : public Interval {
     for (int k = 0; k < basis.size(); ++k) {
       if (-basis.exponent(k).real() * s < gone) square = std::max(square, basis.square(k));
     }
-    return square > 0.0 ? 1.6 / std::sqrt(square) : duration;
+    const double width = square > 0.0 ? 1.6 / std::sqrt(square) : duration;
+    // A cubic drive has no rate of its own. Products of what it moves are of degree nine: too much for the three
+    // points that do where a panel is a tiny part of its resolution, not for five.
+    return engine_.mode_->degree() > 1 ? std::min(width, 64.0 * (duration - s)) : width;
   }
 
   [[nodiscard]] const ClosedForm* closed_form() const override {
@@ -298,8 +301,8 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
     crossing.by_position = watch.by_position;
     crossing.by_velocity = watch.by_velocity;
     // A guard that was violated from the start was not crossed: no perturbation delays it.
-    const bool forced =
-        crossing_.s == 0.0 && core::at_start(mode_->basis(), guard.value) < -clearly * guard.amplitude;
+    const bool forced = crossing_.s == 0.0 && core::at_start(mode_->basis(), guard.value) <
+                                                  -clearly * core::start_amplitude(mode_->basis(), guard.value);
     crossing.slope = forced ? 0.0 : core::evaluate(mode_->basis(), guard.slope, crossing_.values);
   }
   sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);

@@ -250,7 +250,7 @@ bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) cons
   const double slope = core::at_start(basis, guard.slope);
   const double late = std::min(time_rounding_, parabolic / basis.fastest());
   const double rise = late * (slope + 0.5 * late * core::at_start(basis, guard.curvature));
-  return value > -clearly * guard.amplitude - tolerance && value + tolerance + rise > 0.0;
+  return value > -clearly * core::start_amplitude(basis, guard.value) - tolerance && value + tolerance + rise > 0.0;
 }
 
 /// Two modes of a law may have the same zero by different formulas, each with its own rounding, and both could then
@@ -273,7 +273,8 @@ bool ExactEngine::find_violated() {
     const Watch& watch = watches_[i++];
     const double tolerance =
         watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
-    if (core::at_start(basis, guard.value) > clearly * guard.amplitude + tolerance) continue;
+    if (core::at_start(basis, guard.value) > clearly * core::start_amplitude(basis, guard.value) + tolerance)
+      continue;
     const core::Germ germ = start_germ(guard, watch.is_speed, tolerance);
     if (germ.sign < 0) {
       if (germ.zeros > 0) {

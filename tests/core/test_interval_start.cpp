@@ -22,3 +22,23 @@ TEST_CASE("The germ tells the order of the zero at the start and the sign behind
   CHECK(germ(problem.basis(), problem.guards()[0], 0.0).sign == 1);
   CHECK(germ(problem.basis(), problem.guards()[0], 0.0).zeros == 2);
 }
+
+TEST_CASE("A coefficient that counts only later is no rounding of the start") {
+  const auto begins = [](double rate) {
+    ExponentialBasis basis;
+    const int own = basis.add(Complex(0.0, rate));
+    int power = basis.add(0.0);
+    const int constant = power;
+    for (int n = 0; n < 3; ++n) power = basis.add(0.0, power);
+    basis.finish();
+    ModeFunction f;
+    clear(basis, f);
+    f.re[static_cast<std::size_t>(own)] = 1e-6;
+    f.re[static_cast<std::size_t>(constant)] = -1e-3;
+    f.re[static_cast<std::size_t>(power)] = 1e14;
+    return std::pair(start_amplitude(basis, f), germ(basis, f, 0.0).zeros);
+  };
+  // Beside motions of 1e6 rad/s it reaches 1e14/1e18 of them.
+  CHECK(begins(1e6).first == Approx(1e-3 + 1e-6 + 1e-4));
+  CHECK(begins(1e6).second == 0);
+}

@@ -10,6 +10,7 @@
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/support/brute_force.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;
@@ -267,4 +268,61 @@ TEST_CASE("a base that jumps does work on the spring", "[drive]") {
   // With the damper between them there is no such motion.
   model.oscillator.damper_to = sim::DamperTo::base;
   CHECK_THROWS_WITH(sim::simulate(model, {.duration = 1.0}), Catch::Contains("infinite force"));
+}
+
+TEST_CASE("a law with modes sees no switching that pieces of a drive only seem to make", "[drive]") {
+  // Pieces of a fast chirp: the coefficients of s^2 and s^3 are 1e6 and 1e11 times the motion, which may not count
+  // as its rounding at s = 0.
+  Model model;
+  model.oscillator = {.mass = 0.01, .stiffness = 8800.0, .damping = 6e-4};
+  model.excitation = {.type = ExcitationType::base_chirp,
+                      .amplitude = 0.04,
+                      .phase = 5.6,
+                      .chirp = {.from = 3750.0, .to = 630.0, .duration = 0.0105}};
+  model.initial = {.position = -0.048, .velocity = 0.0};
+  for (const auto& friction :
+       {test::law("bristle", {{"stiffness", 330.0}, {"snap_distance", 0.0157}, {"count", 1.0}, {"seed", 246.0}}),
+        test::law("contact_compliance", {{"kinetic", 20.0}, {"contact_stiffness", 2000.0}}),
+        test::law("contact_compliance", {{"kinetic", 20.0}, {"static", 25.0}, {"contact_stiffness", 2000.0}})}) {
+    model.friction = {friction};
+    model.solver = {};
+    const sim::SimulateOptions options{.duration = 0.02};
+    const sim::History exact = sim::simulate(model, options);
+    model.solver = {sim::SolverKind::explicit_steps, 1e-13};
+    const sim::History smooth = sim::simulate(model, options);
+    REQUIRE(exact.outcome.ok());
+    REQUIRE(smooth.outcome.ok());
+    CHECK(exact.events.size() > 5);
+    REQUIRE(exact.events.size() == smooth.events.size());
+    for (std::size_t i = 0; i < exact.events.size(); ++i) {
+      CHECK(exact.events[i].kind == smooth.events[i].kind);
+      CHECK(std::abs(exact.events[i].t - smooth.events[i].t) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("the energy account under a cubic drive holds where the mass only creeps", "[drive]") {
+  // The damper of 2e6 N s/m decides the motion: x' = k (y - x)/c, whose square is of degree six in time, while the
+  // only rate that lasts is k/c = 0.05/s.
+  Model model;
+  model.oscillator = {.mass = 0.93, .stiffness = 1e5, .damping = 2e6};
+  std::vector<double> t{0.0};
+  std::vector<double> y{0.0};
+  test::Random random(7);
+  while (t.back() < 0.04) {
+    t.push_back(t.back() + random.uniform(2e-4, 2e-3));
+    y.push_back(random.uniform(-0.025, 0.025));
+  }
+  model.excitation = {.type = ExcitationType::base_samples,
+                      .samples = std::make_shared<SampledSignal>(t, y, Interpolation::cubic)};
+  model.friction.emplace_back(friction::Coulomb(1e-3, 1e-3));
+  const sim::SimulateOptions options{.duration = t.back()};
+  const sim::History exact = sim::simulate(model, options);
+  model.solver = {sim::SolverKind::implicit_steps, 1e-13};
+  const sim::History smooth = sim::simulate(model, options);
+  REQUIRE(exact.outcome.ok());
+  REQUIRE(smooth.outcome.ok());
+  CHECK(std::abs(exact.energy.defect) < 1e-10 * exact.energy.viscous);
+  CHECK(exact.energy.viscous == Approx(smooth.energy.viscous).epsilon(1e-9));
+  CHECK(exact.energy.input == Approx(smooth.energy.input).epsilon(1e-9));
 }
