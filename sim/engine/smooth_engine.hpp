@@ -5,10 +5,11 @@
 /// every step and a step may overrun the event that ends it. Steps are those of Boost.Odeint's dopri5; once these
 /// are limited by stability instead of accuracy, of Radau IIA for the rest of the motion (`stepper.hpp`).
 ///
-/// Events. Guards are watched on the dense output of each step: at four points and where a parabola through them
-///   dips to zero. Sides are frozen as in the exact engine. The step is then repeated so that it ends at the event,
-///   which is so known to the accuracy of a step's end. Nothing proves here that a guard did not cross twice
-///   between two of those points; where every law is affine the exact engine does.
+/// Events. Guards are watched on the dense output of each step: at four points, where a parabola through them
+///   dips to zero, and where they fall into the step from its begin or rise out of it at its end. Sides are frozen
+///   as in the exact engine. The step is then repeated so that it ends at the event, which is so known to the
+///   accuracy of a step's end. Nothing proves here that a guard did not cross twice between two of those points;
+///   where every law is affine the exact engine does.
 /// Rounding. A velocity within `resolution` of zero has not changed its sign: bristles that ring down to rounding
 ///   make no events.
 /// Derivatives. The variational equation along the dense output of each step (`variation.hpp`); events add the
@@ -100,7 +101,13 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool find_violated(Hit& hit) const;
   [[nodiscard]] bool find_hit(Hit& hit);
   [[nodiscard]] double first_negative(std::size_t watch);
-  [[nodiscard]] double dip(std::size_t watch, std::size_t point);
+  /// Three points of the last step, as parts of it, and a guard there: the lowest in the middle.
+  struct Triple {
+    std::array<double, 3> at{};
+    std::array<double, 3> value{};
+  };
+  [[nodiscard]] double dip(std::size_t watch, Triple around);
+  [[nodiscard]] bool falls_at_edge(std::size_t watch, std::size_t edge, Triple& around) const;
   [[nodiscard]] double crossing(std::size_t watch, double before, double negative) const;
   [[nodiscard]] bool land(const Hit& hit);
   [[nodiscard]] bool move(double left, Hit& hit, bool& found);

@@ -108,20 +108,31 @@ double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, do
   return (above - value_after(-step)) / (2.0 * step);
 }
 
-/// Whether a guard that is zero at the start of the interval goes negative: by where a step of the midpoint rule
-/// leads, a longer one where the first leaves it within rounding. The first is shorter than any decay of a law; one
-/// that is longer than a decay leads nowhere, which two steps of half the length show.
+/// Whether a guard that is zero at the start of the interval goes negative: by where a step of the classical
+/// Runge-Kutta method leads, a longer one where the first leaves it within rounding. At a release velocity and
+/// acceleration may both be zero, so that a guard on the position begins with the third power of time, which a
+/// method of second order does not see. The first step is shorter than any decay of a law; one that is longer than
+/// a decay leads nowhere, which two steps of half the length show.
 bool SmoothEngine::goes_negative(std::size_t watch) const {
   const auto value_after = [&](double length, int steps) {
     const double s = length / steps;
     std::vector<double> X = X_;
+    std::vector<double> sum(X.size());
     for (int i = 0; i < steps; ++i) {
       const double t = local_time_ + i * s;
-      flow_.evaluate(X, t, rates_);
+      std::ranges::fill(sum, 0.0);
       probe_ = X;
-      for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += 0.5 * s * rates_[k];
-      flow_.evaluate(probe_, t + 0.5 * s, rates_);
-      for (std::size_t k = 0; k < X.size(); ++k) X[k] += s * rates_[k];
+      constexpr std::array<double, 4> next = {0.5, 0.5, 1.0, 0.0};
+      constexpr std::array<double, 4> at = {0.0, 0.5, 0.5, 1.0};
+      constexpr std::array<double, 4> weights = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+      for (std::size_t stage = 0; stage < weights.size(); ++stage) {
+        flow_.evaluate(probe_, t + at[stage] * s, rates_);
+        for (std::size_t k = 0; k < X.size(); ++k) {
+          sum[k] += weights[stage] * s * rates_[k];
+          probe_[k] = X[k] + next[stage] * s * rates_[k];
+        }
+      }
+      for (std::size_t k = 0; k < X.size(); ++k) X[k] += sum[k];
     }
     evaluate_guards(X, local_time_ + length, guard_values_);
     return guard_values_[watch];
@@ -178,24 +189,54 @@ bool SmoothEngine::find_hit(Hit& hit) {
 double SmoothEngine::first_negative(std::size_t watch) {
   const Watch& w = watches_[watch];
   const double floor = -resolution * w.scale;
+  const auto part = [](std::size_t k) { return static_cast<double>(k) / (points - 1); };
+  Triple edge;
+  // Of the points alone, none shows a minimum before the second or behind the last but one.
+  if (falls_at_edge(watch, 0, edge)) {
+    const double lowest = dip(watch, edge);
+    if (lowest >= 0.0) return crossing(watch, 0.0, lowest);
+  }
   for (std::size_t k = 1; k < points; ++k) {
-    const double part = static_cast<double>(k) / (points - 1);
-    const double before = static_cast<double>(k - 1) / (points - 1);
-    if (w.values[k] < floor) return crossing(watch, before, part);
+    if (w.values[k] < floor) return crossing(watch, part(k - 1), part(k));
     if (k + 1 == points || w.values[k] > w.values[k - 1] || w.values[k] > w.values[k + 1]) continue;
-    const double lowest = dip(watch, k);
-    if (lowest >= 0.0) return crossing(watch, before, lowest);
+    const double lowest =
+        dip(watch, {{part(k - 1), part(k), part(k + 1)}, {w.values[k - 1], w.values[k], w.values[k + 1]}});
+    if (lowest >= 0.0) return crossing(watch, part(k - 1), lowest);
+  }
+  if (falls_at_edge(watch, points - 1, edge)) {
+    const double lowest = dip(watch, edge);
+    if (lowest >= 0.0) return crossing(watch, part(points - 2), lowest);
   }
   return -1.0;
 }
 
-/// Whether a minimum near this point goes below zero: where; below zero when not. One that only grazes is a
-/// grazing.
-double SmoothEngine::dip(std::size_t watch, std::size_t point) {
+/// Whether a guard that is lowest, of the points, at the begin or the end of the step falls from there into the
+/// step, and may reach zero: three points around that minimum.
+bool SmoothEngine::falls_at_edge(std::size_t watch, std::size_t edge, Triple& around) const {
+  constexpr double near = 1e-5;
   const Watch& w = watches_[watch];
-  std::array<double, 3> at = {static_cast<double>(point) - 1.0, static_cast<double>(point),
-                              static_cast<double>(point) + 1.0};
-  std::array<double, 3> value = {w.values[point - 1], w.values[point], w.values[point + 1]};
+  const bool begins = edge == 0;
+  const std::size_t next = begins ? 1 : edge - 1;
+  const auto [least, largest] = std::ranges::minmax(w.values);
+  // A guard that begins at zero rises from it; what lies just beside is rounding.
+  if (begins && w.values[edge] <= equal * w.scale) return false;
+  if (w.values[edge] > w.values[next] || w.values[edge] > largest - least) return false;
+  const double at = begins ? near : 1.0 - near;
+  const double value = guard(watch, at);
+  if (!(value < w.values[edge])) return false;
+  const double part = static_cast<double>(next) / (points - 1);
+  around = begins ? Triple{{0.0, at, part}, {w.values[edge], value, w.values[next]}}
+                  : Triple{{part, at, 1.0}, {w.values[next], value, w.values[edge]}};
+  return true;
+}
+
+/// Whether the minimum between these points goes below zero: where, as a part of the step; below zero when not. One
+/// that only grazes is a grazing.
+double SmoothEngine::dip(std::size_t watch, Triple around) {
+  const Watch& w = watches_[watch];
+  auto& [at, value] = around;
+  const double before = value[0];
+  const double after = value[2];
   for (int i = 0; i < 3; ++i) {
     const double left = (value[1] - value[0]) / (at[1] - at[0]);
     const double right = (value[2] - value[1]) / (at[2] - at[1]);
@@ -203,8 +244,8 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
     const double lowest = 0.5 * (at[0] + at[1]) - 0.5 * left / bend;
     // Nearer than rounding lets a parabola tell.
     if (!(bend > 0.0 && lowest > at[0] && lowest < at[2]) || std::abs(lowest - at[1]) < 1e-9) break;
-    const double there = guard(watch, lowest / (points - 1));
-    if (there < -resolution * w.scale) return lowest / (points - 1);
+    const double there = guard(watch, lowest);
+    if (there < -resolution * w.scale) return lowest;
     const std::size_t replaced = lowest < at[1] ? 2 : 0;
     at[replaced] = at[1];
     value[replaced] = value[1];
@@ -212,9 +253,8 @@ double SmoothEngine::dip(std::size_t watch, std::size_t point) {
     value[1] = there;
   }
   const double grazed = 100.0 * model_.solver.tolerance * w.scale;
-  if (value[1] < grazed && w.values[point - 1] > grazed && w.values[point + 1] > grazed) {
-    grazings_.push_back({static_cast<int>(watch), at[1] / (points - 1) * taken_});
-  }
+  if (value[1] < grazed && before > grazed && after > grazed)
+    grazings_.push_back({static_cast<int>(watch), at[1] * taken_});
   return -1.0;
 }
 

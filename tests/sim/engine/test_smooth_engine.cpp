@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "sim/engine/exact_engine.hpp"
@@ -302,4 +303,83 @@ TEST_CASE("smooth engine: a motion that a ramp begins from rest is as exact in e
   const std::vector<double> large = times(1.0);
   CHECK(large.size() > 5);
   CHECK(large == times(0x1p-30));
+}
+
+TEST_CASE("smooth engine: a release just after the begin or before the end of a step is not passed over",
+          "[sim][smooth]") {
+  // While the mass sticks a step takes an eighth of the period T of the drive, and guards are watched every T/32,
+  // 0.196 rad. The pull exceeds the limit for 0.04 to 0.1 rad only, between two of these points and next to an end
+  // of the step.
+  constexpr double push = 2.0;
+  constexpr double omega = 5.0;
+  constexpr double end = std::numbers::pi / 4.0;
+  for (const auto& [largest_at, half_width] :
+       {std::pair{0.08, 0.05}, std::pair{0.03, 0.02}, std::pair{end - 0.03, 0.02}, std::pair{end + 0.03, 0.02}}) {
+    sim::Model model;
+    model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
+    model.excitation = {
+        .type = sim::ExcitationType::force_harmonic, .amplitude = push, .frequency = omega, .phase = -largest_at};
+    model.friction = {law("coulomb", {{"kinetic", push * std::cos(half_width)}})};
+    for (const SolverKind kind : {SolverKind::automatic, SolverKind::explicit_steps, SolverKind::implicit_steps}) {
+      model.solver.kind = kind;
+      const sim::History history = sim::simulate(model, {.duration = 0.3});
+      REQUIRE_FALSE(history.events.empty());
+      CHECK(history.events[0].kind == sim::EventKind::release);
+      CHECK(history.events[0].t == Approx((largest_at - half_width) / omega).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("smooth engine: a short stop between two points of a long step is not passed over", "[sim][smooth]") {
+  // At constant speed of the base, without damping, the mass stops once in a natural period for 3e-3 of it; an
+  // implicit step takes an eighth of a period.
+  sim::Model model;
+  model.oscillator = {.mass = 3.269733373405227, .stiffness = 84697.72196089235};
+  model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = 0.0007309319467578027};
+  model.friction = {law(
+      "stribeck",
+      {{"kinetic", 1.3785613066002025}, {"static", 1.601828132078246}, {"stribeck_velocity", 0.1073732287243963}})};
+  model.initial = {.position = -0.0006610374322015665, .velocity = 0.0};
+  const auto stops = [&](SolverKind kind, double tolerance) {
+    model.solver = {kind, tolerance};
+    const sim::History history = sim::simulate(model, {.duration = 3.6});
+    REQUIRE(history.outcome.ok());
+    std::vector<double> times;
+    for (const sim::Event& event : history.events)
+      if (event.kind == sim::EventKind::stop) times.push_back(event.t);
+    return times;
+  };
+  const std::vector<double> expected = stops(SolverKind::explicit_steps, 1e-13);
+  CHECK(expected.size() > 80);
+  for (const double tolerance : {1e-9, 1e-10, 1e-11, 1e-12}) {
+    const std::vector<double> found = stops(SolverKind::implicit_steps, tolerance);
+    CAPTURE(tolerance);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(std::abs(found[i] - expected[i]) < 1e-6);
+  }
+}
+
+TEST_CASE("smooth engine: a contact that slips on from a release lets go at once", "[sim][smooth]") {
+  // At the release velocity and acceleration are zero, and the contact is at its limit: its guard begins with t^3,
+  // which leaves rounding only after 2e-5 s. The force of reset_integrator falls where it slips, so that a contact
+  // that lets go late delays the motion.
+  sim::Model model;
+  model.oscillator = {.mass = 129.3146724807495, .stiffness = 299.89158568978326, .damping = 12.17478077146789};
+  model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = -0.00016729442226503976};
+  model.friction = {
+      law("contact_compliance", {{"kinetic", 3.859777841421688}, {"contact_stiffness", 9310.375183939914}}),
+      law("reset_integrator",
+          {{"kinetic", 0.6759532619933236}, {"stiffness", 810.3244052908267}, {"static_gain", 0.4698049133118544}}),
+      law("coulomb", {{"kinetic", 1.0971191359842283}})};
+  model.initial = {.position = -0.004851120814833448, .velocity = 0.0};
+  const sim::History exact = sim::simulate(model, {.duration = 200.0});
+  for (const SolverKind kind : {SolverKind::explicit_steps, SolverKind::implicit_steps}) {
+    model.solver = {kind, 1e-13};
+    const sim::History smooth = sim::simulate(model, {.duration = 200.0});
+    REQUIRE(smooth.events.size() == exact.events.size());
+    for (std::size_t i = 0; i < exact.events.size(); ++i) {
+      CHECK(smooth.events[i].kind == exact.events[i].kind);
+      CHECK(std::abs(smooth.events[i].t - exact.events[i].t) < 1e-7);
+    }
+  }
 }
