@@ -20,6 +20,8 @@ using Matrix = RadauCollocation::Matrix;
 constexpr std::size_t stages = RadauCollocation::stages;
 constexpr std::size_t pairs = RadauCollocation::pairs;
 constexpr std::size_t middle = stages / 2;
+/// The component that is the speed of the mass, on which friction acts (`flow.hpp`).
+constexpr std::size_t speed = 1;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 const RadauCollocation& radau() {
@@ -44,6 +46,7 @@ class RadauStepper final : public Stepper {
         correction_(n * stages),
         state_(n),
         middle_state_(n),
+        probed_(n),
         pair_(n),
         jacobian_(n * n),
         factored_jacobian_(n * n),
@@ -56,7 +59,10 @@ class RadauStepper final : public Stepper {
     const bool predicted = predict(t, h);
     if (!(predicted && solve(field, x, t, h, allowed))) {
       std::ranges::fill(z_, 0.0);
-      if (!solve(field, x, t, h, allowed)) return false;
+      if (!solve(field, x, t, h, allowed)) {
+        begin_straight(field, x, t, h);
+        if (!solve(field, x, t, h, allowed)) return false;
+      }
     }
     if (!estimate(field, x, t, h, error)) return false;
     for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[(stages - 1) * n_() + k];
@@ -108,6 +114,13 @@ class RadauStepper final : public Stepper {
     return true;
   }
 
+  /// z from the rates at the start: away from a speed at which alone friction is steep.
+  void begin_straight(const VectorField& field, std::span<const double> x, double t, double h) {
+    field.evaluate(x, t, state_);
+    for (std::size_t i = 0; i < stages; ++i)
+      for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = radau_.nodes[i] * h * state_[k];
+  }
+
   /// Newton's method on z with a Jacobian taken in the middle of the step as far as z tells it; again with another
   /// one where z came to tell something else: a force that is steep at one speed alone would pass for converged.
   bool solve(const VectorField& field, std::span<const double> x, double t, double h,
@@ -118,7 +131,31 @@ class RadauStepper final : public Stepper {
       const Pace pace = iterate(field, x, t, h, allowed);
       if (pace == Pace::lost) return false;
       const bool is_stale = has_moved_on(x) && factorise(field, x, t, h, 0.5);
-      if (!is_stale) return pace == Pace::converged;
+      if (!is_stale) return pace == Pace::converged && !is_held_falsely(field, x, t, h, allowed);
+    }
+    return false;
+  }
+
+  /// Where friction turns over at one speed alone, a correction below `allowed` may leave a force that sets the
+  /// mass in motion: z has then stopped where no speed within `allowed` satisfies the equation.
+  [[nodiscard]] bool is_held_falsely(const VectorField& field, std::span<const double> x, double t, double h,
+                                     std::span<const double> allowed) {
+    constexpr double round_off = 64.0 * epsilon;
+    if (n_() <= speed) return false;
+    for (std::size_t i = 0; i < stages; ++i) {
+      if (!(h * std::abs(speed_defect_[i]) > allowed[speed])) continue;
+      for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
+      const double slope = combine(radau_.slopes[i], z_, speed) / h;
+      const double here = state_[speed];
+      const double known = std::max(allowed[speed], round_off * (std::abs(x[speed]) + std::abs(here)));
+      const auto defect_at = [&](double there) {
+        state_[speed] = there;
+        field.evaluate(state_, t + radau_.nodes[i] * h, probed_);
+        return probed_[speed] - slope;
+      };
+      const double above = defect_at(here + known);
+      const double below = defect_at(here - known);
+      if (above * below > 0.0 && h * std::min(std::abs(above), std::abs(below)) > known) return true;
     }
     return false;
   }
@@ -177,6 +214,7 @@ class RadauStepper final : public Stepper {
     }
     for (std::size_t i = 0; i < stages; ++i)
       for (std::size_t k = 0; k < n_(); ++k) rates_[i * n_() + k] -= combine(radau_.slopes[i], z_, k) / h;
+    for (std::size_t i = 0; i < stages && n_() > speed; ++i) speed_defect_[i] = rates_[i * n_() + speed];
     transform(radau_.from_stages, rates_, correction_);
     real_factors_.solve(correction_.data());
     for (std::size_t p = 0; p < pairs; ++p) solve_pair(p, correction_.data() + (1 + 2 * p) * n_());
@@ -239,6 +277,8 @@ class RadauStepper final : public Stepper {
   Vector correction_;
   Vector state_;
   Vector middle_state_;  ///< where the Jacobian was taken
+  Vector probed_;
+  Row speed_defect_{};  ///< f - u' at the stages before the last correction
   std::vector<Complex> pair_;
   double factored_h_ = 0.0;
   Vector jacobian_;

@@ -383,3 +383,37 @@ TEST_CASE("smooth engine: a contact that slips on from a release lets go at once
     }
   }
 }
+
+TEST_CASE("smooth engine: implicit steps set the mass in motion where friction turns over at one speed alone",
+          "[sim][smooth]") {
+  // Under rate and state friction the force turns over within exp(-mu0/a) = 1e-47 of the reference velocity, and at
+  // the reversal at 0.0288 s the push exceeds it. A Newton iteration that stops on small corrections alone finds
+  // the mass at rest for a microsecond.
+  sim::Model model;
+  model.oscillator = {.mass = 0.0015479497110449162,
+                      .stiffness = 0.02717608397763958,
+                      .damping = 6.247133037644546e-05,
+                      .damper_to = sim::DamperTo::base};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.40966318236012367, .frequency = 65.03368582382979};
+  model.friction = {law("rate_state", {{"normal_force", 0.00796703962137542},
+                                       {"mu0", 0.5429974851068973},
+                                       {"a", 0.005037328023914032},
+                                       {"b", 0.009206654940370073},
+                                       {"slip_distance", 0.3975453288041012},
+                                       {"reference_velocity", 0.000266482794560415},
+                                       {"evolution", std::string("aging")}})};
+  const auto final_of = [&](SolverKind kind, double tolerance) {
+    model.solver = {kind, tolerance};
+    const sim::History history = sim::simulate(model, {.duration = 0.0345});
+    REQUIRE(history.outcome.ok());
+    return history.final;
+  };
+  const sim::Sample expected = final_of(SolverKind::explicit_steps, 1e-13);
+  for (const double tolerance : {1e-11, 1e-12, 1e-13}) {
+    const sim::Sample found = final_of(SolverKind::implicit_steps, tolerance);
+    CAPTURE(tolerance);
+    CHECK(std::abs(found.v - expected.v) < 1e-7 * 0.04);
+    CHECK(std::abs(found.x - expected.x) < 1e-7 * 8e-4);
+  }
+}
