@@ -204,6 +204,22 @@ std::vector<double> deviation(const Walk& a, const Walk& b) {
   return result;
 }
 
+std::vector<double> resolution(const Walk& a, const Walk& b) {
+  std::vector<double> result = deviation(a, b);
+  const double end = std::min(a.end, b.end);
+  const auto is_same = [&](const sim::Event& one, const sim::Event& other) {
+    return one.kind == other.kind && std::abs(one.t - other.t) <= slow_instant * end;
+  };
+  const auto [first, second] = std::ranges::mismatch(a.events, b.events, is_same);
+  double same_until = end;
+  if (first != a.events.end()) same_until = std::min(same_until, first->t);
+  if (second != b.events.end()) same_until = std::min(same_until, second->t);
+  std::size_t count = 0;
+  while (count < result.size() && a.samples[count].t <= same_until) ++count;
+  result.resize(count);
+  return result;
+}
+
 void widen(Sensitivity& sensitivity, const Walk& motion, const Walk& perturbed) {
   const std::vector<double> other = deviation(motion, perturbed);
   std::vector<double>& known = sensitivity.deviation;
@@ -227,13 +243,21 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
   const std::vector<double> sizes_of_v = sizes(a).v;
   std::vector<double> speeds;
   double course = 0.0;
+  double unresolved = 0.0;
   double worst_share = -1.0;
   for (std::size_t i = 0; i < count; ++i) {
     course = std::max(course, sensitivity.deviation[i]);
-    const double allowed = tolerance + amplification * course;
+    if (i < sensitivity.unresolved.size()) unresolved = std::max(unresolved, sensitivity.unresolved[i]);
+    const double allowed = tolerance + amplification * course + unresolved;
+    if (unresolved > tolerance) {
+      result.exception =
+          fmt::format("unresolved: from t = {:.6g} s on another tolerance changes the motion by {:.1e}",
+                      a.samples[i].t, unresolved);
+      break;
+    }
     if (!(allowed < most_allowed)) {
       result.exception =
-          fmt::format("from t = {:.6g} s on a change of the data by {:.0e} changes the motion by {:.1e}",
+          fmt::format("sensitive: from t = {:.6g} s on a change of the data by {:.0e} changes the motion by {:.1e}",
                       a.samples[i].t, sensitivity.change, course);
       break;
     }

@@ -19,6 +19,8 @@ struct Sensitivity {
   std::vector<double> deviation;
   double change = 0.0;       ///< of the data, relative
   double event_shift = 0.0;  ///< largest shift of an event that both motions have [s]
+  /// What another tolerance of the same engine changes (`resolution`); beyond its end as much as there.
+  std::vector<double> unresolved;
 };
 
 struct Difference {
@@ -35,6 +37,10 @@ struct Difference {
 
 /// Deviation of `b` from `a` at the samples that both have, relative to the size of the motion so far.
 [[nodiscard]] std::vector<double> deviation(const Walk& a, const Walk& b);
+
+/// How far an engine resolves a motion: the deviation of two walks of the same data by different tolerances, as far
+/// as both have the same events: a lost event is no question of tolerance.
+[[nodiscard]] std::vector<double> resolution(const Walk& a, const Walk& b);
 
 /// The larger of both at every sample; where a walk has fewer samples nothing is known beyond.
 void widen(Sensitivity& sensitivity, const Walk& motion, const Walk& perturbed);
