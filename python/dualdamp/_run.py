@@ -13,7 +13,7 @@ from ._results import Result
 from ._scenario import flow, plain, text_of
 
 
-def run(scenario, changes=None, *, out=None, threads=0, resume=False, verify=False, progress=None):
+def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=False, verify=False, progress=None):
     """Run a scenario.
 
     Parameters
@@ -26,8 +26,9 @@ def run(scenario, changes=None, *, out=None, threads=0, resume=False, verify=Fal
         Directory for the files that the program writes: result.json, a CSV file for each table, report.html.
     threads : int, optional
         At most so many; 0: all cores.
-    resume : bool, optional
-        A stress test goes on where an earlier run with the same `out` was interrupted.
+    resume, overwrite : bool, optional
+        A stress test or a sweep goes on where an earlier run with the same `out` was interrupted, or discards what it left; without
+        either such cases are an error.
     verify : bool, optional
         Compute the result again by another engine and compare.
     progress : callable or True, optional
@@ -72,7 +73,7 @@ def run(scenario, changes=None, *, out=None, threads=0, resume=False, verify=Fal
     """
     if verify:
         changes = {**(changes or {}), "numerics.verify": True}
-    return run_source(source_of(scenario, changes), out=out, threads=threads, resume=resume, progress=progress)
+    return run_source(source_of(scenario, changes), out=out, threads=threads, resume=resume, overwrite=overwrite, progress=progress)
 
 
 def check(scenario, changes=None):
@@ -125,13 +126,13 @@ def source_of(scenario, changes=None, data=None):
     raise TypeError(f"a scenario is a dict, a text or a path, not {type(scenario).__name__}")
 
 
-def run_source(source, *, out=None, threads=0, resume=False, progress=None):
+def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, progress=None):
     report = _Progress() if progress is True else progress
     laws = sys.modules.get(__package__ + "._python_laws")  # where no law is written in Python, none can fail
     if laws is not None:
         laws.last_error = None
     try:
-        done = core.run(source, "" if out is None else os.fspath(out), threads, resume, report)
+        done = core.run(source, "" if out is None else os.fspath(out), threads, resume, overwrite, report)
     finally:
         if isinstance(report, _Progress):
             report.close()

@@ -37,7 +37,7 @@ struct Source {
 struct Settings {
   std::string directory = {};
   int threads = 0;
-  bool resume = false;
+  scenarios::FoundCases found = scenarios::FoundCases::refuse;  ///< of a campaign: cases of an earlier run
   std::optional<std::function<void(std::size_t, std::size_t)>> progress = {};
 };
 
@@ -76,9 +76,7 @@ struct Run {
 
 scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, CallbackError& error) {
   scenarios::RunOptions options{
-      .directory = settings.directory,
-      .threads = settings.threads,
-      .found = settings.resume ? scenarios::FoundCases::resume : scenarios::FoundCases::refuse};
+      .directory = settings.directory, .threads = settings.threads, .found = settings.found};
   if (settings.progress)
     options.progress = [&](const scenarios::Progress& progress) {
       const py::gil_scoped_acquire lock;
@@ -200,19 +198,17 @@ void add_runs(py::module_& module) {
   add_run_class(module);
   module.def(
       "run",
-      [](const Source& source, const std::string& directory, int threads, bool resume,
+      [](const Source& source, const std::string& directory, int threads, bool resume, bool overwrite,
          std::optional<std::function<void(std::size_t, std::size_t)>> progress) {
-        return run(source, {directory, threads, resume, std::move(progress)});
+        return run(source, {directory, threads,
+                            resume      ? scenarios::FoundCases::resume
+                            : overwrite ? scenarios::FoundCases::overwrite
+                                        : scenarios::FoundCases::refuse,
+                            std::move(progress)});
       },
       py::arg("source"), py::arg("directory") = "", py::arg("threads") = 0, py::arg("resume") = false,
-      py::arg("progress") = py::none());
+      py::arg("overwrite") = false, py::arg("progress") = py::none());
   module.def("resolved", [](const Source& source) { return load(source).resolved; }, py::arg("source"));
-  module.def(
-      "law_parameters",
-      [](const std::string& law, const std::vector<std::string>& set) {
-        static_cast<void>(scenarios::law_parameters(law, set));
-      },
-      py::arg("law"), py::arg("set"));
   module.def("csv_text", &csv_text, py::arg("columns"), py::arg("rows"));
 }
 

@@ -141,6 +141,7 @@ def run(
     out: Path | None = None,
     threads: int = 0,
     resume: bool = False,
+    overwrite: bool = False,
     verify: bool = False,
     progress: Progress | None = None,
 ) -> Result: ...

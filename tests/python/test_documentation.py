@@ -18,7 +18,7 @@ OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 def run_examples(text, name):
     test = doctest.DocTestParser().get_doctest(text, {}, name, name, 0)
     report = []
-    doctest.DocTestRunner(optionflags=OPTIONS).run(test, out=report.append)
+    doctest.DocTestRunner(optionflags=OPTIONS, verbose=False).run(test, out=report.append)
     assert not report, "".join(report)
     return len(test.examples)
 

@@ -103,7 +103,15 @@ def test_no_place_for_the_result(tmp_path):
         dd.run("scenarios/examples/xy_curve.yaml", out=tmp_path / "file")
 
 
-def test_interrupt():
+@pytest.fixture
+def interruptible():
+    """Python's own handler; a process in the background of a shell may begin without one."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_interrupt(interruptible):
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):

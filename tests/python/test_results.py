@@ -147,6 +147,15 @@ def test_a_campaign_reports_its_progress(tmp_path):
     assert len(result.ranking) > 0
 
 
+def test_cases_of_an_earlier_run(tmp_path):
+    first = dd.run("scenarios/stress/small.yaml", out=tmp_path)
+    assert dd.run("scenarios/stress/small.yaml", out=tmp_path, resume=True).result.cases == first.result.cases
+    another = ("scenarios/stress/small.yaml", {"analysis.seeds": 3, "expect": [{"value": "cases.all", "equals": 30}]})
+    with pytest.raises(dd.DualdampError, match="--overwrite begins anew"):
+        dd.run(*another, out=tmp_path)
+    assert dd.run(*another, out=tmp_path, overwrite=True).result.cases.failed == 0
+
+
 def test_a_campaign_without_a_directory_leaves_nothing(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     dd.run("scenarios/stress/small.yaml")
