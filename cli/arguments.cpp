@@ -63,7 +63,10 @@ class Parser {
     add_predict();
     add_report();
     add_lists();
+    add_shell();
   }
+
+  [[nodiscard]] CommandTable table() const { return command_table(app_); }
 
   Call parse(int argc, const char* const* argv) {
     const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
@@ -91,7 +94,7 @@ class Parser {
 
   void add_run() {
     run_command_ = app_.add_subcommand("run", "Run scenario files");
-    run_command_->add_option("FILE", run_.files, "Scenario files")->required()->type_name("");
+    run_command_->add_option("SCENARIO", run_.files, "Scenario files")->required()->type_name("");
     add_output_options(*run_command_, run_.out, run_.json, run_.quiet);
     run_command_->add_option("--set", run_.set, "Set a value before the file is checked: --set system.mass='2 kg'")
         ->allow_extra_args(false)
@@ -122,7 +125,7 @@ class Parser {
         app_.add_subcommand("stress", "Export a stress test to other programs, and score their answers");
     stress_command_->require_subcommand(1);
     const auto add_common = [&](CLI::App& command, std::string& file, std::vector<std::string>& set, int& jobs) {
-      command.add_option("FILE", file, "A scenario with the analysis stress_test")->required()->type_name("");
+      command.add_option("SCENARIO", file, "A scenario with the analysis stress_test")->required()->type_name("");
       command.add_option("--set", set, "Set a value before the file is checked, the same for export and score")
           ->allow_extra_args(false)
           ->type_name("PATH=VALUE");
@@ -163,7 +166,7 @@ class Parser {
 
   void add_check() {
     check_command_ = app_.add_subcommand("check", "Check scenario files without running them");
-    check_command_->add_option("FILE", check_.files, "Scenario files")->required()->type_name("");
+    check_command_->add_option("SCENARIO", check_.files, "Scenario files")->required()->type_name("");
     add_plugins(*check_command_);
   }
 
@@ -189,10 +192,8 @@ class Parser {
             "m g l of a pendulum, such as '2.9 N.m': the part of the stiffness, or the whole of it, whose torque "
             "is m g l sin(x)")
         ->type_name("QUANTITY");
-    command
-        .add_option("--coordinate", identify_.coordinate,
-                    "What x is, displacement or angle (default: what the units say)")
-        ->type_name("KIND");
+    command.add_option("--coordinate", identify_.coordinate, "What x is (default: what the units say)")
+        ->type_name("displacement|angle");
     command
         .add_option("--frequency", identify_.frequency,
                     "Forcing frequency, such as '6.17 Hz'; a free decay has none")
@@ -200,7 +201,7 @@ class Parser {
     command
         .add_option("--method", identify_.methods, "A method to use; default: all methods that can read the data")
         ->allow_extra_args(false)
-        ->type_name("NAME");
+        ->type_name("METHOD");
     command
         .add_option("--sigma-x", identify_.sigma_x,
                     "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'")
@@ -351,7 +352,7 @@ class Parser {
 
   void add_lists() {
     laws_command_ = app_.add_subcommand("laws", "List the friction laws, or explain one");
-    CLI::Option* name = laws_command_->add_option("NAME", laws_.name, "A law")->type_name("");
+    CLI::Option* name = laws_command_->add_option("LAW", laws_.name, "A law")->type_name("");
     CLI::Option* check =
         laws_command_->add_flag("--check", laws_.check, "Test whether the law keeps its contract")->needs(name);
     laws_command_->add_option("--set", laws_.set, "A parameter of the law that is tested: --set kinetic='2 N'")
@@ -368,12 +369,26 @@ class Parser {
         ->needs(check);
     add_plugins(*laws_command_);
     methods_command_ = app_.add_subcommand("methods", "List the identification methods, or explain one");
-    methods_command_->add_option("NAME", methods_.name, "A method")->type_name("");
+    methods_command_->add_option("METHOD", methods_.name, "A method")->type_name("");
     analyses_command_ = app_.add_subcommand("analyses", "List the analyses, or explain one");
-    analyses_command_->add_option("NAME", analyses_.name, "An analysis")->type_name("");
+    analyses_command_->add_option("ANALYSIS", analyses_.name, "An analysis")->type_name("");
     schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
     schema_command_->add_flag("--markdown", schema_.markdown, "Print the reference page instead");
     add_plugins(*schema_command_);
+  }
+
+  void add_shell() {
+    completion_command_ = app_.add_subcommand("completion", "Print the completion of commands for a shell");
+    completion_command_->add_option("bash|zsh|fish", completion_.shell, "The shell")
+        ->required()
+        ->type_name("")
+        ->check([](const std::string& shell) {
+          const bool is_known = shell == "bash" || shell == "zsh" || shell == "fish";
+          return is_known ? std::string()
+                          : "there is no completion for '" + shell + "'; there are: bash, zsh, fish";
+        });
+    add_plugins(*completion_command_);
+    manual_command_ = app_.add_subcommand("manual", "Print the manual page: dualdamp manual | man -l -");
   }
 
   /// What is wrong with a command line that names none of the commands.
@@ -404,6 +419,8 @@ class Parser {
     if (laws_command_->parsed()) return laws_;
     if (methods_command_->parsed()) return methods_;
     if (analyses_command_->parsed()) return analyses_;
+    if (completion_command_->parsed()) return completion_;
+    if (manual_command_->parsed()) return ManualCommand{};
     return schema_;
   }
 
@@ -425,6 +442,8 @@ class Parser {
   CLI::App* methods_command_ = nullptr;
   CLI::App* analyses_command_ = nullptr;
   CLI::App* schema_command_ = nullptr;
+  CLI::App* completion_command_ = nullptr;
+  CLI::App* manual_command_ = nullptr;
   std::vector<std::string> plugins_ = plugins_of_environment();
   RunCommand run_;
   ExportCommand export_;
@@ -441,10 +460,13 @@ class Parser {
   MethodsCommand methods_;
   AnalysesCommand analyses_;
   SchemaCommand schema_;
+  CompletionCommand completion_;
 };
 
 }  // namespace
 
 Call parse(int argc, const char* const* argv) { return Parser().parse(argc, argv); }
+
+CommandTable command_table() { return Parser().table(); }
 
 }  // namespace dualdamp::cli

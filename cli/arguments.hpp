@@ -1,9 +1,11 @@
 #pragma once
-/// The command line as values. Only arguments.cpp knows the library that parses it.
+/// The command line as values. Only arguments.cpp and command_table.cpp know the library that parses it.
 
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "cli/command_table.hpp"
 
 namespace dualdamp::cli {
 
@@ -65,6 +67,12 @@ struct AnalysesCommand {
 struct SchemaCommand {
   bool markdown = false;
 };
+
+struct CompletionCommand {
+  std::string shell;
+};
+
+struct ManualCommand {};
 
 /// What data files do not say of themselves.
 struct FileOptions {
@@ -147,9 +155,10 @@ struct Leave {
   bool json = false;  ///< the caller wanted JSON
 };
 
-using Command = std::variant<RunCommand, ExportCommand, ScoreCommand, CheckCommand, LawsCommand, MethodsCommand,
-                             AnalysesCommand, SchemaCommand, IdentifyCommand, NextCommand, FitCommand,
-                             PredictCommand, ReportCommand, CompareCommand, NewCommand, Leave>;
+using Command =
+    std::variant<RunCommand, ExportCommand, ScoreCommand, CheckCommand, LawsCommand, MethodsCommand,
+                 AnalysesCommand, SchemaCommand, CompletionCommand, ManualCommand, IdentifyCommand, NextCommand,
+                 FitCommand, PredictCommand, ReportCommand, CompareCommand, NewCommand, Leave>;
 
 /// A command line.
 struct Call {
@@ -160,5 +169,8 @@ struct Call {
 /// Plugins are those that the environment variable DUALDAMP_PLUGINS names, colons between them, then those of
 /// `--plugin`, wherever it stands.
 [[nodiscard]] Call parse(int argc, const char* const* argv);
+
+/// What `parse` accepts.
+[[nodiscard]] CommandTable command_table();
 
 }  // namespace dualdamp::cli

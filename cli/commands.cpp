@@ -16,11 +16,13 @@
 #include "bench/analyses.hpp"
 #include "bench/processes.hpp"
 #include "cli/charts.hpp"
+#include "cli/completion.hpp"
 #include "cli/conformance.hpp"
 #include "cli/fit_scenario.hpp"
 #include "cli/identify_scenario.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
+#include "cli/manual.hpp"
 #include "cli/new_scenario.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
@@ -351,11 +353,14 @@ int execute(const CompareCommand& command) {
              {});
 }
 
-Report of_list(const Listing& listing) {
-  if (!listing.found) return refused(ExitStatus::usage, listing.text);
+Report text_report(std::string text) {
   Report report;
-  report.text = listing.text;
+  report.text = std::move(text);
   return report;
+}
+
+Report of_list(const Listing& listing) {
+  return listing.found ? text_report(listing.text) : refused(ExitStatus::usage, listing.text);
 }
 
 int execute(const LawsCommand& command) {
@@ -378,11 +383,16 @@ int execute(const AnalysesCommand& command) { return say(of_list(list_analyses(c
 int execute(const NewCommand& command) { return say(of_list(new_scenario(command.analysis)), {}); }
 
 int execute(const SchemaCommand& command) {
-  Report report;
-  report.text =
-      command.markdown ? scenarios::reference_page(bench::analyses()) : scenarios::json_schema(bench::analyses());
-  return say(report, {});
+  return say(text_report(command.markdown ? scenarios::reference_page(bench::analyses())
+                                          : scenarios::json_schema(bench::analyses())),
+             {});
 }
+
+int execute(const CompletionCommand& command) {
+  return say(text_report(completion_script(command.shell, command_table())), {});
+}
+
+int execute(const ManualCommand& /*command*/) { return say(text_report(manual_page(command_table())), {}); }
 
 int execute(const Leave& leave) {
   if (leave.status == 0) {
