@@ -17,7 +17,7 @@ find_package(Ceres REQUIRED)
 find_package(MPI QUIET COMPONENTS CXX)  # optional: several processes share a campaign
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
-pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
+pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # the one that matio is built over
 pkg_check_modules(matio REQUIRED IMPORTED_TARGET matio)
 pkg_check_modules(sleef REQUIRED IMPORTED_TARGET sleef)
 find_path(RANDOM123_INCLUDE Random123/philox.h REQUIRED)
