@@ -11,7 +11,14 @@ endforeach()
 add_custom_command(OUTPUT ${pages}/dualdamp.1.gz COMMAND gzip -9nc ${pages}/manual > ${pages}/dualdamp.1.gz DEPENDS ${pages}/manual VERBATIM)
 add_custom_target(dualdamp_pages ALL DEPENDS ${written} ${pages}/dualdamp.1.gz)
 
-set(CPACK_PACKAGE_CONTACT "dualdamp contributors <root@localhost>" CACHE STRING "Maintainer of the Debian package: name <address>")
+# The maintainer of the Debian package, as Debian's tools are told.
+set(CPACK_PACKAGE_CONTACT "dualdamp contributors <root@localhost>")
+if(DEFINED ENV{DEBEMAIL})
+  set(CPACK_PACKAGE_CONTACT "dualdamp contributors <$ENV{DEBEMAIL}>")
+  if(DEFINED ENV{DEBFULLNAME})
+    set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+  endif()
+endif()
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   # What Debian wants of a package.
   set(zsh_place ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
@@ -33,8 +40,13 @@ install(FILES ${pages}/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME dualdamp)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "simulate vibrations with friction and identify friction from them")
-set(CPACK_PACKAGE_DESCRIPTION
-  "A mass on a spring with friction, simulated exactly from event to event; viscous\n damping and Coulomb friction identified from measured amplitudes, decays and\n histories; and a test of how far such estimates can be trusted when friction is\n not what they assume.\n .\n The package holds the program, its static libraries with their headers, and the\n C header for friction laws of one's own.")
+set(CPACK_PACKAGE_DESCRIPTION "A mass on a spring with friction, simulated exactly from event to event;
+viscous damping and Coulomb friction identified from measured amplitudes,
+decays and histories; and a test of how far such estimates can be trusted
+when friction is not what they assume.
+
+The package holds the program, its static libraries with their headers, and
+the C header for friction laws of one's own.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
