@@ -176,7 +176,8 @@ void complete_plausible(CheckedFile& file) {
   Json list = analysis.value("plausible", Json::array());
   const std::size_t given = list.size();
   for (const Json& name : analysis.at("mechanisms")) {
-    const auto is_it = [&](const Json& item) { return item.at("mechanism") == name; };
+    // A faulty item has no name.
+    const auto is_it = [&](const Json& item) { return item.contains("mechanism") && item.at("mechanism") == name; };
     if (std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(given), is_it)) continue;
     const Rig* mechanism = find_mechanism(name.get<std::string>());
     for (const PlausibleValues& plausible : mechanism->plausible) {

@@ -14,6 +14,7 @@ if(CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 option(DUALDAMP_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
+option(DUALDAMP_FUZZ "Link the harnesses of tests/fuzz with clang's libFuzzer" OFF)
 set(DUALDAMP_SANITIZE "" CACHE STRING "Sanitizers of every target: address,undefined or thread")
 
 # Asserts stay on wherever speed is not the point: only Release turns them off.
@@ -45,6 +46,7 @@ target_link_options(dualdamp_options INTERFACE "$<${DUALDAMP_LINK_TIME}:-flto=au
 if(DUALDAMP_SANITIZE)
   target_compile_options(dualdamp_options INTERFACE
     -fsanitize=${DUALDAMP_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
-    -Wno-maybe-uninitialized)  # GCC loses track of what instrumentation has initialised
+    # GCC loses track of what instrumentation has initialised.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(dualdamp_options INTERFACE -fsanitize=${DUALDAMP_SANITIZE})
 endif()

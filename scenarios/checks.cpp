@@ -123,7 +123,7 @@ void resolve_frequency(CheckedFile& file) {
   const auto word = frequency.get<std::string>();
   if (word != "natural" && word != "damped") return;
   for (const char* key : {"mass", "stiffness"})
-    if (!file.stands_in_file("system", key) && !file.needs()->whole_system)
+    if (!file.stands_in_file("system", key) && file.needs() != nullptr && !file.needs()->whole_system)
       file.complain("excitation.frequency", "a " + word + " frequency needs the system's " + key, "a frequency");
   if (!m || !k) return;
   const double natural = std::sqrt(*k / *m);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scenarios/format/values.hpp"
+#include "core/units.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -80,7 +80,9 @@ std::string CheckedFile::text_at(const std::string& section, const std::string& 
 
 std::optional<double> CheckedFile::number_at(const std::string& section, const std::string& key) const {
   if (!has(section, key)) return std::nullopt;
-  return number(reading_.values.at(section).at(key));
+  const Json& value = reading_.values.at(section).at(key);
+  return value.is_string() ? core::parse_quantity(value.get<std::string>(), "rad/s").value
+                           : std::optional(value.get<double>());
 }
 
 const Json* CheckedFile::measurement() const {

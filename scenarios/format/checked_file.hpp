@@ -90,7 +90,7 @@ class CheckedFile {
   /// Of the value at `path`, or of what contains it.
   [[nodiscard]] Place place_of(std::string path) const;
 
-  /// The value at exactly this path stands in the file and could be read.
+  /// A value stands in the file at exactly this path, whether or not it could be read.
   [[nodiscard]] bool is_given(const std::string& path) const { return reading_.places.contains(path); }
 
   /// A section without its key; nullptr when it is not there.
@@ -104,6 +104,7 @@ class CheckedFile {
 
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
   [[nodiscard]] std::string text_at(const std::string& section, const std::string& key) const;
+  /// Nothing where the key is missing, or still holds a word such as `natural` that the constants do not resolve.
   [[nodiscard]] std::optional<double> number_at(const std::string& section, const std::string& key) const;
 
   /// `analysis.measurement`; nullptr when there is none.

@@ -82,7 +82,8 @@ void check_method_options(CheckedFile& file, std::size_t pairs) {
   for (const Json& name : analysis.at("methods")) chosen.push_back(identify::find_method(name.get<std::string>()));
   for (const identify::Option* option : identify::options()) {
     const std::string path = "analysis." + std::string(option->name);
-    if (!file.is_given(path) || !asks_for_something(value_of(option->kind, analysis.at(option->name)))) continue;
+    if (!file.is_given(path) || !analysis.contains(option->name)) continue;  // given, and faulty
+    if (!asks_for_something(value_of(option->kind, analysis.at(option->name)))) continue;
     if (names_of(chosen, *option, true).empty())
       file.complain(path, "none of the chosen methods uses '" + path + "'",
                     "with one of the methods " + joined(names_of(all, *option, true)),
