@@ -10,7 +10,9 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "bench/analyses.hpp"
@@ -77,6 +79,12 @@ Report guarded(Work work) {
     return refused(ExitStatus::invalid_input, error.diagnostics());
   } catch (const scenarios::OutputError& error) {
     return refused(ExitStatus::usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return refused(ExitStatus::usage,
+                   "there is not enough memory for this: ask for less, or raise the limit (ulimit -v)");
+  } catch (const std::system_error& error) {
+    return refused(ExitStatus::usage,
+                   std::string("the system refused what the computation needs: ") + error.what());
   } catch (const friction::LawFault& fault) {
     return refused(ExitStatus::numerical_failure, fault.what());
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "scenarios/format/json_text.hpp"
 #include "scenarios/results/files.hpp"
 
 namespace dualdamp::cli {
@@ -74,8 +75,8 @@ void add_drive(const RecordCommand& command, scenarios::LoadOptions& options) {
 Json fitted_document(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path file = fs::is_directory(path) ? fs::path(path) / "result.json" : fs::path(path);
-  constexpr std::size_t largest = std::size_t{1} << 30U;
-  Json document = Json::parse(scenarios::read_file(file.string(), largest), nullptr, false);
+  constexpr std::size_t largest = std::size_t{1} << 26U;
+  Json document = scenarios::parse_json(scenarios::read_file(file.string(), largest));
   if (!document.is_object() || document.value("analysis", Json()) != "fit" || !document.contains("result"))
     refuse(file.string(), "this is not the result of a fit");
   if (!document.at("result").is_object()) refuse(file.string(), "the fit has no result");
@@ -131,8 +132,9 @@ scenarios::Scenario scenario_of(const FitCommand& command) {
   return scenario;
 }
 
-scenarios::Scenario scenario_of(const PredictCommand& command) {
-  const Json document = fitted_document(command.result);
+namespace {
+
+scenarios::Scenario prediction_by(const Json& document, const PredictCommand& command) {
   const Json& result = document.at("result");
   scenarios::LoadOptions options;
   options.data_anywhere = true;
@@ -145,6 +147,17 @@ scenarios::Scenario scenario_of(const PredictCommand& command) {
       scenarios::parse_scenario(result.at("scenario").get<std::string>(), command.result, options);
   prediction.file = command.data.front();
   return prediction;
+}
+
+}  // namespace
+
+scenarios::Scenario scenario_of(const PredictCommand& command) {
+  const Json document = fitted_document(command.result);
+  try {
+    return prediction_by(document, command);
+  } catch (const Json::exception&) {
+    refuse(command.result, "the result of the fit is damaged");
+  }
 }
 
 }  // namespace dualdamp::cli

@@ -323,7 +323,11 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+/// Nobody reads a unit of a megabyte.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  return "'" + std::string(text.substr(0, longest)) + (text.size() > longest ? "...'" : "'");
+}
 
 QuantityText refused(std::string fault) { return {std::nullopt, std::move(fault), {}}; }
 

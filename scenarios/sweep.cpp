@@ -119,7 +119,14 @@ class SweepQuestion final : public Question, public Campaign {
     } else if (!run_with_file(context, lines)) {
       return {};
     }
-    return answer_of_sweep(lines, columns_, fields_, main_);
+    try {
+      return answer_of_sweep(lines, columns_, fields_, main_);
+    } catch (const Json::exception&) {
+      // Lines of an earlier run, which somebody may have changed.
+      core::Diagnostic problem{.message = "a line does not hold a point of this sweep", .allowed = "--overwrite"};
+      problem.place.file = options.directory + "/points.jsonl";
+      throw core::InputError(std::move(problem));
+    }
   }
 
  private:

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <ostream>
@@ -15,13 +14,15 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/random.hpp"
+#include "scenarios/format/json_text.hpp"
 
 namespace dualdamp::bench {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-constexpr std::uint32_t order_stream = 128;  // away from the draws of sensors and laws
+constexpr std::size_t most_bytes = std::size_t{1} << 28U;      // of answers
+constexpr std::size_t most_key_bytes = std::size_t{1} << 26U;  // of eight million cases
+constexpr std::uint32_t order_stream = 128;                    // away from the draws of sensors and laws
 
 [[noreturn]] void refuse(const std::string& path, int line, std::string message, std::string allowed = {},
                          std::string found = {}) {
@@ -175,13 +176,13 @@ scenarios::OutputFile key_file(const Key& key) {
 }
 
 Key read_key(const std::string& path) {
-  const nlohmann::json json = nlohmann::json::parse(scenarios::read_file(path, most_bytes), nullptr, false);
+  const scenarios::Json json = scenarios::parse_json(scenarios::read_file(path, most_key_bytes));
   Key key;
   try {
     key.scenario = json.at("scenario").get<std::string>();
     key.seed = json.at("seed").get<std::int64_t>();
     key.numbers = json.at("numbers").get<std::vector<std::size_t>>();
-  } catch (const nlohmann::json::exception&) {
+  } catch (const scenarios::Json::exception&) {
     refuse(path, 0, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
   }
   std::vector<bool> there(key.numbers.size(), false);

@@ -59,7 +59,7 @@ MarkedCases read_cases(const std::string& path, const Grid& grid) {
   if (!file) refuse("cannot be opened");
   std::string line;
   std::getline(file, line);  // the campaign
-  for (; std::getline(file, line); ++number) {
+  const auto read_line = [&] {
     const Json json = Json::parse(line, nullptr, false);
     if (json.is_discarded() || json.value("case", grid.cases()) != number || number >= grid.cases())
       refuse("case " + std::to_string(number) + " is missing");
@@ -76,6 +76,13 @@ MarkedCases read_cases(const std::string& path, const Grid& grid) {
           mark_of(question.entries[entry].answers.at(number), truth));
     if (!any) ++result.failed_cases;
     if (place.seed == 0) result.consequences.push_back(consequence_in(json));
+  };
+  for (; std::getline(file, line); ++number) {
+    try {
+      read_line();
+    } catch (const Json::exception&) {
+      refuse("the line does not hold a case");
+    }
   }
   if (number != grid.cases()) refuse("case " + std::to_string(number) + " is missing");
   return result;

@@ -12,8 +12,6 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr std::size_t most_columns = 1000;
-
 std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
 
 class HeaderReader {

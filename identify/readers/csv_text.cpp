@@ -48,7 +48,7 @@ void Fields::read_quoted() {
 std::vector<std::string> fields_of(std::string_view line, char separator) {
   std::vector<std::string> result;
   Fields fields(line, separator);
-  while (fields.next()) result.emplace_back(fields.text);
+  while (result.size() <= most_columns && fields.next()) result.emplace_back(fields.text);
   return result;
 }
 

@@ -106,7 +106,11 @@ class Fields {
   std::string unquoted_;
 };
 
-/// Fields of a line; those of an unclosed quote are what stands there.
+/// Columns that a file may have.
+inline constexpr std::size_t most_columns = 1000;
+
+/// Fields of a line, the first of them where there are more than `most_columns`; those of an unclosed quote are
+/// what stands there.
 [[nodiscard]] std::vector<std::string> fields_of(std::string_view line, char separator);
 
 /// The beginning of `text` that fits into a message, cut between characters.

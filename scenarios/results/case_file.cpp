@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/diagnostics.hpp"
@@ -32,7 +33,7 @@ std::optional<std::size_t> number_of(std::string_view line) {
   std::size_t number = 0;
   const char* begin = line.data() + number_key.size();
   const auto [end, fault] = std::from_chars(begin, line.data() + line.size(), number);
-  if (fault != std::errc() || end == begin || *end != ',') return std::nullopt;
+  if (fault != std::errc() || end == begin || *end != ',' || !nlohmann::json::accept(line)) return std::nullopt;
   return number;
 }
 

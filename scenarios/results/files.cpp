@@ -117,6 +117,8 @@ std::string read_file(const std::string& path, std::size_t limit) {
   struct stat status{};
   if (::fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     refuse_input(path, "is a directory, not a file");
+  const auto refuse_large = [&] { refuse_input(path, "is larger than " + std::to_string(limit >> 20U) + " MiB"); };
+  if (S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) > limit) refuse_large();
 
   std::string content;
   std::array<char, 1 << 16> buffer{};
@@ -126,7 +128,7 @@ std::string read_file(const std::string& path, std::size_t limit) {
     if (count < 0) refuse_input(path, std::string("cannot be read: ") + std::strerror(errno));
     if (count == 0) return content;
     content.append(buffer.data(), static_cast<std::size_t>(count));
-    if (content.size() > limit) refuse_input(path, "is larger than " + std::to_string(limit >> 20U) + " MiB");
+    if (content.size() > limit) refuse_large();
   }
 }
 

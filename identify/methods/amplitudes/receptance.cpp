@@ -222,12 +222,13 @@ bool enough(const std::vector<Pair>& states, Estimate& estimate) {
 
 std::string lacks_receptance(const Record& record) {
   if (std::string lack = lacks_phases(record); !lack.empty()) return lack;
+  constexpr std::size_t least = 3;
   std::vector<double> frequencies;
   for (const Pair& pair : record.pairs->pairs)
-    if (!std::isnan(pair.omega) && !std::isnan(pair.phase) &&
+    if (frequencies.size() < least && !std::isnan(pair.omega) && !std::isnan(pair.phase) &&
         std::ranges::find(frequencies, pair.omega) == frequencies.end())
       frequencies.push_back(pair.omega);
-  return frequencies.size() >= 3 ? "" : "the pairs with phases are at fewer than three frequencies";
+  return frequencies.size() >= least ? "" : "the pairs with phases are at fewer than three frequencies";
 }
 
 Estimate receptance(const Record& record, const KnownConstants& constants) {
