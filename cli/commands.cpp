@@ -10,9 +10,7 @@
 #include <iostream>
 #include <map>
 #include <mutex>
-#include <new>
 #include <optional>
-#include <system_error>
 #include <thread>
 
 #include "bench/analyses.hpp"
@@ -21,6 +19,7 @@
 #include "cli/completion.hpp"
 #include "cli/conformance.hpp"
 #include "cli/fit_scenario.hpp"
+#include "cli/guarded.hpp"
 #include "cli/identify_scenario.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/lists.hpp"
@@ -31,10 +30,8 @@
 #include "cli/report/result_directory.hpp"
 #include "cli/reports.hpp"
 #include "cli/stress.hpp"
-#include "core/build_info.hpp"
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
-#include "friction_models/law_fault.hpp"
 #include "friction_models/plugin.hpp"
 #include "scenarios/output.hpp"
 #include "scenarios/run.hpp"
@@ -50,47 +47,6 @@ namespace fs = std::filesystem;
 using core::ExitStatus;
 using scenarios::LoadOptions;
 using scenarios::Scenario;
-
-Report refused(ExitStatus status, const std::vector<core::Diagnostic>& problems) {
-  Report report;
-  report.status = status;
-  report.json = scenarios::json_refusal(status, problems);
-  for (const core::Diagnostic& problem : problems) report.errors += core::format(problem) + "\n";
-  return report;
-}
-
-Report refused(ExitStatus status, const std::string& message) {
-  return refused(status, {core::Diagnostic{{}, message, {}, {}, {}}});
-}
-
-Report bug(const std::string& what) {
-  return refused(ExitStatus::internal_bug, "this is a bug of dualdamp " + std::string(core::build_info().version) +
-                                               ": " + what +
-                                               "; please report it with the scenario and the commit " +
-                                               std::string(core::build_info().commit));
-}
-
-/// Runs `work`, which returns a Report, and turns what it throws into one.
-template <typename Work>
-Report guarded(Work work) {
-  try {
-    return work();
-  } catch (const core::InputError& error) {
-    return refused(ExitStatus::invalid_input, error.diagnostics());
-  } catch (const scenarios::OutputError& error) {
-    return refused(ExitStatus::usage, error.what());
-  } catch (const std::bad_alloc&) {
-    return refused(ExitStatus::usage,
-                   "there is not enough memory for this: ask for less, or raise the limit (ulimit -v)");
-  } catch (const std::system_error& error) {
-    return refused(ExitStatus::usage,
-                   std::string("the system refused what the computation needs: ") + error.what());
-  } catch (const friction::LawFault& fault) {
-    return refused(ExitStatus::numerical_failure, fault.what());
-  } catch (const std::exception& error) {
-    return bug(error.what());
-  }
-}
 
 /// Throws where results cannot go, before anything is computed.
 void refuse_unusable(const std::string& directory) {

@@ -323,10 +323,8 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
 }
 
-/// Nobody reads a unit of a megabyte.
 std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 80;
-  return "'" + std::string(text.substr(0, longest)) + (text.size() > longest ? "...'" : "'");
+  return "'" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...'" : "'");  // some are of a megabyte
 }
 
 QuantityText refused(std::string fault) { return {std::nullopt, std::move(fault), {}}; }

@@ -1,0 +1,50 @@
+#include "cli/shared_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+namespace dualdamp::cli {
+
+void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet) {
+  command.add_option("--out", out, "Directory for the results; created if missing")
+      ->type_name("DIR")
+      ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
+  command.add_flag("--json", json, "Print one JSON document and nothing else");
+  command.add_flag("--quiet", quiet, "Print only errors on stderr");
+}
+
+void add_plot(CLI::App& command, std::string& plot) {
+  command.add_option("--plot", plot, "Also draw the main chart into this SVG file")
+      ->type_name("FILE.svg")
+      ->check([](const std::string& text) {
+        return text.ends_with(".svg") ? std::string() : "'" + text + "' does not end in .svg";
+      });
+}
+
+void add_file_options(CLI::App& command, FileOptions& options) {
+  const auto add = [&command](const char* name, std::vector<std::string>& list, const char* text,
+                              const char* type) {
+    command.add_option(name, list, text)->allow_extra_args(false)->type_name(type);
+  };
+  add("--unit", options.units, "Unit of a column, if the file does not state it: --unit x=mm", "COLUMN=UNIT");
+  add("--column", options.columns,
+      "Name or number of a column in the file: --column x='LVDT 2'; in a .mat file also a field (run.x) or a "
+      "part of "
+      "a matrix ('data(:,2)')",
+      "COLUMN=NAME");
+  add("--scale", options.scales,
+      "What the numbers of a column are multiplied by: --scale x='2.5 mm/V'; the sensitivity of a sensor, "
+      "--scale "
+      "a='100 mV/g'; or a plain factor, --scale force=35.15",
+      "COLUMN=SCALE");
+  command.add_option("--decimal", options.decimal, "Decimal mark of a CSV file, . or , (default: .)")
+      ->type_name("MARK");
+  command.add_flag("--no-header", options.no_header,
+                   "The CSV file begins with numbers; --column t=1 --column x=2 say which column is which");
+  command.footer(
+      "Units are those of the file (x [mm], x (mm), x_mm, or a row of units below the names), else those of "
+      "--unit, else\n"
+      "SI with a warning. What files may look like, and what is refused: docs/data-files.md.");
+}
+
+}  // namespace dualdamp::cli

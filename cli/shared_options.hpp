@@ -1,0 +1,20 @@
+#pragma once
+/// Options that several commands have.
+
+#include <string>
+
+#include "cli/arguments.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace dualdamp::cli {
+
+/// Where results go and what is printed.
+void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet);
+void add_plot(CLI::App& command, std::string& plot);
+/// What a data file does not say of itself.
+void add_file_options(CLI::App& command, FileOptions& options);
+
+}  // namespace dualdamp::cli
