@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <ctime>
+#include <system_error>
 #include <thread>
 
 #include "core/cancellation.hpp"
@@ -36,9 +37,17 @@ void watch_for_interrupt() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  // A file that may not grow further is an error of the one who writes it.
+  (void)::signal(SIGXFSZ, SIG_IGN);
   // Threads started later inherit the mask, so that the signal goes to the watcher alone.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread([signals] { wait_for_interrupt(signals); }).detach();
+  try {
+    std::thread([signals] { wait_for_interrupt(signals); }).detach();
+  } catch (const std::system_error&) {
+    // No thread is to be had: an interrupt ends the program as it ends any other.
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  }
 }
 
 void say_interrupted() {

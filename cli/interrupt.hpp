@@ -1,5 +1,5 @@
 #pragma once
-/// SIGINT ends the program with status 130, but never in the middle of writing results.
+/// SIGINT and SIGTERM end the program with status 130, but never in the middle of writing results.
 ///
 /// Computations are cancelled (`core/cancellation.hpp`) and the program ends in the ordinary way. What has not come
 /// to an end after half a second, or when a second signal comes, is left as it is.

@@ -3,8 +3,10 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "cli/report/assets.hpp"
+#include "core/provenance.hpp"
 
 namespace dualdamp::cli {
 
@@ -23,6 +25,21 @@ std::string embedded(const Json& json) {
     else
       result += c;
   }
+  return result;
+}
+
+/// The digest of `core::sha256` as a content security policy states it.
+std::string base64_of(const std::string& hexadecimal) {
+  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  // Three hexadecimal digits are two of base 64; 64 of them leave one, with four bits.
+  std::string result;
+  for (std::size_t i = 0; i < hexadecimal.size(); i += 3) {
+    const std::string group = (hexadecimal.substr(i, 3) + "00").substr(0, 3);
+    const unsigned long value = std::stoul(group, nullptr, 16);
+    result += digits[value >> 6U];
+    result += digits[value & 63U];
+  }
+  result.back() = '=';
   return result;
 }
 
@@ -51,7 +68,8 @@ void write_page(std::ostream& out, const Json& document, const Json& tables,
   fill(out, {{"style", std::string(assets::page_css)},
              {"document", embedded(document)},
              {"tables", embedded(tables)},
-             {"script", std::move(script)}});
+             {"script_sha256", base64_of(core::sha256(script))},
+             {"script", script}});
 }
 
 }  // namespace dualdamp::cli

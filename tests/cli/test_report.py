@@ -81,7 +81,9 @@ class Page(unittest.TestCase):
     def load(self, page, probe=PROBE, size="1000,800"):
         """The page after its scripts and the probe have run, and what the console said."""
         copy = page.with_name("probed.html")
-        copy.write_text(page.read_text().replace("</body>", probe + "</body>"))
+        # The page's policy allows no script but its own: it would keep the probe out.
+        text = re.sub('<meta http-equiv="Content-Security-Policy"[^>]*>', "", page.read_text()) if probe else page.read_text()
+        copy.write_text(text.replace("</body>", probe + "</body>"))
         result = subprocess.run(
             [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--window-size={size}",
              f"--user-data-dir={self.folder / 'browser'}", "--virtual-time-budget=2000", "--dump-dom", copy.as_uri()],
@@ -354,6 +356,46 @@ class Page(unittest.TestCase):
         self.assertEqual(console, [])
         self.assertIn("&lt;b&gt;bold&lt;/b&gt;", dom)
         self.assertNotIn("<b>bold</b>", dom)
+
+    def test_no_other_script_runs(self):
+        """The policy of the page lets its own script run and no other, however it came into the page."""
+        out = self.folder / "policy"
+        self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", out, "--quiet")
+        page = out / "report.html"
+        dom, console = self.load(page, probe="")
+        self.assertEqual(console, [])
+        self.assertIn('data-ready="true"', dom)
+        text = page.read_text()
+        for number, foreign in enumerate(['<script>document.body.dataset.foreign = 1</script>', '<img src="data:," onerror="document.body.dataset.foreign = 1">',
+                                          '<script src="data:text/javascript,document.body.dataset.foreign = 1"></script>',
+                                          '<iframe srcdoc="<script>parent.document.body.dataset.foreign = 1</script>"></iframe>']):
+            with self.subTest(foreign):
+                other = out / f"other{number}.html"
+                other.write_text(text.replace("</body>", foreign + "</body>"))
+                dom, console = self.load(other, probe="")
+                self.assertIn('data-ready="true"', dom)
+                self.assertNotIn('data-foreign', dom.split(">", 20)[0] + "".join(re.findall("<body[^>]*>", dom)))
+                self.assertTrue(any("Content Security Policy" in line for line in console), console)
+
+    def test_names_cannot_become_markup(self):
+        """Names of columns, of laws and of reasons, in a result that somebody has changed."""
+        out = self.folder / "names"
+        self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", out, "--quiet")
+        script = '<img src=x onerror="throw 1">'
+        result = json.loads((out / "result.json").read_text())
+        result["warnings"] = [script]
+        result["scenario"]["title"] = script
+        result["scenario"]["system"]["friction"]["law"] = script
+        result["analysis"] = script
+        result["provenance"]["source"] = script
+        (out / "result.json").write_text(json.dumps(result))
+        table = (out / "curve.csv").read_text()
+        (out / "curve.csv").write_text(re.sub("^# source: .*$", "# source: " + script, table, flags=re.M).replace("\nY [m]", "\n" + script))
+        self.run_program("report", out)
+        dom, console = self.load(out / "report.html")
+        self.assertNotIn("<img", dom)
+        self.assertIn("&lt;img", dom)
+        self.assertFalse([line for line in console if "Uncaught 1" in line], console)
 
     def test_an_error_in_the_page_would_be_seen(self):
         self.run_program("run", ROOT / "scenarios/examples/formula.yaml", "--out", self.folder / "broken", "--quiet")

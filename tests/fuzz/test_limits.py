@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""What the machine refuses: full disks, places that cannot be written, little memory, signals at any time.
+
+usage: test_limits.py PROGRAM ROOT [TEST...]; DUALDAMP_TRIES: how often each is tried (default 1)
+
+Whatever happens, no file under its final name is half-written: documents parse, tables end with their last row.
+"""
+
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+ROOT = Path(sys.argv[2]).resolve()
+TRIES = int(os.environ.get("DUALDAMP_TRIES", "1"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from execution import BUG
+from seeds import SWEEP
+
+RIG = """schema: dualdamp/1
+system: {mass: 1.042 kg, stiffness: 1568 N/m, damping_ratio: 0.0987, friction: {law: coulomb, kinetic: 4.39 N}}
+excitation: {type: base_harmonic, amplitude: 5 mm, frequency: natural}
+"""
+CURVE = RIG + "analysis: {type: xy_curve, amplitudes: {from: 5 mm, to: 9 mm, count: 400}}\n"
+FREE = RIG.replace("excitation: {type: base_harmonic, amplitude: 5 mm, frequency: natural}", "excitation: {type: none}\ninitial: {position: 0.1 m}")
+COMMANDS = {
+    "xy_curve": CURVE,
+    "simulate": RIG + "analysis: {type: simulate, cycles: 200, sample_rate: 500 Hz}\n",
+    "sweep": SWEEP.replace("[1 N, 2.5 N, 4 N]", "{from: 1 N, to: 4 N, count: 60}"),
+    "identify": RIG.replace("amplitude: 5 mm, ", "") + "analysis: {type: identify, measurement: {type: xy_curve, amplitudes: [4.4 mm, 5 mm, 6 mm, 7 mm]}}\n",
+    "fit": (ROOT / "scenarios/examples/fit.yaml").read_text(),
+    "stress": (ROOT / "scenarios/stress/small.yaml").read_text(),
+}
+
+
+class Limits(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.folder.chmod(0o777)
+        for name, text in COMMANDS.items():
+            (self.folder / f"{name}.yaml").write_text(text)
+        for path in (ROOT / "scenarios/examples").glob("*.csv"):
+            (self.folder / path.name).write_bytes(path.read_bytes())
+        self.random = random.Random(1)
+
+    def run_limited(self, name, limit, out="out"):
+        result = subprocess.run([PROGRAM, "run", f"{name}.yaml", "--out", out], cwd=self.folder, capture_output=True, text=True, timeout=300, preexec_fn=limit)
+        self.assertIsNone(BUG.search(result.stderr), result.stderr)
+        return result
+
+    def check_whole(self, out="out", partial=False):
+        """Every file under its final name; `partial`: what a killed program was writing may lie beside them."""
+        for path in sorted((self.folder / out).glob("*")) if (self.folder / out).is_dir() else []:
+            if path.suffix == ".json":
+                json.loads(path.read_text())
+            elif path.suffix == ".csv":
+                lines = path.read_text().split("\n")
+                self.assertEqual(lines[-1], "", path)
+                rows = [line for line in lines[:-1] if not line.startswith("#")]
+                if '"' not in path.read_text():
+                    self.assertEqual({row.count(",") for row in rows}, {rows[0].count(",")}, path)
+            elif path.suffix == ".html":
+                self.assertTrue(path.read_text().rstrip().endswith("</html>"), path)
+            elif path.suffix != ".jsonl":
+                self.assertTrue(partial and path.name.endswith(".partial"), path)
+
+    def test_a_disk_that_is_full_at_any_byte(self):
+        """A limit on the size of files stands for the disk; 2 and a message, and never half a file."""
+        self.run_limited("xy_curve", None, "whole")
+        sizes = [path.stat().st_size for path in (self.folder / "whole").iterdir()]
+        for most in [0, 1, 4096, *[size - 1 for size in sizes], *[self.random.randrange(max(sizes)) for _ in range(TRIES)]]:
+            with self.subTest(most):
+                out = f"out{most}"
+                result = self.run_limited("xy_curve", lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)), out)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn("cannot write", result.stderr)
+                self.check_whole(out)
+
+    def test_a_disk_that_is_full_while_a_campaign_writes_its_cases(self):
+        for most in [0, 100, *[self.random.randrange(20_000) for _ in range(TRIES)]]:
+            with self.subTest(most):
+                result = self.run_limited("sweep", lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)), f"out{most}")
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.check_whole(f"out{most}")
+
+    def test_places_that_cannot_be_written(self):
+        (self.folder / "file").write_text("mine")
+        for out in ("/proc/self/out", "/sys/out", "/dev/null/out", "file", "file/out", "x" * 300, "a/" * 3000):
+            with self.subTest(out[:20]):
+                result = self.run_limited("xy_curve", None, out)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn("cannot", result.stderr)
+        self.assertEqual((self.folder / "file").read_text(), "mine")
+
+    def test_a_place_that_vanishes(self):
+        for _ in range(TRIES):
+            process = subprocess.Popen([PROGRAM, "run", "--quiet", "sweep.yaml", "--out", "out"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            time.sleep(self.random.uniform(0.02, 0.3))
+            subprocess.run(["rm", "-rf", "out"], cwd=self.folder, check=False)
+            _, errors = process.communicate(timeout=120)
+            self.assertIn(process.returncode, (0, 2, 3), errors)
+            self.assertIsNone(BUG.search(errors.decode()), errors)
+            self.check_whole()
+            subprocess.run(["rm", "-rf", "out"], cwd=self.folder, check=True)
+
+    def test_little_memory(self):
+        """From the least with which the program can be loaded upwards."""
+        for name in ("xy_curve", "identify"):
+            for megabytes in [*range(100, 400, 100 // TRIES + 10), 600, 1200]:
+                with self.subTest(f"{name} {megabytes}"):
+                    result = subprocess.run([PROGRAM, "run", f"{name}.yaml", "--out", "out"], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20)))
+                    if result.returncode == 127 or "error while loading shared libraries" in result.stderr:
+                        continue
+                    self.assertIn(result.returncode, (0, 2, 4), result.stderr)
+                    self.assertIsNone(BUG.search(result.stderr), result.stderr)
+                    self.check_whole()
+
+    def interrupted(self, number, statuses):
+        for name in COMMANDS:
+            for _ in range(max(TRIES // 3, 1)):
+                with self.subTest(name):
+                    process = subprocess.Popen([PROGRAM, "run", "--quiet", f"{name}.yaml", "--out", "out"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                               stderr=subprocess.PIPE)
+                    # The program takes 0.05 s to begin on a free machine.
+                    time.sleep(self.random.uniform(0.1, 1.2))
+                    process.send_signal(number)
+                    _, errors = process.communicate(timeout=120)
+                    self.assertIn(process.returncode, statuses, errors)
+                    self.check_whole(partial=number == signal.SIGKILL)
+                    subprocess.run(["rm", "-rf", "out"], cwd=self.folder, check=True)
+
+    def test_interrupted_at_any_time(self):
+        self.interrupted(signal.SIGINT, (0, 130))
+
+    def test_terminated_at_any_time(self):
+        self.interrupted(signal.SIGTERM, (0, 130))
+
+    def test_killed_at_any_time(self):
+        self.interrupted(signal.SIGKILL, (0, -signal.SIGKILL))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=1)
