@@ -12,17 +12,6 @@ namespace dualdamp::cli {
 
 using core::ExitStatus;
 
-namespace {
-
-Report bug(const std::string& what) {
-  return refused(ExitStatus::internal_bug, "this is a bug of dualdamp " + std::string(core::build_info().version) +
-                                               ": " + what +
-                                               "; please report it with the scenario and the commit " +
-                                               std::string(core::build_info().commit));
-}
-
-}  // namespace
-
 Report refused(ExitStatus status, const std::vector<core::Diagnostic>& problems) {
   Report report;
   report.status = status;
@@ -33,6 +22,13 @@ Report refused(ExitStatus status, const std::vector<core::Diagnostic>& problems)
 
 Report refused(ExitStatus status, const std::string& message) {
   return refused(status, {core::Diagnostic{{}, message, {}, {}, {}}});
+}
+
+Report bug(const std::string& what) {
+  return refused(ExitStatus::internal_bug, "this is a bug of dualdamp " + std::string(core::build_info().version) +
+                                               ": " + what +
+                                               "; please report it with the scenario and the commit " +
+                                               std::string(core::build_info().commit));
 }
 
 Report guarded(const std::function<Report()>& work) {
