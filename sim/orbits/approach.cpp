@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace dualdamp::sim {
 
@@ -22,8 +25,8 @@ constexpr double creeping = 1e-3;
 constexpr double arrived = 1e-9;
 
 /// A perturbation is followed over so many forcing periods.
-constexpr int periods_of_divergence = 200;
-constexpr int least_periods_of_divergence = 20;
+constexpr std::size_t periods_of_divergence = 200;
+constexpr std::size_t least_periods_of_divergence = 20;
 /// Mean logarithmic growth of a perturbation in one forcing period: more is no rounding and no slow transient.
 constexpr double diverging = 0.03;
 
@@ -180,26 +183,28 @@ std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
   return at_start(*candidate_);
 }
 
-/// Mean logarithmic growth of a perturbation in one forcing period: the largest Lyapunov exponent, nearly.
+/// Mean logarithmic growth of a perturbation in one forcing period: the largest Lyapunov exponent, nearly. The
+/// first half is left out: a position that drifts with a speed grows too, but ever more slowly.
 double Approach::divergence(const State& state) {
   PeriodMap& map = solver_.patient_map_over(1);
   map.limit(map.engine().work() + patience_.work / 4);
   ForcingPeriod period = map.from(state, Monodromy::with);
   Eigen::VectorXd perturbation = Eigen::VectorXd::Ones(period.monodromy.cols());
   perturbation[1] = omega_;
-  double sum = 0.0;
-  int count = 0;
-  while (count < periods_of_divergence && map.outcome().ok()) {
+  std::vector<double> growth;
+  while (growth.size() < periods_of_divergence && map.outcome().ok()) {
     if (period.monodromy.cols() != perturbation.size() || !period.monodromy.allFinite()) return 0.0;
     const auto size = [&](const Eigen::VectorXd& d) { return std::hypot(d[0], d[1] / omega_); };
     const Eigen::VectorXd grown = period.monodromy * perturbation;
     if (!(size(grown) > 0.0)) return 0.0;
-    sum += std::log(size(grown) / size(perturbation));
+    growth.push_back(std::log(size(grown) / size(perturbation)));
     perturbation = grown / size(grown);
     period = map.next(Monodromy::with);
-    ++count;
   }
-  return count < least_periods_of_divergence ? 0.0 : sum / count;
+  if (growth.size() < least_periods_of_divergence) return 0.0;
+  const auto later = static_cast<std::ptrdiff_t>(growth.size() / 2);
+  return std::accumulate(growth.begin() + later, growth.end(), 0.0) /
+         static_cast<double>(growth.size() - growth.size() / 2);
 }
 
 /// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.

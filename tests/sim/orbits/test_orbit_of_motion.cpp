@@ -151,6 +151,18 @@ TEST_CASE("a drive that barely moves the mass has one steady state from every st
   }
 }
 
+TEST_CASE("a motion far above resonance is periodic, although displacements from it drift for long") {
+  // The spring, the damper and friction are 1e-4 of the inertial force and less: x = F/(m omega^2).
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 2.0};
+  model.friction.emplace_back(friction::Coulomb(2.0, 2.0));
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 4e5, .frequency = 1e5};
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.amplitude == Approx(4e-5).epsilon(1e-6));
+  CHECK(state.stable());
+}
+
 TEST_CASE("an aperiodic motion is called so") {
   // Ueda's x'' + 0.05 x' + x^3 = 7.5 cos t is chaotic; the linear spring is next to nothing.
   sim::Model model;
