@@ -77,7 +77,7 @@ def function(name):
     item = _tables.entry("analyses", name)
 
     def analyse(system, excitation=None, **keys):
-        return _run_analysis(name, system, excitation, keys)
+        return _run_analysis(name, system, excitation, _tables.as_keys(keys))
 
     # An analysis that has a common key of its own, such as initial of a free decay, keeps it.
     known = {key["name"] for key in item["keys"]}

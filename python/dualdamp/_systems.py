@@ -61,7 +61,7 @@ def _restored(kind, values):
 
 
 def _arguments(values):
-    return ", ".join(f"{key}={value!r}" for key, value in values.items())
+    return ", ".join(f"{_tables.python_name(key)}={value!r}" for key, value in values.items())
 
 
 def _check(system, excitation=None):
@@ -144,6 +144,7 @@ def excitation(type, **keys):  # noqa: A002 - the key of the scenario file
         keys of one.
     **keys
         As in a scenario file: texts with units or SI numbers; a frequency always has a unit, or is ``"natural"`` or ``"damped"``.
+        The key ``from`` is written ``from_``.
 
     Returns
     -------
@@ -165,6 +166,7 @@ def excitation(type, **keys):  # noqa: A002 - the key of the scenario file
     >>> dd.excitation("base_harmonic", amplitude="0.1 m", frequency="1.59 Hz")
     excitation('base_harmonic', amplitude='0.1 m', frequency='1.59 Hz')
     """
+    keys = _tables.as_keys(keys)
     known = [key["name"] for key in _tables.entry("excitation", type)["keys"]]
     for key in keys:
         if key not in known:

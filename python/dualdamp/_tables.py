@@ -34,13 +34,23 @@ def entry(kind, name):
     raise ValueError(f"there is no {singular} {name!r}; there are: {', '.join(item['name'] for item in tables()[kind])}")
 
 
+def python_name(key):
+    """A key as the name of a parameter: ``from`` is ``from_``, since Python has that word for itself."""
+    return key + "_" if words.iskeyword(key) else key
+
+
+def as_keys(arguments):
+    """Arguments by the names of the format."""
+    return {name[:-1] if name.endswith("_") and words.iskeyword(name[:-1]) else name: value for name, value in arguments.items()}
+
+
 def signature_of(keys, first=(), last=()):
     """The keys as keyword-only parameters, those that must be there without default."""
     keyword = inspect.Parameter.KEYWORD_ONLY
     named = [
-        inspect.Parameter(key["name"], keyword, default=inspect.Parameter.empty if key["required"] else None)
+        inspect.Parameter(python_name(key["name"]), keyword, default=inspect.Parameter.empty if key["required"] else None)
         for key in keys
-        if key["name"].isidentifier() and not words.iskeyword(key["name"])  # others by **{"from": ...}
+        if key["name"].isidentifier()
     ]
     return inspect.Signature([*first, *named, *last])
 
@@ -50,7 +60,7 @@ def parameter_docs(keys):
     lines = []
     for key in keys:
         unit = f" [{key['unit']}]" if key.get("unit") not in (None, "", "1") else ""
-        lines.append(f"{key['name']} : {key['values']}{unit if unit.strip(' []') not in key['values'] else ''}" + ("" if key["required"] else ", optional"))
+        lines.append(f"{python_name(key['name'])} : {key['values']}{unit if unit.strip(' []') not in key['values'] else ''}" + ("" if key["required"] else ", optional"))
         meaning = key["meaning"] + (f"; default: {key['default']}" if key.get("default") and key["default"] != "required" else "")
         lines += textwrap.wrap(meaning, _WIDTH, initial_indent="    ", subsequent_indent="    ")
     return lines

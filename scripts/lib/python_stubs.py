@@ -4,11 +4,10 @@
 usage: PYTHONPATH=build/ci/python python3 scripts/lib/python_stubs.py > python/dualdamp/__init__.pyi
 """
 
-import keyword
 import sys
 
 from dualdamp._analyses import OF_SYSTEMS
-from dualdamp._tables import entry, tables
+from dualdamp._tables import entry, python_name, tables
 
 HEAD = '''# Written by scripts/lib/python_stubs.py from the tables of the format.
 import os
@@ -215,8 +214,8 @@ def type_of(key):
 def parameters_of(keys):
     """'name: type' and 'name: type | None = None'."""
     for key in keys:
-        if key["name"].isidentifier() and not keyword.iskeyword(key["name"]):
-            yield f"{key['name']}: {type_of(key)}" + ("" if key["required"] else " | None = None")
+        if key["name"].isidentifier():
+            yield f"{python_name(key['name'])}: {type_of(key)}" + ("" if key["required"] else " | None = None")
 
 
 def function(name, first, keys, result, margin=""):

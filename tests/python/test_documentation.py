@@ -48,14 +48,25 @@ def test_signatures_and_docstrings_follow_the_tables(kind, names):
     for name in names:
         keys = [key["name"] for key in _tables.entry(kind, name)["keys"]]
         make = getattr(names, name)
-        assert list(inspect.signature(make).parameters) == [key for key in keys if not keyword.iskeyword(key)]
-        assert all(f"\n{key} : " in make.__doc__ for key in keys)
+        names_of_keys = [key + "_" if keyword.iskeyword(key) else key for key in keys]
+        assert list(inspect.signature(make).parameters) == names_of_keys
+        assert all(f"\n{key} : " in make.__doc__ for key in names_of_keys)
+
+
+def test_keys_that_are_words_of_python_have_an_underscore(rig):
+    chirp = dd.excitations.base_chirp(amplitude="1 mm", from_="1 Hz", to="2 Hz", duration="1 s")
+    assert chirp.to_dict()["from"] == "1 Hz"
+    assert eval(repr(chirp), {"excitation": dd.excitation}) == chirp
+    drive = dd.excitation("base_harmonic", frequency="natural")
+    curve = rig.xy_curve(drive, amplitudes=[0.1, 0.2], continue_="both")
+    assert len(curve.points) == 4
 
 
 def test_analyses_have_all_their_keys():
     for name in _analyses.OF_SYSTEMS:
         keys = {key["name"] for key in _tables.entry("analyses", name)["keys"]}
-        assert keys < set(inspect.signature(getattr(dd, name)).parameters)
+        names_of_keys = {key + "_" if keyword.iskeyword(key) else key for key in keys}
+        assert names_of_keys < set(inspect.signature(getattr(dd, name)).parameters)
 
 
 def test_everything_is_where_the_package_says():
