@@ -309,13 +309,13 @@ class Reader {
 
   Json range_of_grid(const Node& node, const Field& field, const std::string& path) {
     const std::size_t before = reading_.problems.size();
-    Json values = section(node, grid_section(field), path, nullptr);
-    if (reading_.problems.size() != before) return nullptr;
-    const auto is_zero = [&](const char* end) {
-      return values[end].is_number() && values[end].get<double>() <= 0.0;
-    };
+    const Section grid = grid_section(field);
+    Json values = section(node, grid, path, nullptr);
+    // A null was refused with the tree.
+    if (reading_.problems.size() != before || values.size() < grid.fields.size()) return nullptr;
     for (const char* end : {"from", "to"}) {
-      if (values["spacing"] != "log" || !is_zero(end)) continue;
+      const Json& value = values[end];
+      if (values["spacing"] != "log" || !value.is_number() || value.get<double>() > 0.0) continue;
       complain(reading_.places.at(path + "." + end),
                "'" + path + "." + end + "' must be positive: equal ratios do not reach zero", "> 0",
                shown(node.find(end)->value));

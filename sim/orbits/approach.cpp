@@ -202,9 +202,8 @@ double Approach::divergence(const State& state) {
     period = map.next(Monodromy::with);
   }
   if (growth.size() < least_periods_of_divergence) return 0.0;
-  const auto later = static_cast<std::ptrdiff_t>(growth.size() / 2);
-  return std::accumulate(growth.begin() + later, growth.end(), 0.0) /
-         static_cast<double>(growth.size() - growth.size() / 2);
+  growth.erase(growth.begin(), growth.begin() + static_cast<std::ptrdiff_t>(growth.size() / 2));
+  return std::accumulate(growth.begin(), growth.end(), 0.0) / static_cast<double>(growth.size());
 }
 
 /// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.

@@ -12,7 +12,7 @@ struct Patience {
 
 /// `accuracy`: of the engine, 0 for the exact one.
 constexpr Patience patience_with(double accuracy) {
-  return accuracy > 0.0 ? Patience{1000, 2'500'000} : Patience{8000, 2'000'000};
+  return accuracy > 0.0 ? Patience{1000, 3'000'000} : Patience{8000, 2'000'000};
 }
 
 }  // namespace dualdamp::sim

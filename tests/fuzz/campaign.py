@@ -46,6 +46,11 @@ class Outcome:
             self.command.append(execution.stderr[-3000:])
 
 
+def result_of(directory):
+    path = directory / "result.json"
+    return path.read_bytes() if path.is_file() else None
+
+
 def run_case(program, case, keep):
     outcome = Outcome()
     with tempfile.TemporaryDirectory() as name:
@@ -54,11 +59,14 @@ def run_case(program, case, keep):
             (folder / file).parent.mkdir(parents=True, exist_ok=True)
             (folder / file).write_bytes(content)
         for step in case.steps:
+            earlier = result_of(folder / step.out) if step.out else None
             execution = Execution(program, step.arguments, folder, BUDGET, MEMORY)
             faults = execution.faults(step.ends)
             if execution.status == 3:
                 faults += faults_of_refusal(execution, step.names)
-            if step.out and not execution.is_late:
+            if execution.status == 3 and earlier is not None:
+                faults += [] if result_of(folder / step.out) == earlier else ["a refusal changed the result that was there"]
+            elif step.out and not execution.is_late:
                 faults += faults_of_results(folder / step.out, execution.status)
             outcome.add(execution, step.what, faults)
             if execution.status not in (0, 1, 4, 5) or execution.is_late:
