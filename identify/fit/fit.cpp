@@ -65,7 +65,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
       std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
   result.starts = options.starts > 0 ? options.starts : all_stated ? 8 : 40;
   const std::optional<SearchResult> found =
-      search_parameters(problem, parameters, sizes, {.starts = result.starts, .robust = options.robust});
+      search_parameters(problem, parameters, sizes,
+                        {.points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust});
   if (!found) {
     result.outcome = {core::OutcomeKind::not_identifiable,
                       "the rig has no such motion with any of " + std::to_string(result.starts) + " starts"};

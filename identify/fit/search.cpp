@@ -16,8 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
-
 /// Weights and steps.
 class Search {
  public:
@@ -68,7 +66,7 @@ class Search {
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
       const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
-      const double own = options_.robust ? robust_deviation(part) : rms(part);
+      const double own = options_.robust ? robust_deviation(part) : deviation(part);
       const double found =
           problem_.signal(rows).is_stated ? deviations_[s] : own / std::sqrt(1.0 - std::min(spent, 0.9));
       if (!(found > 0.0)) continue;
@@ -87,8 +85,12 @@ class Search {
     if (signal.noise > 0.0) return signal.noise;
     if (signal.unit == "rad") return 0.01;
     const Eigen::VectorXd part = problem_.measured().segment(rows.begin, rows.end - rows.begin);
-    const double size = (part.array() - part.mean()).matrix().norm() / std::sqrt(static_cast<double>(part.size()));
+    const double size = deviation(part.array() - part.mean());
     return size > 0.0 ? 0.01 * size : 1.0;
+  }
+
+  static double deviation(const Eigen::VectorXd& part) {
+    return part.norm() / std::sqrt(static_cast<double>(part.size()));
   }
 
   static double robust_deviation(const Eigen::VectorXd& part) {
@@ -169,9 +171,8 @@ std::optional<LeastSquaresFit> search_growing(const std::vector<Eigen::VectorXd>
 
 /// Of searches that begin with different parts of the motions; where these do not end alike, or there are no
 /// motions, also from several starts with all readings.
-std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, std::size_t most_starts,
-                                              const Search& search, const FitProblem& problem,
-                                              const SearchOptions& options) {
+std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, const Search& search,
+                                              const FitProblem& problem, const SearchOptions& options) {
   std::optional<LeastSquaresFit> best = search_growing(points, 0.1, search, problem, options);
   if (best) {
     std::optional<LeastSquaresFit> other = search_growing(points, 0.35, search, problem, options);
@@ -180,7 +181,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
     if (other) take_better(std::move(*other), problem, best);
     if (agree) return best;
   }
-  const std::vector<Eigen::VectorXd> starts = best_of(points, search, most_starts);
+  const std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
   constexpr int few = 8;
   for (const Eigen::VectorXd& start : starts)
     take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), problem, best);
@@ -210,12 +211,10 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                               const std::vector<FitParameter>& parameters,
                                               const std::vector<double>& sizes, const SearchOptions& options) {
   Search search(problem, options);
-  const bool all_stated =
-      std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
   const std::vector<Eigen::VectorXd> points = parameters.empty()
                                                   ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
-                                                  : start_points(problem, parameters, sizes, options.starts);
-  std::optional<LeastSquaresFit> best = search_roughly(points, all_stated ? 2 : 3, search, problem, options);
+                                                  : start_points(problem, parameters, sizes, options.points);
+  std::optional<LeastSquaresFit> best = search_roughly(points, search, problem, options);
   if (!best) return std::nullopt;
   best = finish(std::move(*best), search, problem, options.robust || problem.signals().size() > 1);
   if (!best) return std::nullopt;

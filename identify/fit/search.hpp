@@ -2,8 +2,8 @@
 /// Searches the parameters of a rig whose motions come closest to what was measured.
 ///
 /// Least squares with weights from the noise of each signal, from several starts. The sum of squares of a long
-/// motion has a false minimum for each number of its swings; so where a search ends with more than noise, the
-/// beginning of each motion is fitted first, then more and more of it.
+/// motion has a false minimum for each number of its swings; so searches begin with the first part of each motion
+/// and take in more and more of it. Where these do not end alike, others begin with all readings.
 
 #include <Eigen/Core>
 #include <optional>
@@ -14,7 +14,8 @@
 namespace dualdamp::identify {
 
 struct SearchOptions {
-  int starts = 40;  ///< points where the sum of squares is computed; the search begins at the best of them
+  int points = 40;              ///< where the sum of squares is computed
+  std::size_t most_starts = 3;  ///< the best of them, from which all readings are fitted
   bool robust = false;
 };
 

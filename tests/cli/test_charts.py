@@ -10,12 +10,12 @@ import json
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-PROGRAM = str(Path(sys.argv[1]).resolve())
+from case import PROGRAM, Case
+
 ROOT = Path(sys.argv[2]).resolve()
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -27,17 +27,10 @@ analysis: {type: xy_curve, amplitudes: {from: 10 cm, to: 30 cm, count: 5}}
 """
 
 
-class Charts(unittest.TestCase):
+class Charts(Case):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         (self.folder / "curve.yaml").write_text(CURVE)
-
-    def run_program(self, *arguments, status=0):
-        result = subprocess.run([PROGRAM, *(a if isinstance(a, bytes) else str(a) for a in arguments)], cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=300)
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        return result
 
     def drawing(self, name):
         """Texts, and the places of each series in pixels."""

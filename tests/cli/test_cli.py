@@ -15,7 +15,9 @@ import time
 import unittest
 from pathlib import Path
 
-PROGRAM = str(Path(sys.argv[1]).resolve())
+import case
+from case import PROGRAM
+
 ROOT = Path(sys.argv[2]).resolve()
 
 BASE = """schema: dualdamp/1
@@ -37,25 +39,12 @@ def tree(folder):
     }
 
 
-class Case(unittest.TestCase):
+class Case(case.Case):
+    timeout = 120
+
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = Path(self.temporary.name)
-        self.addCleanup(self.temporary.cleanup)
+        super().setUp()
         self.write("base.yaml", BASE)
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-        return path
-
-    def run_program(self, *arguments, status=0, timeout=120, **options):
-        result = subprocess.run(
-            [PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=timeout, **options
-        )
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        return result
 
     def document(self, *arguments, status=0):
         """The one JSON document on stdout."""

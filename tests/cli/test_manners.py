@@ -5,30 +5,16 @@ usage: test_manners.py PROGRAM ROOT [TEST...]
 """
 
 import json
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-PROGRAM = str(Path(sys.argv[1]).resolve())
+from case import Case
+
 ROOT = Path(sys.argv[2]).resolve()
 
 
-class Manners(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
-    def run_program(self, *arguments, status=0):
-        result = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        return result
-
+class Manners(Case):
     def test_the_units_of_the_user_are_shown(self):
         text = (ROOT / "scenarios/examples/stepped_response.yaml").read_text().replace("count: 61", "count: 3")
         self.write("hz.yaml", text[: text.index("expect:")].replace("amplitude: 1.2 N", "amplitude: 1200 mN") + "initial: {position: 0 mm}\n")

@@ -49,12 +49,10 @@ def commands(name=()):
         yield from commands((*name, word))
 
 
-class Shell(unittest.TestCase):
-    shell = ""
+class Shell:
+    """The tests of a shell; `proposed` gives what it proposes for a line."""
 
     def setUp(self):
-        if not self.shell:
-            self.skipTest("no shell")
         if shutil.which(self.shell) is None:
             self.skipTest(f"{self.shell} is not installed")
         temporary = tempfile.TemporaryDirectory()
@@ -67,23 +65,23 @@ class Shell(unittest.TestCase):
         for name in ("a.yaml", "b.csv", "law.so"):
             (self.place / name).touch()
 
-    def check_lines(self):
+    def test_lines(self):
         for line, expected in LINES:
             with self.subTest(line):
                 self.assertEqual(self.proposed(line), expected)
 
-    def check_options(self):
+    def test_options(self):
         for name, options in commands():
             with self.subTest(" ".join(name)):
                 self.assertEqual(self.proposed(" ".join(["dualdamp", *name, "--"])), options)
 
-    def check_commands(self):
+    def test_commands(self):
         names = [name for name, _ in commands() if len(name) == 1]
         self.assertGreater(len(names), 10)
         self.assertEqual(self.proposed("dualdamp "), sorted(name[0] for name in names))
 
 
-class Bash(Shell):
+class Bash(Shell, unittest.TestCase):
     shell = "bash"
 
     def proposed(self, line):
@@ -92,17 +90,8 @@ class Bash(Shell):
         found = call("bash", "--norc", "-c", script, self.folder / "scripts/_dualdamp", *words, cwd=self.place)
         return sorted(found.split())
 
-    def test_lines(self):
-        self.check_lines()
 
-    def test_options(self):
-        self.check_options()
-
-    def test_commands(self):
-        self.check_commands()
-
-
-class Fish(Shell):
+class Fish(Shell, unittest.TestCase):
     shell = "fish"
 
     def proposed(self, line):
@@ -110,17 +99,8 @@ class Fish(Shell):
         found = call("fish", "--no-config", "-c", script, self.folder / "scripts/_dualdamp", line, cwd=self.place, env={**os.environ, "HOME": str(self.folder)})
         return sorted(row.split("\t")[0].rstrip("/") for row in found.splitlines())
 
-    def test_lines(self):
-        self.check_lines()
 
-    def test_options(self):
-        self.check_options()
-
-    def test_commands(self):
-        self.check_commands()
-
-
-class Zsh(Shell):
+class Zsh(Shell, unittest.TestCase):
     """zsh completes only where somebody types: a terminal is played to it."""
 
     shell = "zsh"
@@ -154,15 +134,6 @@ class Zsh(Shell):
             self.assertTrue(select.select([self.terminal], [], [], 60)[0], f"zsh is silent after {text!r}")
             text += os.read(self.terminal, 65536)
         return text
-
-    def test_lines(self):
-        self.check_lines()
-
-    def test_options(self):
-        self.check_options()
-
-    def test_commands(self):
-        self.check_commands()
 
 
 class Manual(unittest.TestCase):

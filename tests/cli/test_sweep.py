@@ -12,12 +12,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
-PROGRAM = str(Path(sys.argv[1]).resolve())
+from case import PROGRAM, Case
+
 ROOT = Path(sys.argv[2]).resolve()
 KILLS = int(os.environ.get("DUALDAMP_KILLS", "4"))
 
@@ -48,21 +48,7 @@ def rows(path):
     return [line for line in path.read_text().splitlines() if not line.startswith("#")]
 
 
-class Sweep(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-        return name
-
-    def run_program(self, *arguments, status=0):
-        result = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        return result
-
+class Sweep(Case):
     def check_same(self, out, reference):
         self.assertEqual((self.folder / out / "points.jsonl").read_bytes(), (self.folder / reference / "points.jsonl").read_bytes())
         self.assertEqual(rows(self.folder / out / "sweep.csv"), rows(self.folder / reference / "sweep.csv"))

@@ -1,0 +1,31 @@
+"""What tests of the program share: it runs in a folder of its own. The first argument of the test is the program."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = str(Path(sys.argv[1]).resolve())
+
+
+class Case(unittest.TestCase):
+    timeout = 300  # s, of a call
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def run_program(self, *arguments, status=0, timeout=None, **options):
+        """Names of files may be bytes that are no text."""
+        command = [PROGRAM, *(a if isinstance(a, bytes) else str(a) for a in arguments)]
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=timeout or self.timeout, **options)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result
