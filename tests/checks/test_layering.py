@@ -1,13 +1,9 @@
 #!/usr/bin/env python3
 """The layering check passes a sound tree and names each planted fault."""
 
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-CHECK = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "layering.py"
+from planted import Planted
 
 SOUND = {
     "core/units.hpp": "#pragma once\n#include <Eigen/Core>\n#include <string>\n",
@@ -64,32 +60,10 @@ FAULTS = {
 }
 
 
-def run(tree):
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in tree.items():
-            path = Path(folder) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        return subprocess.run([sys.executable, CHECK, folder], capture_output=True, text=True, check=False)
-
-
-class Layering(unittest.TestCase):
-    def test_sound_tree_passes(self):
-        result = run(SOUND)
-        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
-
-    def test_planted_faults_are_named(self):
-        for name, (path, text, words) in FAULTS.items():
-            with self.subTest(name):
-                result = run({**SOUND, path: text})
-                self.assertEqual(result.returncode, 1)
-                for word in words:
-                    self.assertIn(word, result.stdout)
-                self.assertEqual(len(result.stdout.splitlines()), 1, result.stdout)
-
-    def test_needs_a_root(self):
-        result = subprocess.run([sys.executable, CHECK], capture_output=True, text=True, check=False)
-        self.assertNotEqual(result.returncode, 0)
+class Layering(Planted, unittest.TestCase):
+    check = "layering"
+    sound = SOUND
+    faults = FAULTS
 
 
 if __name__ == "__main__":

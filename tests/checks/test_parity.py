@@ -1,13 +1,10 @@
 #!/usr/bin/env python3
 """The parity check passes a complete tree and names whatever is taken away."""
 
-import subprocess
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-CHECK = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "parity.py"
+from planted import Planted
 
 PROGRAM = """#!/bin/sh
 case $1 in
@@ -96,35 +93,18 @@ FAULTS = {
 }
 
 
-def run(tree):
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in tree.items():
-            if text is None:
-                continue
-            path = Path(folder) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
+class Parity(Planted, unittest.TestCase):
+    check = "parity"
+    sound = COMPLETE
+    faults = FAULTS
+
+    def arguments(self, folder):
         program = Path(folder) / "program"
         program.chmod(0o755)
-        return subprocess.run([sys.executable, CHECK, folder, program], capture_output=True, text=True, check=False)
-
-
-class Parity(unittest.TestCase):
-    def test_complete_tree_passes(self):
-        result = run(COMPLETE)
-        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
-
-    def test_whatever_is_missing_is_named(self):
-        for name, (path, text, words) in FAULTS.items():
-            with self.subTest(name):
-                result = run({**COMPLETE, path: text})
-                self.assertEqual(result.returncode, 1, result.stderr)
-                for word in words:
-                    self.assertIn(word, result.stdout)
-                self.assertEqual(len(result.stdout.splitlines()), 1, result.stdout)
+        return [folder, program]
 
     def test_program_that_fails_is_no_pass(self):
-        self.assertNotEqual(run({**COMPLETE, "program": "#!/bin/sh\nexit 2\n"}).returncode, 0)
+        self.assertNotEqual(self.run_on({**COMPLETE, "program": "#!/bin/sh\nexit 2\n"}).returncode, 0)
 
 
 if __name__ == "__main__":

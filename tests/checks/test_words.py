@@ -1,13 +1,9 @@
 #!/usr/bin/env python3
 """The check of words passes a tree that keeps to its glossary and names each planted fault."""
 
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-CHECK = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "words.py"
+from planted import Planted
 
 GLOSSARY = r"""# Glossary
 
@@ -64,31 +60,13 @@ FAULTS = {
 }
 
 
-def run(tree):
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in tree.items():
-            path = Path(folder) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        return subprocess.run([sys.executable, CHECK, folder], capture_output=True, text=True, check=False)
-
-
-class Words(unittest.TestCase):
-    def test_sound_tree_passes(self):
-        result = run(SOUND)
-        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
-
-    def test_planted_faults_are_named(self):
-        for name, (path, text, words) in FAULTS.items():
-            with self.subTest(name):
-                result = run({**SOUND, path: text})
-                self.assertEqual(result.returncode, 1, result.stderr)
-                for word in words:
-                    self.assertIn(word, result.stdout)
-                self.assertEqual(len(result.stdout.splitlines()), 1, result.stdout)
+class Words(Planted, unittest.TestCase):
+    check = "words"
+    sound = SOUND
+    faults = FAULTS
 
     def test_glossary_without_its_table_is_no_pass(self):
-        result = run({**SOUND, "docs/glossary.md": "# Glossary\n"})
+        result = self.run_on({**SOUND, "docs/glossary.md": "# Glossary\n"})
         self.assertEqual(result.returncode, 1)
         self.assertIn("no table with the columns", result.stdout)
 

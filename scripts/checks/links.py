@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Fails when a page links a file of the tree, or a heading of a page, that does not exist.
+
+usage: links.py ROOT
+
+Read are all Markdown files but those of build trees; those of docs/site/ stand among the pages of docs/ on the site. Headings
+have the anchors that GitHub and MyST give them. Links to other sites are not followed.
+"""
+
+import re
+import sys
+from pathlib import Path
+from urllib.parse import unquote
+
+FENCE = re.compile(r"^(```+|~~~+).*?^\1\s*$", re.MULTILINE | re.DOTALL)
+CODE = re.compile(r"(`+).*?\1", re.DOTALL)
+LINK = re.compile(r"\[[^\]]*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
+HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$", re.MULTILINE)
+ELSEWHERE = re.compile(r"[a-z][a-z0-9+.-]*:", re.IGNORECASE)
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+def anchors(text):
+    found = set()
+    for heading in HEADING.findall(FENCE.sub(blank, text)):
+        words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+        anchor = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+        again = 0
+        while (name := f"{anchor}-{again}" if again else anchor) in found:
+            again += 1
+        found.add(name)
+    return found
+
+
+def pages(root):
+    for path in sorted(root.rglob("*.md")):
+        parts = path.relative_to(root).parts
+        if "build" not in parts and not any(part.startswith(".") for part in parts):
+            yield path
+
+
+def link_faults(root, page, text):
+    plain = CODE.sub(blank, FENCE.sub(blank, text))
+    folder = root / "docs" if page.parent == root / "docs/site" else page.parent
+    for match in LINK.finditer(plain):
+        target = match[1]
+        if ELSEWHERE.match(target):
+            continue
+        name, _, anchor = unquote(target).partition("#")
+        path = (folder / name).resolve() if name else page
+        where = f"{page.relative_to(root)}:{plain.count(chr(10), 0, match.start()) + 1}"
+        if not path.exists():
+            yield f"{where}: no file '{target}'"
+        elif anchor and path.suffix == ".md" and anchor not in anchors(path.read_text(encoding="utf-8")):
+            yield f"{where}: no heading '#{anchor}' in {path.relative_to(root)}"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    root = Path(sys.argv[1]).resolve()
+    found = [fault for page in pages(root) for fault in link_faults(root, page, page.read_text(encoding="utf-8"))]
+    for fault in found:
+        print(fault)
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()
