@@ -69,10 +69,10 @@ class Parser {
       std::ostringstream out;
       std::ostringstream errors;
       const int status = app_.exit(error, out, errors);
-      if (status == 0) return {Leave{out.str(), 0, false}, {}};
-      return {Leave{app_.get_subcommands().empty() ? wrong_command() : error.what(), usage, json}, {}};
+      if (status == 0) return {Leave{out.str(), 0, false}};
+      return {Leave{app_.get_subcommands().empty() ? wrong_command() : error.what(), usage, json}};
     }
-    return {chosen(), plugins_};
+    return {chosen(), plugins_, isolation_.empty() ? 0.0 : std::stod(isolation_), json};
   }
 
  private:
@@ -83,6 +83,11 @@ class Parser {
     command.add_option_function<std::vector<std::string>>("--plugin", append, "Shared library with a friction law")
         ->allow_extra_args(false)
         ->type_name("LIB");
+    command
+        .add_flag("--isolate-plugins{600}", isolation_,
+                  "Execute the command in a process of its own with a limit of time; --isolate-plugins=60: seconds "
+                  "(default: 600)")
+        ->check(CLI::Range(0.1, 1e6));
   }
 
   void add_run() {
@@ -403,6 +408,7 @@ class Parser {
   CLI::App* completion_command_ = nullptr;
   CLI::App* manual_command_ = nullptr;
   std::vector<std::string> plugins_ = plugins_of_environment();
+  std::string isolation_;  ///< seconds: of numbers CLI11 takes whole ones only as the value of a flag
   RunCommand run_;
   ExportCommand export_;
   ScoreCommand score_;

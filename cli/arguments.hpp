@@ -164,6 +164,8 @@ using Command =
 struct Call {
   Command command;
   std::vector<std::string> plugins;  ///< libraries to load before the command is executed
+  double isolation = 0.0;            ///< seconds that a child process has for the command; 0: no child
+  bool json = false;                 ///< the caller wants JSON
 };
 
 /// Plugins are those that the environment variable DUALDAMP_PLUGINS names, colons between them, then those of

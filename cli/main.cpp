@@ -1,8 +1,11 @@
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/isolation.hpp"
 
 int main(int argc, char** argv) {
+  const dualdamp::cli::Call call = dualdamp::cli::parse(argc, argv);
+  if (call.isolation > 0.0) return dualdamp::cli::execute_isolated(call);
   dualdamp::cli::watch_for_interrupt();
-  return dualdamp::cli::execute(dualdamp::cli::parse(argc, argv));
+  return dualdamp::cli::execute(call);
 }

@@ -6,15 +6,31 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <system_error>
+#include <thread>
 
 #include "core/cancellation.hpp"
 
 namespace dualdamp::sim {
 
+namespace {
+
+/// The library of loops ends a computation where the system gives it no thread: it must not ask for one then.
+bool threads_are_to_be_had() {
+  try {
+    std::thread([] {}).join();
+    return true;
+  } catch (const std::system_error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 void in_parts(std::size_t size, std::size_t grain, int threads,
               const std::function<void(std::size_t first, std::size_t count)>& work) {
   namespace tbb = oneapi::tbb;
-  const int cores = tbb::info::default_concurrency();
+  static const int cores = threads_are_to_be_had() ? tbb::info::default_concurrency() : 1;
   tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, (size + grain - 1) / grain, [&](std::size_t part) {

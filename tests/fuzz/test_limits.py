@@ -127,6 +127,23 @@ class Limits(unittest.TestCase):
                     self.assertIsNone(BUG.search(result.stderr), result.stderr)
                     self.check_whole()
 
+    def test_no_thread_to_be_had(self):
+        """A stack for each thread that is larger than all memory: the loops run on the first thread."""
+
+        def no_threads():
+            resource.setrlimit(resource.RLIMIT_STACK, (1 << 42, resource.RLIM_INFINITY))
+            resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
+
+        for name in ("xy_curve", "fit", "stress"):
+            with self.subTest(name):
+                tables = []
+                for out, limit in ((f"{name}-many", None), (f"{name}-one", no_threads)):
+                    result = self.run_limited(name, limit, out)
+                    self.assertIn(result.returncode, (0, 5), result.stderr)
+                    self.check_whole(out)
+                    tables.append(json.loads((self.folder / out / "result.json").read_text())["result"])
+                self.assertEqual(*tables)
+
     def interrupted(self, number, statuses):
         for name in COMMANDS:
             for _ in range(max(TRIES // 3, 1)):

@@ -3,13 +3,16 @@
 // sound.
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 
 #include "friction_models/dualdamp_law.h"
 
@@ -47,6 +50,8 @@ void destroy(void* law) { std::unique_ptr<Slider>(static_cast<Slider*>(law)); }
 int respond(const void* law, int mode, const double* state, const dualdamp_instant* now, double* force,
             double* rates) {
   if (is("status")) return 7;
+  if (is("crashes")) std::raise(SIGSEGV);
+  while (is("does not return")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (is("throws")) throw std::runtime_error("what a C function must not do");
   if (is("throws a number")) throw 5;
   const auto& p = *static_cast<const Slider*>(law);

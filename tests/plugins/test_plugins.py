@@ -11,6 +11,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -227,6 +228,38 @@ class Broken(Case):
         for fault in ("status", "throws", "mode", "rate NaN"):
             result = self.run_program("laws", "test_slider", "--check", *VALUES, "--plugin", TEST_LAW, status=4, fault=fault)
             self.assertIn(FAILED[fault], result.stderr)
+
+
+class Isolated(Case):
+    def test_a_sound_law_gives_the_same_bits(self):
+        alone = self.document("slider.yaml", "--isolate-plugins")
+        self.assertEqual(alone["result"], self.document("slider.yaml")["result"])
+
+    def test_the_status_of_a_refusal_is_passed_on(self):
+        self.run_program("run", "missing.yaml", "--isolate-plugins", status=3)
+
+    def test_a_crash_is_a_message(self):
+        document = self.document("slider.yaml", "--isolate-plugins", status=4, fault="crashes")
+        self.assertIn("Segmentation fault", document["errors"][0]["message"])
+        self.assertIn(TEST_LAW, document["errors"][0]["message"])
+        self.assertFalse(any(self.folder.glob("results/*/*")))
+
+    def test_a_law_that_does_not_return_is_stopped(self):
+        document = self.document("slider.yaml", "--isolate-plugins=0.5", status=4, fault="does not return")
+        self.assertIn("did not end within 0.5 s", document["errors"][0]["message"])
+
+    def test_signals_reach_the_child(self):
+        process = subprocess.Popen(
+            [PROGRAM, "run", "slider.yaml", "--plugin", TEST_LAW, "--isolate-plugins"], cwd=self.folder,
+            stderr=subprocess.PIPE, text=True, env={**os.environ, "FAULT": "does not return"},
+        )
+        self.addCleanup(process.kill)
+        while len(Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()) == 0:
+            pass
+        time.sleep(0.2)  # until the child watches for signals
+        process.terminate()
+        self.assertEqual(process.wait(20), 130)
+        self.assertIn("interrupted", process.stderr.read())
 
 
 if __name__ == "__main__":

@@ -1,0 +1,105 @@
+#include "cli/isolation.hpp"
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/interrupt.hpp"
+#include "core/numbers.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+using core::ExitStatus;
+using Clock = std::chrono::steady_clock;
+
+int say(ExitStatus status, const std::string& message, const Call& call) {
+  const Report report = refused(status, message);
+  if (call.json) report.json(std::cout);
+  print(report, {.json = call.json});
+  std::cout.flush();
+  return static_cast<int>(report.status);
+}
+
+[[noreturn]] void be_child(const Call& call, const sigset_t& before) {
+  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would end it after its parent
+  (void)::sigprocmask(SIG_SETMASK, &before, nullptr);
+  watch_for_interrupt();
+  std::exit(execute(call));
+}
+
+timespec until(Clock::time_point end) {
+  const std::chrono::duration<double> left = std::max(end - Clock::now(), Clock::duration::zero());
+  const double whole = std::floor(left.count());
+  return {.tv_sec = static_cast<time_t>(whole), .tv_nsec = static_cast<long>((left.count() - whole) * 1e9)};
+}
+
+/// How the child ended; none: not before the end, and it was killed.
+std::optional<int> wait_for(pid_t child, const sigset_t& signals, Clock::time_point end) {
+  int status = 0;
+  while (::waitpid(child, &status, WNOHANG) == 0) {
+    const timespec left = until(end);
+    siginfo_t signal{};
+    const int number = ::sigtimedwait(&signals, &signal, &left);
+    // What a terminal sends reaches the child without help.
+    if ((number == SIGINT || number == SIGTERM) && signal.si_code == SI_USER) (void)::kill(child, number);
+    if (number > 0 || errno == EINTR || Clock::now() < end) continue;
+    (void)::kill(child, SIGKILL);
+    (void)::waitpid(child, &status, 0);
+    return std::nullopt;
+  }
+  return status;
+}
+
+std::string names(const std::vector<std::string>& plugins) {
+  std::string result;
+  for (const std::string& plugin : plugins) result += (result.empty() ? "" : ", ") + plugin;
+  return result.empty() ? "none" : result;
+}
+
+std::string crash(int signal, const Call& call) {
+  return std::string("the process of the command was ended by a signal (") + ::strsignal(signal) +
+         "); it had the plugins: " + names(call.plugins);
+}
+
+std::string no_end(const Call& call) {
+  constexpr int digits = 6;
+  return "the command did not end within " + core::format_number(call.isolation, digits) +
+         " s, the limit of --isolate-plugins, and was stopped; it had the plugins: " + names(call.plugins);
+}
+
+}  // namespace
+
+int execute_isolated(const Call& call) noexcept {
+  sigset_t signals;
+  sigset_t before;
+  sigemptyset(&signals);
+  for (const int number : {SIGCHLD, SIGINT, SIGTERM}) sigaddset(&signals, number);
+  (void)::sigprocmask(SIG_BLOCK, &signals, &before);
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(call.isolation));
+  const pid_t child = ::fork();
+  if (child == 0) be_child(call, before);
+  if (child < 0)
+    return say(ExitStatus::usage, std::string("no process for --isolate-plugins: ") + std::strerror(errno), call);
+  const std::optional<int> status = wait_for(child, signals, end);
+  if (!status) return say(ExitStatus::numerical_failure, no_end(call), call);
+  if (WIFEXITED(*status)) return WEXITSTATUS(*status);
+  return say(ExitStatus::numerical_failure, crash(WTERMSIG(*status), call), call);
+}
+
+}  // namespace dualdamp::cli
