@@ -20,17 +20,21 @@ class Reader {
   Reader(const Sensor& sensor, std::uint64_t seed, std::uint32_t stream)
       : sensor_(sensor), draws_{.seed = seed, .stream = stream} {}
 
-  double operator()(double value) { return quantise((1.0 + sensor_.gain_error) * value + noise()); }
+  /// One of `size` readings.
+  struct Place {
+    std::size_t number = 0;
+    std::size_t size = 1;
+  };
 
   void read(std::vector<double>& signal) {
-    for (double& value : signal) value = (*this)(value);
+    for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = reading(signal[i], {i, signal.size()});
   }
 
-  double amplitude(double value, int periods) {
+  double amplitude(double value, int periods, Place place) {
     double sum = 0.0;
     for (int i = 0; i < periods; ++i) {
-      const double peak = (*this)(value);
-      sum += 0.5 * (peak - (*this)(-value));
+      const double peak = reading(value, place);
+      sum += 0.5 * (peak - reading(-value, place));
     }
     return sum / periods;
   }
@@ -43,6 +47,16 @@ class Reader {
   }
 
  private:
+  double reading(double value, Place place) { return quantise((1.0 + gain_error(place)) * value + noise()); }
+
+  [[nodiscard]] double gain_error(Place place) const {
+    const double way =
+        place.size < 2 ? 0.0 : static_cast<double>(place.number) / static_cast<double>(place.size - 1);
+    const auto every = static_cast<std::size_t>(sensor_.outlier_every);
+    const bool is_outlier = every > 0 && place.number % every == every / 2;
+    return sensor_.gain_error + sensor_.gain_drift * way + (is_outlier ? sensor_.outlier_size : 0.0);
+  }
+
   double noise() { return sensor_.noise > 0.0 ? sensor_.noise * draws_.normal(count_++) : 0.0; }
 
   [[nodiscard]] double quantise(double value) const {
@@ -75,6 +89,7 @@ void require_sound(const Sensors& sensors) {
     if (!(sensor->noise >= 0.0)) refuse("the noise of a sensor must not be negative", ">= 0");
     if (!(sensor->resolution >= 0.0)) refuse("the resolution of a sensor must not be negative", ">= 0");
     if (!(sensor->clipping >= 0.0)) refuse("the clipping of a sensor must not be negative", ">= 0");
+    if (sensor->outlier_every < 0) refuse("the number of readings to an outlier must not be negative", ">= 0");
   }
 }
 
@@ -85,17 +100,17 @@ double wrapped(double phase) {
 }
 
 /// What was not known before is not known after.
-Pair read_pair(const Pair& exact, Readers& readers, int periods) {
+Pair read_pair(const Pair& exact, Readers& readers, int periods, Reader::Place place) {
   Pair pair = exact;
-  pair.Y = readers.y.amplitude(exact.Y, periods);
-  pair.x = readers.x.amplitude(exact.x, periods);
+  pair.Y = readers.y.amplitude(exact.Y, periods, place);
+  pair.x = readers.x.amplitude(exact.x, periods, place);
   if (!std::isnan(exact.phase)) {
     const double late = readers.x.phase_error(exact.x, exact.omega, periods);
     pair.phase = wrapped(exact.phase + late - readers.y.phase_error(exact.Y, exact.omega, periods));
   }
-  if (!std::isnan(exact.fundamental)) pair.fundamental = readers.x.amplitude(exact.fundamental, periods);
+  if (!std::isnan(exact.fundamental)) pair.fundamental = readers.x.amplitude(exact.fundamental, periods, place);
   if (!std::isnan(exact.mean_square_speed)) {
-    const double speed = readers.v.amplitude(std::sqrt(exact.mean_square_speed), periods);
+    const double speed = readers.v.amplitude(std::sqrt(exact.mean_square_speed), periods, place);
     pair.mean_square_speed = speed * speed;
   }
   return pair;
@@ -107,8 +122,11 @@ Record read(const Record& exact, const Sensors& sensors, std::uint64_t seed) {
   require_sound(sensors);
   Record record = exact;
   Readers readers(sensors, seed);
-  if (record.pairs)
-    for (Pair& pair : record.pairs->pairs) pair = read_pair(pair, readers, sensors.average_cycles);
+  if (record.pairs) {
+    std::vector<Pair>& pairs = record.pairs->pairs;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      pairs[i] = read_pair(pairs[i], readers, sensors.average_cycles, {i, pairs.size()});
+  }
   if (record.decay) readers.x.read(record.decay->extremes);
   for (History& history : record.histories) {
     readers.y.read(history.y);

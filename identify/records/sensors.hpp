@@ -3,9 +3,11 @@
 ///
 /// One reading of a true value q:
 ///
-///   reading = clip(round((1 + gain_error) q + noise n)),   n normal with variance 1,
+///   reading = clip(round((1 + gain_error + e) q + noise n)),   n normal with variance 1,
 ///
-/// rounded to multiples of `resolution`, cut off at +-`clipping`. A signal that lags is read `lag(w)` late; of
+/// rounded to multiples of `resolution`, cut off at +-`clipping`. e is what changes within a record: a drift of the
+/// gain from 0 at the first reading to `gain_drift` at the last, and `outlier_size` at one reading of each
+/// `outlier_every`, the middle one. A signal that lags is read `lag(w)` late; of
 /// histories the motion that is sampled must allow for that (`scenarios/measurements/measure.hpp`), of phases it is
 /// done here.
 ///
@@ -16,7 +18,8 @@
 ///
 /// The draws of each signal are a stream of their own (core/random.hpp): a reading depends on the seed, the signal
 /// and its number in the record. Cost: about 40 ns a noisy reading. Errors: a
-/// `core::InputError` for a negative or unknown noise, resolution or clipping, or an average over no period.
+/// `core::InputError` for a negative or unknown noise, resolution, clipping or number of readings, or an average
+/// over no period.
 
 #include <cstdint>
 #include <limits>
@@ -27,11 +30,14 @@ namespace dualdamp::identify {
 
 /// In units of its signal; the default is perfect.
 struct Sensor {
-  double noise = 0.0;       ///< standard deviation of a reading
-  double resolution = 0.0;  ///< step between readings; 0: none
-  double gain_error = 0.0;  ///< relative
-  double phase_lag = 0.0;   ///< at the forcing frequency [rad]
-  double delay = 0.0;       ///< s
+  double noise = 0.0;         ///< standard deviation of a reading
+  double resolution = 0.0;    ///< step between readings; 0: none
+  double gain_error = 0.0;    ///< relative
+  double gain_drift = 0.0;    ///< relative, over the record
+  int outlier_every = 0;      ///< readings of which one is off; 0: none
+  double outlier_size = 0.0;  ///< relative
+  double phase_lag = 0.0;     ///< at the forcing frequency [rad]
+  double delay = 0.0;         ///< s
   double clipping = std::numeric_limits<double>::infinity();
 
   /// Time by which readings come late [s]; w [rad/s] may be `unknown` without a phase lag.

@@ -25,6 +25,15 @@ std::vector<Rig> laboratory_rigs() {
                  Family::sensors, [](Laboratory& laboratory, double s) { laboratory.sensors.y.gain_error = s; }),
           misled("displacement_gain", "the sensor of the mass reads too much", "gain of the sensor of x, less 1",
                  Family::sensors, [](Laboratory& laboratory, double s) { laboratory.sensors.x.gain_error = s; }),
+          misled("drifting_gain", "the sensor of the mass drifts during the record",
+                 "gain of the sensor of x at the last reading, less 1", Family::sensors,
+                 [](Laboratory& laboratory, double s) { laboratory.sensors.x.gain_drift = s; }),
+          misled("outliers", "one reading of the mass in five is off", "relative error of these readings",
+                 Family::sensors,
+                 [](Laboratory& laboratory, double s) {
+                   laboratory.sensors.x.outlier_every = 5;
+                   laboratory.sensors.x.outlier_size = s;
+                 }),
           misled("late_displacement", "the sensor of the mass reads late", "lag of the readings of x [rad]",
                  Family::sensors, [](Laboratory& laboratory, double s) { laboratory.sensors.x.phase_lag = s; }),
           misled("mass_overstated", "the mass is smaller than stated", "stated mass over the true one, less 1",

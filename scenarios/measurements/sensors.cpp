@@ -13,6 +13,14 @@ Field sensor(const std::string& name, const std::string& unit, const std::string
       {{quantity("noise", {unit}, "noise level: standard deviation of a reading").with_fallback(0.0).at_least(0),
         quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
         quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
+        quantity("gain_drift", {"1"}, "change of the gain from the first reading of a record to the last, relative")
+            .with_fallback(0.0)
+            .above(-1),
+        integer("outlier_every", "one reading of so many is off by 'outlier_size', the middle one; 0: none")
+            .with_fallback(0)
+            .at_least(0)
+            .at_most(1'000'000),
+        quantity("outlier_size", {"1"}, "relative").with_fallback(0.0),
         quantity("phase_lag", {"rad"}, "lag of the reading at the forcing frequency").at_least(0),
         quantity("delay", {"s"}, "lag of the reading").at_least(0),
         quantity("clipping", {unit}, "readings are limited to plus and minus this value").above(0)},
@@ -46,6 +54,9 @@ identify::Sensors sensors_of(const Json& section) {
     sensor = {.noise = number(values.at("noise")),
               .resolution = number(values.at("resolution")),
               .gain_error = number(values.at("gain_error")),
+              .gain_drift = number(values.at("gain_drift")),
+              .outlier_every = values.at("outlier_every").get<int>(),
+              .outlier_size = number(values.at("outlier_size")),
               .phase_lag = number_or(values, "phase_lag", 0.0),
               .delay = number_or(values, "delay", 0.0),
               .clipping = number_or(values, "clipping", sensor.clipping)};

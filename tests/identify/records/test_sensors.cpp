@@ -111,6 +111,31 @@ TEST_CASE("resolution, gain and clipping act on a reading") {
   CHECK(largest == 6e-3);
 }
 
+TEST_CASE("the gain drifts over a record, and one reading of some is off") {
+  const auto readings_of = [](const Sensors& sensors) {
+    Record record = one_pair();
+    record.pairs->pairs.assign(11, record.pairs->pairs[0]);
+    std::vector<double> ratios;
+    const Record found = read(record, sensors, 0);
+    for (const Pair& pair : found.pairs->pairs) ratios.push_back(pair.x / 8e-3 - 1.0);
+    return ratios;
+  };
+  Sensors sensors;
+  sensors.x.gain_drift = 0.05;
+  const std::vector<double> drift = readings_of(sensors);
+  for (std::size_t i = 0; i < drift.size(); ++i)
+    CHECK(drift[i] == Approx(0.005 * static_cast<double>(i)).margin(1e-14));
+  sensors = {};
+  sensors.x.outlier_every = 5;
+  sensors.x.outlier_size = -0.3;
+  const std::vector<double> outliers = readings_of(sensors);
+  for (std::size_t i = 0; i < outliers.size(); ++i)
+    CHECK(outliers[i] == Approx(i == 2 || i == 7 ? -0.3 : 0.0).margin(1e-14));
+  const Record history = read(one_history(200), sensors, 0);
+  CHECK(history.histories[0].x[7] == Approx(0.7 * one_history(200).histories[0].x[7]).epsilon(1e-14));
+  CHECK(history.histories[0].x[8] == one_history(200).histories[0].x[8]);
+}
+
 TEST_CASE("a fine enough step between readings is a noise of step/sqrt(12)") {
   // Averaged over 12 periods whose noise of half a step spreads the readings over the steps.
   Sensors sensors{.average_cycles = 12};
