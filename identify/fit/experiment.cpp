@@ -28,6 +28,10 @@ Eigen::Index Experiment::size() const {
 
 std::unique_ptr<Experiment> Experiment::first_part(double /*share*/) const { return nullptr; }
 
+std::unique_ptr<Experiment> Experiment::thinned() const { return nullptr; }
+
+std::unique_ptr<Experiment> Experiment::tied(double /*strength*/) const { return nullptr; }
+
 std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) const {
   return std::make_unique<Alike>(*this);
 }

@@ -74,6 +74,10 @@ class Experiment {
   /// The record up to this share of its duration, 0 < share <= 1; nothing: it has no order in time that a search
   /// could follow.
   [[nodiscard]] virtual std::unique_ptr<Experiment> first_part(double share) const;
+  /// Fewer samples where there are more than a search needs; nothing: it needs all.
+  [[nodiscard]] virtual std::unique_ptr<Experiment> thinned() const;
+  /// The record with models tied to its motion (`tie.hpp`); nothing: it is no motion.
+  [[nodiscard]] virtual std::unique_ptr<Experiment> tied(double strength) const;
   /// By default they are predicted like any other.
   [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const;
 

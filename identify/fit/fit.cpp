@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/fit/uncertainty.hpp"
@@ -18,7 +19,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
 
-void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, Fit& result) {
+void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, Eigen::Index parameters,
+                      Fit& result) {
   double sum = 0.0;
   double count = 0.0;
   for (const SignalRows& rows : problem.signals()) {
@@ -32,6 +34,8 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
       sum += signal.noise_units * signal.noise_units * static_cast<double>(size);
       count += static_cast<double>(size);
     }
+    signal.p_value =
+        noise_p_value(problem.signal(rows), misses.segment(rows.begin, size), static_cast<std::size_t>(parameters));
     signal.independent = independent_samples(misses.segment(rows.begin, size), problem.signal(rows).is_sampled);
     result.log_likelihood_count += signal.independent;
     const double deviation = problem.signal(rows).is_stated ? problem.signal(rows).noise : signal.rms;
@@ -82,7 +86,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   result.rig = with_values(rig, parameters, values).value_or(rig);
   result.own = problem.own(values);
   const Eigen::VectorXd misses = result.outputs - problem.measured();
-  describe_signals(problem, misses, result);
+  describe_signals(problem, misses, q.size(), result);
+  warn_of_residuals(experiments, result);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     result.parameters.push_back({.parameter = parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
   add_uncertainty({problem, found->weights, q, misses, jacobian, options.profile, options.robust}, result);

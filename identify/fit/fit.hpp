@@ -61,6 +61,7 @@ struct FittedSignal {
   double noise = unknown;        ///< of the sensor, stated or by the roughness of the signal
   double noise_units = unknown;  ///< rms over it
   double independent = 0.0;      ///< samples that count as such
+  double p_value = unknown;      ///< chance that the residuals are noise alone (`residual_test.hpp`)
 };
 
 struct Fit {

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "identify/fit/experiments.hpp"
+#include "identify/fit/starts.hpp"
+#include "identify/fit/tie.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -28,20 +31,35 @@ std::pair<double, double> begin_of(const std::vector<double>& signal, double rat
   return {found[0], found[1]};
 }
 
-/// A signal whose rate of change was measured: its integral swings about zero, or about a straight line where its
-/// rate may be off by a constant.
-std::vector<double> integral_of(const std::vector<double>& of_rate, double rate, bool about_line) {
-  const auto count = static_cast<Eigen::Index>(of_rate.size());
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
-  for (Eigen::Index i = 1; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    sum[i] = sum[i - 1] + 0.5 / rate * (of_rate[at - 1] + of_rate[at]);
-  }
-  Eigen::MatrixXd trend = Eigen::MatrixXd::Ones(count, about_line ? 2 : 1);
-  if (about_line) trend.col(1) = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
-  sum -= trend * pivoted_least_squares(trend, sum);
-  return {sum.data(), sum.data() + count};
+/// A signal whose rate of change was measured, but for a constant: its integral swings about a straight line.
+std::vector<double> integral_of(const std::vector<double>& of_rate, double rate) {
+  std::vector<double> integral = running_integral(of_rate, rate);
+  const Eigen::Map<Eigen::VectorXd> sum(integral.data(), static_cast<Eigen::Index>(integral.size()));
+  Eigen::MatrixXd trend = Eigen::MatrixXd::Ones(sum.size(), 2);
+  trend.col(1) = Eigen::VectorXd::LinSpaced(sum.size(), -1.0, 1.0);
+  Eigen::Map<Eigen::VectorXd>(integral.data(), sum.size()) = sum - trend * pivoted_least_squares(trend, sum);
+  return integral;
 }
+
+/// Position and velocity at the first sample of a vibration of which only the acceleration was measured: x = -a/w^2
+/// holds but for damping and friction, which change their sign with the velocity, and x = x_0 + v_0 t + the double
+/// integral of a; x_0, v_0 and 1/w^2 by least squares over all samples.
+std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, double rate) {
+  const std::vector<double> way = running_integral(running_integral(a, rate), rate);
+  const auto count = static_cast<Eigen::Index>(a.size());
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(count, 3);
+  Eigen::VectorXd target(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    columns(i, 1) = static_cast<double>(i) / rate;
+    columns(i, 2) = a[at];
+    target[i] = -way[at];
+  }
+  const Eigen::VectorXd found = pivoted_least_squares(columns, target);
+  return {found[0], found[1]};
+}
+
+constexpr std::size_t least_samples = 8;
 
 class MeasuredMotion final : public Experiment {
  public:
@@ -78,6 +96,11 @@ class MeasuredMotion final : public Experiment {
     there.excitation.phase += there.excitation.frequency * start_;
     for (sim::Harmonic& harmonic : there.excitation.harmonics)
       harmonic.phase += harmonic.order * there.excitation.frequency * start_;
+    if (tie_) {
+      std::optional<sim::Model> tied = tie_->tied(there, own);
+      if (!tied) return false;
+      there = std::move(*tied);
+    }
     outputs.resize(size());
     const std::unique_ptr<sim::Engine> engine = sim::make_engine(there);
     const double end = static_cast<double>(samples_ - 1) / rate_;
@@ -106,6 +129,39 @@ class MeasuredMotion final : public Experiment {
     return part;
   }
 
+  [[nodiscard]] std::unique_ptr<Experiment> thinned() const override {
+    constexpr double of_swing = 60.0;
+    const double apart = 2.0 * std::numbers::pi * rate_ / (crossing_frequency(signals.front()) * of_swing);
+    const std::size_t stride = std::min(static_cast<std::size_t>(apart), samples_ / least_samples);
+    if (stride < 2) return nullptr;
+    auto thin = std::make_unique<MeasuredMotion>(*this);
+    thin->rate_ = rate_ / static_cast<double>(stride);
+    thin->samples_ = (samples_ - 1) / stride + 1;
+    for (Signal& signal : thin->signals) {
+      for (std::size_t i = 0; i < thin->samples_; ++i) {
+        signal.measured[i] = signal.measured[i * stride];
+        signal.at[i] = signal.at[i * stride];
+      }
+      signal.measured.resize(thin->samples_);
+      signal.at.resize(thin->samples_);
+    }
+    return thin;
+  }
+
+  [[nodiscard]] std::unique_ptr<Experiment> tied(double strength) const override {
+    const auto samples_of = [&](const char* name) {
+      const auto found = std::ranges::find(signals, name, &Signal::name);
+      return found == signals.end() ? std::vector<double>() : found->measured;
+    };
+    const std::vector<double> x = samples_of("x");
+    const std::vector<double> v = samples_of("v");
+    const std::vector<double> a = samples_of("a");
+    auto tied = std::make_unique<MeasuredMotion>(*this);
+    tied->tie_ =
+        std::make_shared<const Tie>(MeasuredSamples{rate_, x, v, a}, crossing_frequency(signals.front()), strength);
+    return tied;
+  }
+
  private:
   /// A motion that takes ten times the usual steps is one of numbers far off.
   [[nodiscard]] long most_work(const sim::Model& model) const {
@@ -120,10 +176,12 @@ class MeasuredMotion final : public Experiment {
     double& position = own_start[static_cast<std::size_t>(Own::position)];
     double& velocity = own_start[static_cast<std::size_t>(Own::velocity)];
     if (!history.x.empty()) std::tie(position, velocity) = begin_of(history.x, rate_);
-    const bool only_a = history.x.empty() && history.v.empty();
-    const std::vector<double> v = only_a ? integral_of(history.a, rate_, false) : history.v;
-    if (!v.empty()) velocity = begin_of(v, rate_).first;
-    if (history.x.empty()) position = integral_of(v, rate_, true).front();
+    if (!history.v.empty()) velocity = begin_of(history.v, rate_).first;
+    if (!history.x.empty()) return;
+    if (history.v.empty())
+      std::tie(position, velocity) = begin_of_acceleration(history.a, rate_);
+    else
+      position = integral_of(history.v, rate_).front();
   }
 
   void write(const sim::Sample& sample, double offset, std::size_t i, Eigen::VectorXd& outputs) const {
@@ -136,14 +194,14 @@ class MeasuredMotion final : public Experiment {
   double start_;
   double rate_;
   std::size_t samples_ = 0;
+  std::shared_ptr<const Tie> tie_;
 };
 
 }  // namespace
 
 std::unique_ptr<Experiment> motion(const History& history, const ExperimentOptions& options, std::string& fault) {
-  constexpr std::size_t least = 8;
   const std::size_t count = std::max({history.x.size(), history.v.size(), history.a.size()});
-  if (count >= least) return std::make_unique<MeasuredMotion>(history, options);
+  if (count >= least_samples) return std::make_unique<MeasuredMotion>(history, options);
   fault = count == 0 ? "a history needs one of the columns x, v, a" : "a history needs eight samples";
   return nullptr;
 }

@@ -18,9 +18,6 @@ namespace {
 constexpr double reach = 1e4;
 /// Of a parameter in units of its size: no value in sight lies beyond.
 constexpr double far = 1e6;
-/// Of a central difference, in coordinates. The errors of the smooth engine, 1e-9 of the motion, and of the third
-/// derivative are then of the same order.
-constexpr double step = 1e-4;
 
 Coordinate coordinate_of(const FitParameter& parameter, double size) {
   const auto& [low, high, low_open, high_open] = parameter.range;
@@ -64,6 +61,7 @@ FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& paramete
 
 FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
     : rig_(whole.rig_),
+      accuracy_(whole.accuracy_),
       parameters_(whole.parameters_),
       parts_(std::move(parts)),
       experiments_(whole.experiments_),
@@ -73,9 +71,24 @@ FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
   number_rows();
 }
 
+FitProblem FitProblem::roughly(const Accuracy& accuracy) const {
+  Experiments parts;
+  for (const Experiment* experiment : experiments_) parts.push_back(experiment->thinned());
+  FitProblem rough(*this, std::move(parts));
+  rough.accuracy_ = accuracy;
+  return rough;
+}
+
 std::optional<FitProblem> FitProblem::first_part(double share) const {
   Experiments parts;
   for (const Experiment* experiment : experiments_) parts.push_back(experiment->first_part(share));
+  if (std::ranges::none_of(parts, [](const auto& part) { return part != nullptr; })) return std::nullopt;
+  return FitProblem(*this, std::move(parts));
+}
+
+std::optional<FitProblem> FitProblem::tied(double strength) const {
+  Experiments parts;
+  for (const Experiment* experiment : experiments_) parts.push_back(experiment->tied(strength));
   if (std::ranges::none_of(parts, [](const auto& part) { return part != nullptr; })) return std::nullopt;
   return FitProblem(*this, std::move(parts));
 }
@@ -150,11 +163,18 @@ std::vector<OwnValues> FitProblem::own(const Eigen::VectorXd& values) const {
   return result;
 }
 
+std::optional<sim::Model> FitProblem::model_at(const Eigen::VectorXd& values) const {
+  std::optional<Rig> rig = with_values(rig_, parameters_, values);
+  if (!rig) return std::nullopt;
+  double& tolerance = rig->known.solver.tolerance;
+  tolerance = std::max(tolerance, accuracy_.tolerance);
+  return model_of(std::move(*rig));
+}
+
 bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const {
   const Eigen::VectorXd p = values(q);
   return guarded([&] {
-    const std::optional<Rig> rig = with_values(rig_, parameters_, p);
-    const std::optional<sim::Model> model = rig ? model_of(*rig) : std::nullopt;
+    const std::optional<sim::Model> model = model_at(p);
     if (!model) return false;
     const std::vector<OwnValues> owned = own(p);
     result.resize(rows_);
@@ -172,8 +192,7 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) cons
 
 bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian) const {
   if (!outputs(q, result)) return false;
-  const std::optional<Rig> middle_rig = with_values(rig_, parameters_, values(q));
-  const std::optional<sim::Model> middle = middle_rig ? model_of(*middle_rig) : std::nullopt;
+  const std::optional<sim::Model> middle = model_at(values(q));
   if (!middle) return false;
   std::vector<std::unique_ptr<Neighbours>> neighbours(experiments_.size());
   if (!guarded([&] {
@@ -184,7 +203,7 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
   std::vector<Column> columns;
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
-    const double h = c.logarithmic ? step : step * std::max(1.0, std::abs(q[i]));
+    const double h = accuracy_.step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
     columns.push_back({i, std::max(q[i] - h, c.low), result});
     columns.push_back({i, std::min(q[i] + h, c.high), result});
   }
@@ -195,8 +214,7 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
     const Eigen::VectorXd p = values(there);
     const FitParameter& parameter = parameters_[static_cast<std::size_t>(column.parameter)];
     column.ok = guarded([&] {
-      const std::optional<Rig> rig = with_values(rig_, parameters_, p);
-      const std::optional<sim::Model> model = rig ? model_of(*rig) : std::nullopt;
+      const std::optional<sim::Model> model = model_at(p);
       if (!model) return false;
       const std::vector<OwnValues> owned = own(p);
       Eigen::VectorXd part;

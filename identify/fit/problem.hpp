@@ -25,6 +25,12 @@ struct Coordinate {
   double high = 0.0;
 };
 
+/// How accurately motions are computed, and over how much of each coordinate a difference is taken.
+struct Accuracy {
+  double tolerance = 0.0;  ///< of the smooth engine, unless the rig asks for less; 0: as the rig says
+  double step = 1e-4;
+};
+
 /// Rows [begin, end) of one signal of one experiment.
 struct SignalRows {
   std::size_t experiment = 0;
@@ -41,9 +47,12 @@ class FitProblem {
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes);
 
-  /// The same with the first share of each motion only, 0 < share <= 1; nothing if there is no motion. `this`
-  /// outlives it.
+  /// The same with less accurate motions of fewer samples. `this` outlives this one and the next two.
+  [[nodiscard]] FitProblem roughly(const Accuracy& accuracy) const;
+  /// With the first share of each motion only, 0 < share <= 1; nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> first_part(double share) const;
+  /// With models tied to the measured motions; nothing if there is no motion.
+  [[nodiscard]] std::optional<FitProblem> tied(double strength) const;
 
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
@@ -69,10 +78,12 @@ class FitProblem {
  private:
   struct Column;
 
+  [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);
   void number_rows();
 
   const Rig& rig_;
+  Accuracy accuracy_{};
   const std::vector<FitParameter>& parameters_;
   Experiments parts_;  ///< that this problem has made
   std::vector<const Experiment*> experiments_;

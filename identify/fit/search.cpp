@@ -150,37 +150,66 @@ void take_better(LeastSquaresFit found, const FitProblem& problem, std::optional
   if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
 }
 
-/// From the best of these points by the first share of each motion, with more and more of it.
-std::optional<LeastSquaresFit> search_growing(const std::vector<Eigen::VectorXd>& points, double first,
-                                              const Search& search, const FitProblem& problem,
-                                              const SearchOptions& options) {
+/// The best of these points for `part`, improved a little.
+std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::size_t wanted,
+                                      const FitProblem& part, const SearchOptions& options) {
   constexpr int few = 8;
-  std::vector<Eigen::VectorXd> starts;
-  for (double share = first; share < 1.0; share *= 2.0) {
-    const std::optional<FitProblem> part = problem.first_part(share);
-    if (!part) return std::nullopt;
-    const Search beginning(*part, options);
-    if (share == first) starts = best_of(points, beginning, 2);
-    for (Eigen::VectorXd& q : starts) q = beginning.improve(q, rough, few).parameters;
-  }
+  const Search search(part, options);
+  if (points.size() > wanted) points = best_of(points, search, wanted);
+  for (Eigen::VectorXd& q : points) q = search.improve(q, rough, few).parameters;
+  return points;
+}
+
+/// The best of these points, with all readings.
+std::optional<LeastSquaresFit> search_whole(const std::vector<Eigen::VectorXd>& points, const Search& search,
+                                            const FitProblem& problem) {
+  constexpr int some = 16;
   std::optional<LeastSquaresFit> best;
-  for (const Eigen::VectorXd& q : best_of(starts, search, 1))
-    take_better(search.improve(q, rough, 2 * few), problem, best);
+  for (const Eigen::VectorXd& q : best_of(points, search, 1))
+    take_better(search.improve(q, rough, some), problem, best);
   return best;
 }
 
-/// Of searches that begin with different parts of the motions; where these do not end alike, or there are no
-/// motions, also from several starts with all readings.
+/// With models tied to the measured motions, less and less.
+std::optional<LeastSquaresFit> search_tied(std::vector<Eigen::VectorXd> points, const Search& search,
+                                           const FitProblem& problem, const SearchOptions& options) {
+  std::size_t wanted = 4;
+  for (const double strength : {1.0, 0.1, 0.01}) {
+    const std::optional<FitProblem> tied = problem.tied(strength);
+    if (!tied) return std::nullopt;
+    points = improved(std::move(points), wanted, *tied, options);
+    wanted = wanted / 2 + wanted % 2;
+  }
+  return search_whole(points, search, problem);
+}
+
+/// From the best of these points by the first share of each motion, with more and more of it.
+std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> points, double first,
+                                              const Search& search, const FitProblem& problem,
+                                              const SearchOptions& options) {
+  for (double share = first; share < 1.0; share *= 2.0) {
+    const std::optional<FitProblem> part = problem.first_part(share);
+    if (!part) return std::nullopt;
+    points = improved(std::move(points), 2, *part, options);
+  }
+  return search_whole(points, search, problem);
+}
+
+/// Searches with tied models and with first parts of the motions; where two of them do not end alike, or there are
+/// no motions, also from several starts with all readings.
 std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, const Search& search,
                                               const FitProblem& problem, const SearchOptions& options) {
-  std::optional<LeastSquaresFit> best = search_growing(points, 0.1, search, problem, options);
-  if (best) {
-    std::optional<LeastSquaresFit> other = search_growing(points, 0.35, search, problem, options);
+  std::optional<LeastSquaresFit> best;
+  const auto ends_alike = [&](std::optional<LeastSquaresFit> found) {
+    if (!found) return false;
     constexpr double alike = 0.01;
-    const bool agree = other && std::abs(other->sum_of_squares / best->sum_of_squares - 1.0) < alike;
-    if (other) take_better(std::move(*other), problem, best);
-    if (agree) return best;
-  }
+    const bool agrees = best && std::abs(found->sum_of_squares / best->sum_of_squares - 1.0) < alike;
+    take_better(std::move(*found), problem, best);
+    return agrees;
+  };
+  ends_alike(search_tied(points, search, problem, options));
+  if (ends_alike(search_growing(points, 0.1, search, problem, options))) return best;
+  if (ends_alike(search_growing(points, 0.35, search, problem, options))) return best;
   const std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
   constexpr int few = 8;
   for (const Eigen::VectorXd& start : starts)
@@ -210,12 +239,15 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                               const std::vector<FitParameter>& parameters,
                                               const std::vector<double>& sizes, const SearchOptions& options) {
-  Search search(problem, options);
   const std::vector<Eigen::VectorXd> points = parameters.empty()
                                                   ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
                                                   : start_points(problem, parameters, sizes, options.points);
-  std::optional<LeastSquaresFit> best = search_roughly(points, search, problem, options);
+  // The first steps ask for the region of the minimum, not for its place.
+  const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
+  std::optional<LeastSquaresFit> best =
+      search_roughly(points, Search(rough_problem, options), rough_problem, options);
   if (!best) return std::nullopt;
+  Search search(problem, options);
   best = finish(std::move(*best), search, problem, options.robust || problem.signals().size() > 1);
   if (!best) return std::nullopt;
   return SearchResult{best->parameters, search.weights()};

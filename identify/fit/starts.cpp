@@ -17,22 +17,6 @@ double largest(const std::vector<double>& values) {
   return result;
 }
 
-/// Angular frequency of a sampled signal by its crossings of the mean.
-double crossing_frequency(const Signal& signal) {
-  double mean = 0.0;
-  for (const double value : signal.measured) mean += value / static_cast<double>(signal.measured.size());
-  const double margin = 0.1 * largest(signal.measured);
-  int crossings = 0;
-  int side = 0;
-  for (const double value : signal.measured) {
-    const int now = value > mean + margin ? 1 : value < mean - margin ? -1 : side;
-    if (side != 0 && now != side) ++crossings;
-    side = now;
-  }
-  const double duration = signal.at.back() - signal.at.front();
-  return std::numbers::pi * std::max(crossings, 1) / duration;
-}
-
 double frequency_of(const Experiment& experiment) {
   for (const Signal& signal : experiment.signals) {
     if (signal.at_name == "omega") return signal.at[signal.at.size() / 2];
@@ -96,6 +80,21 @@ double share_of(int number, std::size_t dimension, std::size_t dimensions) {
 }
 
 }  // namespace
+
+double crossing_frequency(const Signal& signal) {
+  double mean = 0.0;
+  for (const double value : signal.measured) mean += value / static_cast<double>(signal.measured.size());
+  const double margin = 0.1 * largest(signal.measured);
+  int crossings = 0;
+  int side = 0;
+  for (const double value : signal.measured) {
+    const int now = value > mean + margin ? 1 : value < mean - margin ? -1 : side;
+    if (side != 0 && now != side) ++crossings;
+    side = now;
+  }
+  const double duration = signal.at.back() - signal.at.front();
+  return std::numbers::pi * std::max(crossings, 1) / duration;
+}
 
 DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments) {
   DataScale scale;

@@ -21,6 +21,9 @@ struct DataScale {
   double speed = 1.0;
 };
 
+/// Angular frequency of a sampled signal by its crossings of the mean [rad/s].
+[[nodiscard]] double crossing_frequency(const Signal& signal);
+
 [[nodiscard]] DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments);
 
 /// > 0: of a stated value its own, unless that is zero.

@@ -57,6 +57,12 @@ std::vector<double> second_difference(std::span<const double> x, double sample_r
   return a;
 }
 
+std::vector<double> running_integral(std::span<const double> x, double sample_rate) {
+  std::vector<double> sum(x.size(), 0.0);
+  for (std::size_t i = 1; i < x.size(); ++i) sum[i] = sum[i - 1] + 0.5 / sample_rate * (x[i - 1] + x[i]);
+  return sum;
+}
+
 std::vector<double> five_point_average(std::span<const double> x) {
   const std::size_t n = x.size();
   std::vector<double> mean(n);

@@ -24,6 +24,9 @@ namespace dualdamp::identify {
 /// samples.
 [[nodiscard]] std::vector<double> second_difference(std::span<const double> x, double sample_rate);
 
+/// From zero at the first sample on, by trapezoids.
+[[nodiscard]] std::vector<double> running_integral(std::span<const double> x, double sample_rate);
+
 /// Mean of x[i-2] ... x[i+2]; towards the ends of fewer samples, still centred. No lag.
 [[nodiscard]] std::vector<double> five_point_average(std::span<const double> x);
 

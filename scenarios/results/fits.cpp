@@ -59,6 +59,7 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
   result["residual"] = {{"rms", fit.signals.front().rms},
                         {"unit", signal_of(fit.signals.front(), experiments).unit},
                         {"noise_units", finite_or_null(fit.noise_units)}};
+  for (const std::string& warning : fit.warnings) answer.warnings.push_back(warning);
   if (std::isnan(fit.noise_units))
     result["residual"]["reason"] = "the noise of the readings is neither stated nor to be seen in them";
   result["signals"] = Json::array();
@@ -71,7 +72,8 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
                                  {"rms", signal.rms},
                                  {"relative", signal.range > 0.0 ? Json(signal.rms / signal.range) : Json(nullptr)},
                                  {"noise", finite_or_null(signal.noise)},
-                                 {"noise_units", finite_or_null(signal.noise_units)}});
+                                 {"noise_units", finite_or_null(signal.noise_units)},
+                                 {"p_value", finite_or_null(signal.p_value)}});
   result["covariance"] = Json::array();
   for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
     Json row = Json::array();
@@ -144,6 +146,8 @@ ResultFields fit_fields() {
           {"signals[].relative", "1", "over the rms of the signal about its mean"},
           {"signals[].noise", "", "of the sensor: stated, or by the signal's roughness"},
           {"signals[].noise_units", "1", "rms of the residuals over it"},
+          {"signals[].p_value", "1",
+           "chance that the residuals are noise alone; null: too few readings, or none of a known noise"},
           {"covariance[][]", "", "of the parameters, in their order"},
           {"starts", "1", "starts that were tried"},
           {"laws[].law", "", "laws that were compared, best first"},

@@ -1,0 +1,98 @@
+#include "identify/fit/residual_test.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+#include "core/numbers.hpp"
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr Eigen::Index least_samples = 64;
+constexpr double level = 1e-3;
+
+/// The longest length up to `count` whose prime factors are 2, 3 and 5: others take long to transform.
+Eigen::Index quick_length(Eigen::Index count) {
+  for (Eigen::Index length = count;; --length) {
+    Eigen::Index rest = length;
+    for (const Eigen::Index factor : {2, 3, 5})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return length;
+  }
+}
+
+/// At 1, 2, ... periods within the signal, below half the sample rate.
+std::vector<double> powers(const Eigen::VectorXd& signal) {
+  const Eigen::Index length = quick_length(signal.size());
+  const double mean = signal.head(length).mean();
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < length; ++i) values.push_back(signal[i] - mean);
+  std::vector<std::complex<double>> lines;
+  Eigen::FFT<double> transform;
+  transform.fwd(lines, values);
+  std::vector<double> power;
+  for (std::size_t j = 1; j < static_cast<std::size_t>((length + 1) / 2); ++j) power.push_back(std::norm(lines[j]));
+  return power;
+}
+
+double p_value_of_motion(const Eigen::VectorXd& measured, const Eigen::VectorXd& residuals) {
+  const std::vector<double> motion = powers(measured);
+  const std::vector<double> left = powers(residuals);
+  std::vector<std::size_t> order(motion.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return motion[a] > motion[b]; });
+  const double whole = std::accumulate(motion.begin(), motion.end(), 0.0);
+  const double total = std::accumulate(left.begin(), left.end(), 0.0);
+  constexpr double most_of_it = 0.99;
+  constexpr std::size_t least = 8;
+  double held = 0.0;
+  double inside = 0.0;
+  std::size_t count = 0;
+  for (; count < order.size() / 2 && (count < least || held < most_of_it * whole); ++count) {
+    held += motion[order[count]];
+    inside += left[order[count]];
+  }
+  const auto b = static_cast<double>(count);
+  const auto r = static_cast<double>(order.size() - count);
+  if (!(total > inside)) return unknown;
+  return f_test_p_value(inside / b / ((total - inside) / r), 2.0 * b, 2.0 * r);
+}
+
+}  // namespace
+
+double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std::size_t parameters) {
+  const Eigen::VectorXd measured = Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), residuals.size());
+  // What integration and rounding leave of exact data is no noise, and no motion either.
+  constexpr double exact = 1e-5;
+  const double size = (measured.array() - measured.mean()).matrix().norm();
+  if (residuals.norm() <= exact * size) return unknown;
+  if (signal.is_sampled) return residuals.size() < least_samples ? unknown : p_value_of_motion(measured, residuals);
+  const double freedom = static_cast<double>(residuals.size()) - static_cast<double>(parameters);
+  if (!signal.is_stated || freedom < 1.0) return unknown;
+  // F with a denominator that is known is chi-square.
+  constexpr double known = 1e9;
+  return f_test_p_value(residuals.squaredNorm() / (signal.noise * signal.noise * freedom), freedom, known);
+}
+
+void warn_of_residuals(const Experiments& experiments, Fit& fit) {
+  for (const FittedSignal& fitted : fit.signals) {
+    if (!(fitted.p_value < level)) continue;
+    const Experiment& experiment = *experiments[fitted.rows.experiment];
+    std::string text = experiment.label + ": the residuals of " + experiment.signals[fitted.rows.signal].name;
+    if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
+    text +=
+        " are no noise: they hold motion that the fitted rig does not make. The law is not that of the rig, a "
+        "constant is off, or the search ended beside the best fit (more starts, bounds, stated values); what "
+        "the intervals say holds for the right law only";
+    fit.warnings.push_back(std::move(text));
+  }
+}
+
+}  // namespace dualdamp::identify

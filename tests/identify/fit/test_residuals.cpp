@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/random.hpp"
+#include "identify/fit/residual_test.hpp"
+#include "tests/identify/fit/synthetic.hpp"
+
+using namespace dualdamp;
+using identify::Fit;
+using identify::Signal;
+
+namespace {
+
+Signal sine(std::size_t count) {
+  Signal signal{.name = "x", .unit = "m", .is_sampled = true};
+  for (std::size_t i = 0; i < count; ++i) signal.measured.push_back(std::sin(0.1 * static_cast<double>(i)));
+  return signal;
+}
+
+Eigen::VectorXd noise(std::size_t count, std::uint64_t seed, double motion) {
+  const core::RandomStream draws{seed, 920};
+  Eigen::VectorXd residuals(static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    residuals[static_cast<Eigen::Index>(i)] =
+        0.01 * (draws.normal(i) + motion * std::cos(0.1 * static_cast<double>(i)));
+  return residuals;
+}
+
+}  // namespace
+
+TEST_CASE("residuals: the test for noise keeps its level, and finds a motion below the noise", "[identify][fit]") {
+  constexpr std::size_t count = 997;  // a prime: the transform takes a shorter length
+  const Signal signal = sine(count);
+  int below = 0;
+  constexpr int seeds = 400;
+  for (int seed = 0; seed < seeds; ++seed)
+    below += identify::noise_p_value(signal, noise(count, static_cast<std::uint64_t>(seed), 0.0), 3) < 0.05 ? 1 : 0;
+  // 5 % of 400 with a standard deviation of 4.4.
+  CHECK(below > 20 - 18);
+  CHECK(below < 20 + 18);
+  // 0.35 of the noise adds 6 % to the variance; of chi-square with 16 degrees of freedom and noncentrality 61, 99 %
+  // lie beyond its level of 0.001, 39.3.
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    found += identify::noise_p_value(signal, noise(count, seed, 0.35), 3) < 1e-3 ? 1 : 0;
+  CHECK(found >= 17);
+}
+
+TEST_CASE("residuals: readings with a stated noise are compared with it", "[identify][fit]") {
+  Signal signal{
+      .name = "x", .unit = "m", .measured = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, .noise = 0.1, .is_stated = true};
+  const Eigen::VectorXd small = Eigen::VectorXd::Constant(6, 0.1);
+  // chi-square of 4 degrees of freedom: P(>= 6) = 0.1991, P(>= 54) = 5.2e-11.
+  CHECK(identify::noise_p_value(signal, small, 2) == Approx(0.19915).epsilon(1e-3));
+  CHECK(identify::noise_p_value(signal, 3.0 * small, 2) < 1e-9);
+  signal.is_stated = false;
+  CHECK(std::isnan(identify::noise_p_value(signal, small, 2)));
+}
+
+TEST_CASE("residuals: a fit that leaves more than noise says so", "[identify][fit]") {
+  const test::LawCase& law = test::law_case_of("stribeck");
+  CHECK(test::fit_of(law, 5, {}, false).warnings.empty());
+  // Coulomb friction and damping follow that motion within a few times the noise.
+  identify::Rig rig = test::rig_with(law);
+  const identify::Record record = test::history_of(rig, {}, 5);
+  rig.laws.front() = test::rig_with(test::law_case_of("coulomb")).laws.front();
+  std::string fault;
+  const identify::Experiments experiments = identify::experiments_of(record, {.name = "record.csv"}, fault);
+  std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.2);
+  for (const identify::Own own : experiments.front()->own_free)
+    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  const Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
+  REQUIRE(fit.outcome.ok());
+  REQUIRE(fit.warnings.size() == 1);
+  CHECK_THAT(fit.warnings.front(),
+             Catch::StartsWith("record.csv: the residuals of x") && Catch::Contains("are no noise"));
+}
