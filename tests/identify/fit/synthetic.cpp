@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
@@ -14,35 +15,12 @@ namespace dualdamp::test {
 
 using friction::ParameterValues;
 
-const std::vector<LawCase>& law_cases() {
+namespace {
+
+std::vector<LawCase> usual_cases() {
   using List = std::vector<ParameterValues>;
-  static const std::vector<LawCase> cases = {
+  return {
       {"coulomb", {{"kinetic", 1.0}}, {"kinetic"}},
-      {"asymmetric_coulomb",
-       {{"kinetic_forward", 1.2}, {"kinetic_backward", 0.8}, {"viscous_forward", 2.0}, {"viscous_backward", 1.0}},
-       {"kinetic_forward", "kinetic_backward", "viscous_forward", "viscous_backward"}},
-      {"free_play", {{"kinetic", 1.0}, {"play", 1e-3}}, {"kinetic", "play"}},
-      {"gap_spring", {{"stiffness", 2000.0}, {"gap", 3e-3}}, {"stiffness", "gap"}},
-      {"iwan_four_parameter",
-       {{"stiffness", 2000.0}, {"limit", 2.0}, {"exponent", -0.3}, {"beta", 0.5}, {"count", 30.0}},
-       {"stiffness", "limit", "exponent", "beta"}},
-      {"rate_state",
-       {{"normal_force", 10.0},
-        {"mu0", 0.1},
-        {"a", 0.01},
-        {"b", 0.015},
-        {"slip_distance", 1e-3},
-        {"reference_velocity", 0.01}},
-       {"mu0", "a", "b", "slip_distance"}},
-      {"normal_vibration",
-       {{"mu", 0.1},
-        {"weight", 10.0},
-        {"normal_mass", 0.1},
-        {"static_approach", 1e-4},
-        {"normal_damping_ratio", 0.1},
-        {"lift", 10.0},
-        {"lift_velocity", 0.5}},
-       {"mu", "lift"}},
       {"stribeck",
        {{"kinetic", 1.0}, {"static", 1.6}, {"stribeck_velocity", 0.05}},
        {"kinetic", "static", "stribeck_velocity"}},
@@ -80,6 +58,45 @@ const std::vector<LawCase>& law_cases() {
       {"viscous_saturating",
        {{"coefficient", 15.0}, {"saturation_velocity", 0.2}},
        {"coefficient", "saturation_velocity"}}};
+}
+
+std::vector<LawCase> further_cases() {
+  return {
+      {"asymmetric_coulomb",
+       {{"kinetic_forward", 1.2}, {"kinetic_backward", 0.8}, {"viscous_forward", 2.0}, {"viscous_backward", 1.0}},
+       {"kinetic_forward", "kinetic_backward", "viscous_forward", "viscous_backward"}},
+      {"free_play", {{"kinetic", 1.0}, {"play", 1e-3}}, {"kinetic", "play"}},
+      {"gap_spring", {{"stiffness", 2000.0}, {"gap", 3e-3}}, {"stiffness", "gap"}},
+      {"iwan_four_parameter",
+       {{"stiffness", 2000.0}, {"limit", 2.0}, {"exponent", -0.3}, {"beta", 0.5}, {"count", 30.0}},
+       {"stiffness", "limit", "exponent", "beta"}},
+      {"rate_state",
+       {{"normal_force", 10.0},
+        {"mu0", 0.1},
+        {"a", 0.01},
+        {"b", 0.015},
+        {"slip_distance", 1e-3},
+        {"reference_velocity", 0.01}},
+       {"mu0", "a", "b", "slip_distance"}},
+      {"normal_vibration",
+       {{"mu", 0.1},
+        {"weight", 10.0},
+        {"normal_mass", 0.1},
+        {"static_approach", 1e-4},
+        {"normal_damping_ratio", 0.1},
+        {"lift", 10.0},
+        {"lift_velocity", 0.5}},
+       {"mu", "lift"}}};
+}
+
+}  // namespace
+
+const std::vector<LawCase>& law_cases() {
+  static const std::vector<LawCase> cases = [] {
+    std::vector<LawCase> all = usual_cases();
+    for (LawCase& further : further_cases()) all.push_back(std::move(further));
+    return all;
+  }();
   return cases;
 }
 
