@@ -57,8 +57,19 @@ class HeaderReader {
       headings_.push_back(parse_heading(fields.text, fields.column));
     }
     if (fields.is_unclosed) complain(1, "a quoted field does not end with its quote");
+    if (!fields.is_unclosed && is_quoted_whole()) return false;
     if (!fields.is_unclosed && layout_.units) read_units();
     return !fields.is_unclosed;
+  }
+
+  /// As a spreadsheet writes it that had taken each row for one text.
+  bool is_quoted_whole() {
+    const bool whole = headings_.size() == 1 && trimmed(line_.text).starts_with('"') &&
+                       headings_.front().text.find_first_of(",;\t") != std::string::npos;
+    if (whole)
+      complain(1, "the whole row stands in quotes and is one field", "quotes around single fields, or none",
+               excerpt(line_.text));
+    return whole;
   }
 
   /// Columns without names have numbers.

@@ -114,6 +114,18 @@ std::optional<int> date(std::string_view text) {
   return static_cast<int>(std::chrono::sys_days(calendar).time_since_epoch().count());
 }
 
+/// The half of the day that a clock of twelve hours tells.
+enum class Half { none, first, second };
+
+/// Of "12:30:01 PM", which is cut off.
+Half half_of_day(std::string_view& text) {
+  if (text.size() < 3 || std::toupper(static_cast<unsigned char>(text.back())) != 'M') return Half::none;
+  const auto letter = std::toupper(static_cast<unsigned char>(text[text.size() - 2]));
+  if (letter != 'A' && letter != 'P') return Half::none;
+  text = trimmed(text.substr(0, text.size() - 2));
+  return letter == 'A' ? Half::first : Half::second;
+}
+
 /// Z, +hh:mm or nothing behind a time; the offset is left out of account, because it is that of the whole record.
 bool is_zone(std::string_view text) {
   return text.empty() || text == "Z" ||
@@ -141,6 +153,7 @@ FieldNumber read_field(std::string_view text, char decimal) {
 
 std::optional<Clock> read_clock(std::string_view text, char decimal) {
   Clock clock;
+  const Half half = half_of_day(text);
   if (const std::size_t blank = text.find_first_of("T "); blank != std::string_view::npos) {
     const auto days = date(text.substr(0, blank));
     if (!days) return std::nullopt;
@@ -151,6 +164,9 @@ std::optional<Clock> read_clock(std::string_view text, char decimal) {
   const auto seconds = time_of_day(text, at, decimal);
   if (!seconds || !is_zone(text.substr(at))) return std::nullopt;
   clock.seconds = *seconds;
+  constexpr double noon = 43200.0;
+  if (half != Half::none && clock.seconds >= noon + 3600.0) return std::nullopt;
+  if (half != Half::none) clock.seconds = std::fmod(clock.seconds, noon) + (half == Half::second ? noon : 0.0);
   return clock;
 }
 

@@ -94,7 +94,12 @@ class Parser {
       read_row(*line);
       any = true;
     }
-    if (!any) problems_.add({at(layout_.header, 0), "there is a header and no data below it", {}, {}, {}});
+    if (!any)
+      problems_.add({at(layout_.header, 0),
+                     "there is a header and no data below it",
+                     "a row of numbers for each reading",
+                     {},
+                     {}});
     if (const std::size_t empty = rows_.empty_rows(); empty > 0)
       warnings_.push_back(std::to_string(empty) + " row" + (empty == 1 ? "" : "s") +
                           " of empty fields between the others " + (empty == 1 ? "is" : "are") + " left out");
@@ -223,6 +228,11 @@ class Parser {
 
 DataTable parse_csv(std::string_view text, const ReadOptions& options, Problems& problems,
                     std::vector<std::string>& warnings) {
+  constexpr std::size_t longest_head = 4096;
+  if (text.starts_with("LabVIEW Measurement") &&
+      text.substr(0, longest_head).find("X_Columns\tNo") != std::string_view::npos)
+    refuse_file(options.name, "the LabVIEW file holds no times: X_Columns is No",
+                "a measurement file with one X column (X_Columns One)");
   return Parser(text, options, problems, warnings).run();
 }
 

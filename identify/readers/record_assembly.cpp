@@ -348,7 +348,7 @@ class Assembly {
     History result;
     result.sweep = label;
     result.start = t.front();
-    result.sample_rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
+    result.sample_rate = 1.0 / base.step;
     using Member = std::vector<double> History::*;
     for (const auto& [name, member] : {std::pair<std::string_view, Member>{"x", &History::x},
                                        {"y", &History::y},

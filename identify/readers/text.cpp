@@ -94,6 +94,34 @@ std::optional<std::string> converted(std::string_view bytes, const char* encodin
   return text;
 }
 
+/// Without the mark with which DOS ended a text.
+std::string without_end_mark(std::string text) {
+  if (text.ends_with('\x1A')) text.pop_back();
+  return text;
+}
+
+/// Hard and narrow blanks as blanks, and the minus of typography as that of computers: they look alike.
+std::string plain_signs(std::string text) {
+  constexpr std::array<std::pair<std::string_view, char>, 5> signs = {{{"\xC2\xA0", ' '},
+                                                                       {"\xE2\x80\xAF", ' '},
+                                                                       {"\xE2\x80\x89", ' '},
+                                                                       {"\xE2\x80\x87", ' '},
+                                                                       {"\xE2\x88\x92", '-'}}};
+  std::string plain;
+  std::size_t done = 0;
+  for (std::size_t i = text.find_first_of("\xC2\xE2"); i != std::string::npos;
+       i = text.find_first_of("\xC2\xE2", i + 1)) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    const auto* const sign =
+        std::ranges::find_if(signs, [rest](const auto& s) { return rest.starts_with(s.first); });
+    if (sign == signs.end()) continue;
+    plain.append(text, done, i - done);
+    plain += sign->second;
+    done = i + sign->first.size();
+  }
+  return done == 0 ? std::move(text) : plain.append(text, done);
+}
+
 std::string without_mark(std::string text) {
   if (text.starts_with(utf8_mark)) text.erase(0, utf8_mark.size());
   return text;
@@ -112,7 +140,7 @@ std::string decoded(std::string_view bytes, const std::string& file, std::vector
           core::Diagnostic{{file, 0, 0, {}}, "the text is no sound UTF-16", "a text file in UTF-8", {}, {}});
     text = without_mark(std::move(*utf8));
   } else {
-    text = without_mark(std::string(bytes));
+    text = without_end_mark(without_mark(std::string(bytes)));
     const std::size_t end = length_of_text(text);
     const bool has_control = std::ranges::any_of(text, is_control);
     if (end < text.size() && !has_control) {
@@ -126,7 +154,7 @@ std::string decoded(std::string_view bytes, const std::string& file, std::vector
     }
   }
   refuse_binary(text, file);
-  return text;
+  return plain_signs(std::move(text));
 }
 
 void refuse_binary(std::string_view text, const std::string& file) {

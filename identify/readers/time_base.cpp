@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <utility>
 
@@ -80,10 +81,11 @@ class Clock {
     return base;
   }
 
-  static TimeBase rows(Part part, std::string warning) {
+  [[nodiscard]] TimeBase rows(Part part, std::string warning) const {
     TimeBase base;
     base.first = part.first;
     base.last = part.last;
+    base.step = even_step(part);
     base.warning = std::move(warning);
     return base;
   }
@@ -115,6 +117,46 @@ class Clock {
 
   [[nodiscard]] double mean_step(Part part) const {
     return (t_[part.last - 1] - t_[part.first]) / static_cast<double>(part.size() - 1);
+  }
+
+  /// By all stamps; where they are even to the last bits, by the first and the last, which are as good.
+  [[nodiscard]] double even_step(Part part) const {
+    const double step = mean_step(part);
+    constexpr double last_bits = 1e-9;
+    if (part.size() < 3 || distance(part, worst_row(part)) <= last_bits * step) return step;
+    return first_double() < t_.size() ? step_of_strip(part) : step_of_least_squares(part);
+  }
+
+  [[nodiscard]] double step_of_least_squares(Part part) const {
+    const double middle = 0.5 * static_cast<double>(part.size() - 1);
+    double products = 0.0;
+    double squares = 0.0;
+    for (std::size_t row = part.first; row < part.last; ++row) {
+      const double place = static_cast<double>(row - part.first) - middle;
+      products += place * (t_[row] - t_[part.first]);
+      squares += place * place;
+    }
+    return products / squares;
+  }
+
+  /// Slope of the narrowest strip that holds all stamps. Stamps of a coarse clock are the stairs of a line; least
+  /// squares would tilt it by the square of the share of a stair in the record.
+  [[nodiscard]] double step_of_strip(Part part) const {
+    const auto width = [&](double step) {
+      double low = 0.0;
+      double high = 0.0;
+      for (std::size_t row = part.first; row < part.last; ++row) {
+        const double beside = t_[row] - t_[part.first] - static_cast<double>(row - part.first) * step;
+        low = std::min(low, beside);
+        high = std::max(high, beside);
+      }
+      return high - low;
+    };
+    // The width is convex in the slope. Within so much of the mean step lies any slope that the ends allow.
+    const double step = mean_step(part);
+    const double reach = 4.0 * distance(part, worst_row(part)) / static_cast<double>(part.size() - 1);
+    constexpr int bits = 40;
+    return boost::math::tools::brent_find_minima(width, step - reach, step + reach, bits).first;
   }
 
   /// Distance of a time from the line through the first and the last one.
@@ -208,7 +250,7 @@ class Clock {
           "clock");
     return rows(all_, "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " +
                           seconds(burst) + "): the samples are taken as evenly spaced, " +
-                          seconds(mean_step(all_)) + " apart");
+                          seconds(even_step(all_)) + " apart");
   }
 
   [[nodiscard]] TimeBase jitter(double step) const {
@@ -223,6 +265,7 @@ class Clock {
       TimeBase base =
           rows(part, gaps + "the samples are not evenly spaced " + range +
                          ": they are interpolated at even times, " + seconds(mean_step(part)) + " apart");
+      base.step = mean_step(part);
       base.is_interpolated = true;
       return base;
     }
@@ -234,7 +277,7 @@ class Clock {
                    "a constant sample rate; here a step of about " + seconds(step));
     return rows(part, gaps + "the time stamps jitter " + range +
                           ": the samples, smoother without the jitter, are taken " + "as evenly spaced, " +
-                          seconds(mean_step(part)) + " apart");
+                          seconds(even_step(part)) + " apart");
   }
 
   /// Each sample against the cubic through its four neighbours, at the stamps and at even times.

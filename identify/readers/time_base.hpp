@@ -11,6 +11,10 @@
 /// under
 ///   which the signal is smoother holds; in the second case it is interpolated at even times.
 /// What is none of these is refused.
+///
+/// The step between even samples is that of all stamps: by the two at the ends, each off by its rounding or by a
+/// burst, the period of a motion would be wrong. It is the slope of the line of least squares or, where stamps
+/// stand there several times, of the narrowest strip that holds them.
 
 #include <cstddef>
 #include <optional>
@@ -39,6 +43,7 @@ struct TimeFault {
 struct TimeBase {
   std::size_t first = 0;
   std::size_t last = 0;
+  double step = 0.0;               ///< s, between samples
   bool is_interpolated = false;    ///< the signals are to be interpolated from their stamps to even times
   std::string warning;             ///< empty: nothing to be told
   std::optional<TimeFault> fault;  ///< the rows cannot be used

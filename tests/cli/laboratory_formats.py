@@ -6,6 +6,8 @@ precision that the file's digits allow) or words of the only refusal.
 
 import math
 import random
+import struct
+import zlib
 
 from laboratory_records import PERIOD, SLOW, decay, mat4, mat5, matrix5, pairs, struct5, table, uff58
 
@@ -66,6 +68,42 @@ def lvm():
             "Operator\tlab\nDate\t2026/11/22\nTime\t12:30:01.25\n***End_of_Header***\t\n\t\nChannels\t1\t\nSamples\t1250\t\n"
             "Date\t2026/11/22\t\nTime\t12:30:01.25\t\nX_Dimension\tTime\t\nX0\t0.0E+0\t\nDelta_X\t0.02\t\n***End_of_Header***\t\t\n")
     return head + table("X_Value\tUntitled\tComment", ROWS, "\t")
+
+
+def lvm_comma():
+    """As LabVIEW writes it on a German system: the header says so itself."""
+    head, body = lvm().split("X_Value", 1)
+    return head.replace("Decimal_Separator\t.", "Decimal_Separator\t,") + "X_Value" + body.replace(".", ",")
+
+
+def lvm_without_x():
+    """No column of times: the header holds the step."""
+    head = lvm().split("X_Value", 1)[0].replace("X_Columns\tOne", "X_Columns\tNo")
+    return head + table("X_Value\tx [mm]\tComment", [("", x) for _, x in ROWS], "\t")
+
+
+def american(seconds):
+    """Hours from 1 to 12, with a month before the day."""
+    hour = int(seconds // 3600)
+    return f"11/22/2026 {(hour - 1) % 12 + 1:d}:{int(seconds // 60) % 60:02d}:{seconds % 60:06.3f} {'AM' if hour < 12 else 'PM'}"
+
+
+def noisy(step, deviation=0.05):
+    """Read by a converter with this step, in mm."""
+    generator = random.Random(11)
+    return table("t [s],x [mm]", [(t, step * round((x + generator.gauss(0, deviation)) / step)) for t, x in ROWS])
+
+
+def in_g():
+    """x, and its acceleration by second differences."""
+    a = [0.0, *((X[i - 1] - 2 * X[i] + X[i + 1]) / STEP**2 for i in range(1, len(X) - 1)), 0.0]
+    return table("t [s],x [mm],a [g]", [(t, x, b / 9.80665) for (t, x), b in zip(ROWS, a)])
+
+
+def packed5(content):
+    """An element of MATLAB 7: packed."""
+    packed = zlib.compress(content)
+    return struct.pack("<2I", 15, len(packed)) + packed
 
 
 def clipped():
@@ -155,6 +193,30 @@ ACCEPTED = [
     ("extremes_of_three_decays.csv", table("sweep,t [s],x [mm]", [(f"run {k}", t, 1e3 * decay([t], start=0.1 + 0.01 * k)[0]) for k in range(3) for t in [i * HALF for i in range(12)]]), [], DECAY),
     ("curly_brackets.csv", table("Y {mm},X <mm>", MM), [], PAIRS),
     ("universal.uff", uff58("x", [1e3 * x for x in X], STEP, "mm"), [], DECAY),
+    ("excel_german.csv", "\ufeff" + table("Y [mm];x [mm];", [(*row, "") for row in MM], ";", end="\r\n", comma=True), ["--decimal", ","], PAIRS),
+    ("excel_german_unit_row.csv", "\ufeffsep=;\r\n" + table("Y;x\r\n[mm];[mm]", MM, ";", end="\r\n", comma=True), ["--decimal", ","], PAIRS),
+    ("decimal_comma_exponents.csv", table("Y [m];x [m]", pairs(), ";", "{:.9E}", comma=True), ["--decimal", ","], PAIRS),
+    ("mixed_line_ends.csv", PLAIN.replace("\n", "\r\n", 3), [], PAIRS),
+    ("old_mark_of_the_end.csv", PLAIN.encode() + b"\x1a", [], PAIRS),
+    ("hard_blanks.csv", table("Y\u00a0[mm];\u00a0x\u00a0[mm]", [(f"{y:.6f}\u00a0", f"{x:.6f}") for y, x in MM], ";"), [], PAIRS),
+    ("greek_mu.csv", table("Y [\u03bcm],x [\u00b5m]", [(1e3 * y, 1e3 * x) for y, x in MM]), [], PAIRS),
+    ("other_script.csv", table("\u57fa\u5ea7 [mm],\u4f4d\u79fb [mm]", MM), ["--column", "Y=\u57fa\u5ea7", "--column", "x=\u4f4d\u79fb"], PAIRS),
+    ("minus_of_typography.csv", table("t [s],x [mm]", [(t, f"{x:.6f}".replace("-", "\u2212")) for t, x in ROWS]), [], DECAY),
+    ("aligned_columns.txt", "".join(f"{a:>16}{b:>16}\n" for a, b in [("Y_mm", "x_mm"), *[(f"{y:.6f}", f"{x:.6f}") for y, x in MM]]), [], PAIRS),
+    ("labels_with_blanks.csv", table("sweep,Y [mm],x [mm]", [('"sweep up, 1"', *row) for row in MM]), [], PAIRS),
+    ("phase_in_degrees.csv", table("Y [mm],x [mm],phase (deg)", [(*row, 90.0) for row in MM]), [], PAIRS),
+    ("minutes.csv", table("t [min],x [mm]", [(t / 60, x) for t, x in ROWS], form="{:.9f}"), [], DECAY),
+    ("microseconds.csv", table("t [us],x [mm]", [(f"{round(1e6 * t)}", x) for t, x in ROWS]), [], DECAY),
+    ("seconds_since_1970.csv", table("t [s],x [mm]", [(f"{1795350601 + t:.3f}", x) for t, x in ROWS]), [], DECAY),
+    ("days_of_a_spreadsheet.csv", table("t [day],x [mm]", [(f"{46348.5208 + t / 86400:.9f}", x) for t, x in ROWS]), [], DECAY),
+    ("american_stamps.csv", table("time,x [mm]", [(american(45001 + t), x) for t, x in ROWS]), [], DECAY),
+    ("stamps_with_zone.csv", table("time,x [mm]", [("2026-11-22T" + clock(45001 + t) + "+01:00", x) for t, x in ROWS]), [], DECAY),
+    ("stamps_of_whole_seconds.csv", table("time,x [mm]", [(clock(45001 + int(t), "{:02d}:{:02d}:{:02d}"), x) for t, x in ROWS]), [], DECAY),
+    ("bars.txt", "| Y [mm] | x [mm] |\n|---|---|\n" + "".join(f"| {y:.6f} | {x:.6f} |\n" for y, x in MM), [], PAIRS),
+    ("acceleration_in_g.csv", in_g(), [], DECAY),
+    ("ten_bits.csv", noisy(0.2), [], DECAY),
+    ("labview_comma.lvm", lvm_comma(), ["--decimal", ",", "--column", "x=Untitled", "--unit", "x=mm"], DECAY),
+    ("v7_packed_struct.mat", mat5(packed5(struct5("run", [{"x": X, "fs": [50.0]}]))), [], DECAY),
 ]
 
 REFUSED = [
@@ -204,6 +266,25 @@ REFUSED = [
     ("capital_units.csv", table("Y [mm],x [MM]", MM), [], "did you mean 'mm'?"),
     ("page.csv", "<!DOCTYPE html><html><body>404</body></html>", [], "the file is a page of the web"),
     ("control.csv", b"Y,x\n1,\x002\n", [], "control character"),
+    ("infinity.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "-Inf"), [], "is not a finite number"),
+    ("windows_nan.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "-1.#IND"), [], "is not a number"),
+    ("overload.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "OVERLOAD"), [], "is not a number"),
+    ("fortran_overflow.txt", PLAIN.replace(",", " ").replace(" [mm]", "_mm").replace(PLAIN.split("\n")[3].split(",")[1], "*********"), [], "is not a number"),
+    ("fortran_exponent_without_letter.txt", table("Y_m x_m", [(f"{y:.6E}".replace("E-0", "-00"), f"{x:.6E}".replace("E-0", "-00")) for y, x in pairs()], " "), [], "is not a number"),
+    ("thousands_blanks.csv", table("Y [um];x [um]", [(f"{1e3 * y:,.1f}".replace(",", " "), f"{1e3 * x:,.1f}".replace(",", " ")) for y, x in MM], ";"), [], "thousands"),
+    ("thousands_apostrophes.csv", table("Y [um];x [um]", [(f"{1e3 * y:,.1f}".replace(",", "'"), f"{1e3 * x:,.1f}".replace(",", "'")) for y, x in MM], ";"), [], "thousands"),
+    ("thousands_points.csv", table("Y [um];x [um]", [(f"{1e3 * y:,.1f}".translate(str.maketrans(",.", ".,")), f"{1e3 * x:,.1f}".translate(str.maketrans(",.", ".,"))) for y, x in MM], ";"), ["--decimal", ","], "thousands"),
+    ("missing_sample.csv", table("t [s];x [mm]", [(t, "" if i == 100 else x) for i, (t, x) in enumerate(ROWS)], ";"), [], "an empty field"),
+    ("peak_to_peak.csv", table("Y [mm],x [mm p-p]", MM), [], "the unit of column x: 'mm p-p' is not a unit"),
+    ("labview_without_x.lvm", lvm_without_x(), [], "X_Columns"),
+    ("header_alone.csv", "Y [mm],x [mm]\n", [], "no data below it"),
+    ("empty.csv", "", [], "empty"),
+    ("truths.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "TRUE"), [], "is not a number"),
+    ("rows_in_quotes.csv", "".join(f'"{line}"\n' for line in PLAIN.splitlines()), [], "the whole row stands in quotes"),
+    ("padded_with_zeros.csv", PLAIN.encode() + bytes(512), [], "control character"),
+    ("index.tdm", '<?xml version="1.0" encoding="UTF-8" standalone="no" ?>\n<usi:tdm xmlns:usi="http://www.ni.com/Schemas/USI/1_0" version="1.0">\n</usi:tdm>\n', [], "XML"),
+    ("groups.tdms", b"TDSm" + bytes(200), [], "TDMS"),
+    ("binary_of_a_scope.bin", bytes(range(256)) * 8, [], "error"),
     ("modes.uff", "    -1\n    55\nmode 1\n    -1\n", [], "no time response"),
 ]
 
