@@ -115,10 +115,14 @@ class Check {
     if (!faults_.empty() || !is_assumed(name) || !(omega > 0.0)) return;
     const double speed = omega * amplitude;
     if (speed <= fastest && omega * speed <= most_acceleration) return;
-    refuse("no unit is stated for " + std::string(name) + "; in metres it would reach " + shown(amplitude) +
-               " m at " + shown(omega / (2.0 * std::numbers::pi)) + " Hz, " + shown(speed) + " m/s and " +
-               shown(omega * speed) + " m/s^2",
-           "the unit in the file, '" + std::string(name) + " [mm]', or --unit " + name + "=mm");
+    const bool is_angle = constants_.coordinate == core::Coordinate::angle;
+    const std::string unit = constants_.unit("m");
+    const std::string usual = is_angle ? "deg" : "mm";
+    refuse("no unit is stated for " + std::string(name) + "; in " + (is_angle ? "radians" : "metres") +
+               " it would reach " + shown(amplitude) + " " + unit + " at " +
+               shown(omega / (2.0 * std::numbers::pi)) + " Hz, " + shown(speed) + " " + unit + "/s and " +
+               shown(omega * speed) + " " + unit + "/s^2",
+           "the unit in the file, '" + std::string(name) + " [" + usual + "]', or --unit " + name + "=" + usual);
   }
 
   /// Amplitudes at one frequency.

@@ -107,3 +107,18 @@ TEST_CASE("Amplitudes off by 1000, degrees for radians, and readings that do not
   CHECK(mentions(changed([](Pair& p) { p.phase *= 180.0 / pi; }), "they may be degrees"));
   CHECK(mentions(changed([](Pair& p) { p.phase *= pi / 180.0; }), "they would in radians"));
 }
+
+TEST_CASE("An angle without unit is refused in the words of angles") {
+  std::mt19937_64 random(18);
+  Rig rig = random_rig(random, 0.9, 1.1);
+  rig.constants.coordinate = core::Coordinate::angle;
+  Record record;
+  record.decay.emplace();
+  for (int i = 0; i < 8; ++i) record.decay->extremes.push_back((i % 2 == 0 ? 1e6 : -1e6) * std::pow(0.9, i));
+  std::string text;
+  for (const core::Diagnostic& fault : gross_faults(record, rig.constants, {"x"}, "data.csv"))
+    text += core::format(fault);
+  CHECK(mentions(text, "in radians it would reach"));
+  CHECK(mentions(text, "--unit x=deg"));
+  CHECK_FALSE(text.find("metres") != std::string::npos);
+}
