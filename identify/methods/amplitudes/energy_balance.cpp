@@ -194,6 +194,6 @@ constinit const MethodEntry energy_balance_method{
     RecordKind::states,
     lacks_energy,
     call_of<energy_balance>,
-    AssumptionSet::all_but(Assumption::constants, Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
+    AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
 
 }  // namespace dualdamp::identify

@@ -280,6 +280,6 @@ constinit const MethodEntry receptance_method{
     RecordKind::states,
     lacks_receptance,
     call_of<receptance>,
-    AssumptionSet::all_but(Assumption::constants, Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
+    AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
 
 }  // namespace dualdamp::identify

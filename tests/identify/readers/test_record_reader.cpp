@@ -112,15 +112,15 @@ TEST_CASE("Times as instruments print them are evenly spaced") {
 
 TEST_CASE("The rate of even samples is that of all their stamps, however coarse these are") {
   // Stamps at the ends are off by a step of the clock or a burst: by them the rate would be off by 2e-3 and 1e-4.
-  const auto rate_of = [](auto stamp) {
+  const auto rate_of = [](const char* format, auto stamp) {
     std::string text = "t [s],x [mm]\n";
-    for (int i = 0; i < 1250; ++i) text += print("%.3f,%.6f\n", stamp(i), std::cos(0.05 * i));
+    for (int i = 0; i < 1250; ++i) text += print(format, stamp(i)) + print(",%.6f\n", std::cos(0.05 * i));
     return parse_record(text, "data.csv").record.histories.at(0).sample_rate;
   };
   constexpr double exact = 50.0;
-  CHECK(rate_of([](int i) { return 0.1 * std::floor(0.2 * i + 0.5); }) == Approx(exact).epsilon(1e-5));
-  CHECK(rate_of([](int i) { return std::floor(0.02 * i); }) == Approx(exact).epsilon(5e-5));
-  CHECK(rate_of([](int i) { return 0.06 * (i / 3 + 1); }) == Approx(exact).epsilon(1e-5));
+  CHECK(rate_of("%.1f", [](int i) { return 0.1 * std::floor(0.2 * i + 0.5); }) == Approx(exact).epsilon(1e-5));
+  CHECK(rate_of("%.0f", [](int i) { return std::floor(0.02 * i); }) == Approx(exact).epsilon(5e-5));
+  CHECK(rate_of("%.2f", [](int i) { return 0.06 * (i / 3 + 1); }) == Approx(exact).epsilon(1e-5));
 }
 
 TEST_CASE("Gaps: the longest uninterrupted stretch is used, and said so") {
