@@ -87,6 +87,7 @@ class SteadyStates {
     for (const AmplitudeTerm* term : terms_) list.push_back({term->assumption, std::string(term->test)});
     for (int j = 0; j < contrasts(); ++j)
       list.push_back({Assumption::stationarity, "friction force of sweep " + std::to_string(j + 1) + " free"});
+    if (has_trend()) list.push_back({Assumption::stationarity, "friction force that drifts from sweep to sweep"});
     return list;
   }
 
@@ -108,7 +109,7 @@ class SteadyStates {
 
   /// Coefficients of all relaxations, each zero.
   [[nodiscard]] Eigen::VectorXd none_relaxed() const {
-    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(terms_.size()) + contrasts());
+    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(terms_.size()) + contrasts() + (has_trend() ? 1 : 0));
   }
 
  private:
@@ -118,11 +119,21 @@ class SteadyStates {
     return sweeps_ < 2 ? 0 : sweeps_ == 2 ? 1 : std::min(sweeps_, most);
   }
 
+  [[nodiscard]] bool has_trend() const { return sweeps_ > 2; }
+
+  /// What the friction force of a sweep has more than the mean over all sweeps, which is what x_f stands for.
+  [[nodiscard]] double excess(int sweep, const Parameters& at) const {
+    const auto first = static_cast<Eigen::Index>(terms_.size());
+    double sum = 0.0;
+    for (int j = 0; j < contrasts(); ++j) sum += at.g[first + j] * (j == sweep ? 1.0 : -1.0 / (sweeps_ - 1.0));
+    if (has_trend()) sum += at.g[first + contrasts()] * (2.0 * sweep / (sweeps_ - 1.0) - 1.0);
+    return sum;
+  }
+
   /// The drive that a state asks for, with every relaxation by its coefficient.
   [[nodiscard]] std::complex<double> drive(const SteadyPoint& point, const Parameters& at, double x) const {
-    const auto first = static_cast<Eigen::Index>(terms_.size());
     PlainFriction friction = at.friction;
-    if (point.sweep < contrasts()) friction.x_f += at.g[first + point.sweep];
+    friction.x_f += excess(point.sweep, at);
     const std::complex<double> plain = plain_drive(friction, x, point.r);
     std::complex<double> sum = plain;
     for (std::size_t j = 0; j < terms_.size(); ++j) {
@@ -211,28 +222,6 @@ Eigen::MatrixXd free_columns(const Rows& rows, const Taken& taken) {
   for (std::size_t j = 0; j < taken.size(); ++j)
     columns.col(2 + static_cast<Eigen::Index>(j)) = rows.relaxed.col(static_cast<Eigen::Index>(taken[j]));
   return columns;
-}
-
-/// Where to begin: the straight line of the quadrature at the mean frequency, by a grid in zeta.
-PlainFriction start(const std::vector<SteadyPoint>& points) {
-  PlainFriction best{0.05, 0.0};
-  double least = std::numeric_limits<double>::infinity();
-  for (double zeta = 0.002; zeta < 0.9; zeta *= 1.25) {
-    for (double share = 0.0; share < 0.95; share += 0.05) {
-      // x_f as a share of what would take the whole drive of the lowest state.
-      const auto low = std::ranges::min_element(points, {}, &SteadyPoint::x);
-      const PlainFriction friction{zeta, share * low->x * 0.8};
-      double squares = 0.0;
-      for (const SteadyPoint& point : points) {
-        const double Y = std::abs(plain_drive(friction, point.x, point.r));
-        squares += std::pow(std::log(Y / point.Y), 2);
-      }
-      if (squares >= least) continue;
-      least = squares;
-      best = friction;
-    }
-  }
-  return best;
 }
 
 /// Of the curve that the noise of a channel is told from.
@@ -417,6 +406,9 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, const Taken& rel
     if (states.terms()[j]->test == stiffness_free && !column.isZero(0.0))
       column += 2.0 * fit.at.friction.x_f * model.base.col(1);
   }
+  model.F0_parts = Eigen::VectorXd::Zero(model.relaxed.cols());
+  const auto terms = static_cast<Eigen::Index>(states.terms().size());
+  model.F0_parts.tail(model.relaxed.cols() - terms).setConstant(to_force);
   model.base.col(1) /= to_force;
   model.value = parameters(fit.at.friction.zeta, fit.at.friction.x_f * unit, constants);
   return model;
@@ -436,7 +428,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   std::vector<std::string> said;
   while (points.size() >= fewest) {
     const SteadyStates states(points, true);
-    const Fit fit = best_fit(states, start(points), {});
+    const Fit fit = best_fit(states, first_guess(points), {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
     if (drop_sticking(points, fit.at.friction, said)) continue;
     JointModel model = model_of(fit, states, {}, unit, constants);

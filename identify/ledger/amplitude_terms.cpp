@@ -1,7 +1,9 @@
 #include "identify/ledger/amplitude_terms.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sim/analytic/den_hartog.hpp"
@@ -24,6 +26,27 @@ Complex plain_drive(const PlainFriction& friction, double x, double r) {
   const Complex drive = Complex(x + d.G * x_f, -d.H * x_f) * stiffness;
   const Complex fundamental = (drive - i * (4.0 / std::numbers::pi * x_f)) / stiffness;
   return drive * std::polar(1.0, -std::arg(fundamental));
+}
+
+PlainFriction first_guess(const std::vector<SteadyPoint>& points) {
+  PlainFriction best{0.05, 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  for (double zeta = 0.002; zeta < 0.9; zeta *= 1.25) {
+    for (double share = 0.0; share < 0.95; share += 0.05) {
+      // x_f as a share of what would take the whole drive of the lowest state.
+      const auto low = std::ranges::min_element(points, {}, &SteadyPoint::x);
+      const PlainFriction friction{zeta, share * low->x * 0.8};
+      double squares = 0.0;
+      for (const SteadyPoint& point : points) {
+        const double Y = std::abs(plain_drive(friction, point.x, point.r));
+        squares += std::pow(std::log(Y / point.Y), 2);
+      }
+      if (squares >= least) continue;
+      least = squares;
+      best = friction;
+    }
+  }
+  return best;
 }
 
 namespace {

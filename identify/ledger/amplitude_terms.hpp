@@ -12,6 +12,7 @@
 #include <complex>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "identify/assumption.hpp"
 
@@ -35,6 +36,9 @@ struct SteadyPoint {
   int sweep = 0;
   int number = 0;
 };
+
+/// Where a fit begins: the best of a grid in zeta and x_f.
+[[nodiscard]] PlainFriction first_guess(const std::vector<SteadyPoint>& points);
 
 struct AmplitudeTerm {
   Assumption assumption;

@@ -122,6 +122,9 @@ class Histories {
     model.value = parameters(force);
     model.constants = {force.m, force.k, constants_.frequency};
     model.scale_freedom = static_cast<double>(model.residuals.size());
+    model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ways_.size()));
+    for (std::size_t j = 0; j < ways_.size(); ++j)
+      if (ways_[j].kind == Way::Kind::friction_of_test) model.F0_parts[static_cast<Eigen::Index>(j)] = 1.0;
     return model;
   }
 
@@ -256,7 +259,7 @@ class Histories {
       const Way& way = ways_[j];
       const double g = at.g[static_cast<Eigen::Index>(j)];
       if (way.kind == Way::Kind::constant) by.push_back(way.by);
-      if (way.kind == Way::Kind::friction_of_test && way.test == t) parameters.F0 += g;
+      if (way.kind == Way::Kind::friction_of_test) parameters.F0 += g * share_of(way, t);
       if (way.kind != Way::Kind::force) continue;
       const double unit = way.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
       forces.emplace_back([term = way.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
@@ -334,10 +337,15 @@ class Histories {
       const Way& way = ways_[wanted[j]];
       const Eigen::Index to = base + static_cast<Eigen::Index>(j);
       if (way.kind == Way::Kind::force) result.col(to) = derivatives.col(from++);
-      if (way.kind == Way::Kind::friction_of_test && way.test == t)
-        result.col(to) = result.col(1) / layout.shared()[1].scale;
+      if (way.kind == Way::Kind::friction_of_test)
+        result.col(to) = result.col(1) * (share_of(way, t) / layout.shared()[1].scale);
     }
     return result;
+  }
+
+  /// What a test has of a friction force of one test that is free, so that F0 stays the mean over all tests.
+  [[nodiscard]] double share_of(const Way& way, std::size_t test) {
+    return way.test == test ? 1.0 : -1.0 / (static_cast<double>(fit_.tests().size()) - 1.0);
   }
 
   /// Rows of one reading with its gain, delay and zero, to second order in the delay.

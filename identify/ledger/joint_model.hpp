@@ -39,6 +39,9 @@ struct JointModel {
   Eigen::MatrixXd base;
   std::vector<Relaxation> relaxations;
   Eigen::MatrixXd relaxed;  ///< a column for each relaxation
+  /// By how much the friction force of a part of the record is off the mean, F0, for a unit of each relaxation [N];
+  /// empty: none sets one free.
+  Eigen::VectorXd F0_parts = {};
   /// Relaxations without a column, which change the record in the second order only: not tested, and fitted where a
   /// departure is to be explained.
   std::vector<std::size_t> hidden = {};

@@ -91,9 +91,14 @@ class Writer {
     entry.F0_change = scale_.F0(test.F0_change);
   }
 
+  /// No single F0 describes parts of the record that differ, though their mean stays.
+  [[nodiscard]] bool is_uneven(const RelaxationTest& test) const {
+    return std::abs(scale_.F0(test.F0_part)) >= options_.least_change;
+  }
+
   [[nodiscard]] bool matters(const RelaxationTest& test) const {
     return std::abs(scale_.zeta(test.zeta_change)) >= options_.least_change ||
-           std::abs(scale_.F0(test.F0_change)) >= options_.least_change;
+           std::abs(scale_.F0(test.F0_change)) >= options_.least_change || is_uneven(test);
   }
 
   void charge(const Departure& departure, Ledger& ledger) const {
@@ -108,6 +113,9 @@ class Writer {
       entry.reason =
           harms ? alternatives(departure, test)
                 : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
+      if (harms && is_uneven(test))
+        entry.reason +=
+            "; F0 of a part of the record is off its mean by " + in_percent(std::abs(scale_.F0(test.F0_part)));
       if (harms) named.push_back(assumption_of(test));
     }
     if (!named.empty()) ledger.departures.push_back(std::move(named));
@@ -207,6 +215,42 @@ void widen(std::array<double, 2>& interval, const std::array<double, 2>& other) 
   interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
 }
 
+/// Is it a term of friction that a test of its own would reject, at a level at which the family of all tests must
+/// allow for chance?
+bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
+  constexpr double level = 0.15;
+  return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
+}
+
+void widen(Estimate& estimate, const Estimate& other) {
+  if (!estimate.interval95 || !other.interval95) return;
+  widen(estimate.interval95->zeta, other.interval95->zeta);
+  widen(estimate.interval95->c, other.interval95->c);
+  widen(estimate.interval95->x_f, other.interval95->x_f);
+  widen(estimate.interval95->F0, other.interval95->F0);
+}
+
+/// Intervals reach over the estimates with a term of friction free that is nearly seen.
+void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Numbers& relaxed,
+                            Estimate& estimate) {
+  const JointModel& here = tests.relaxed ? *tests.relaxed : model;
+  for (const RelaxationTest& test : tests.tests) {
+    if (!is_nearly_seen(model, test)) continue;
+    Numbers further = relaxed;
+    further.push_back(test.index);
+    widen(estimate, joint_estimate(here, further, {}));
+  }
+}
+
+void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
+  for (const RelaxationTest& test : tests.tests) {
+    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(model.relaxations[test.index].assumption)];
+    constexpr std::string_view note = "; a departure is nearly seen, and the intervals of joint_fit reach over it";
+    const bool noted = entry.reason.ends_with(note);
+    if (entry.standing == Standing::holds && is_nearly_seen(model, test) && !noted) entry.reason += note;
+  }
+}
+
 /// The estimate with the best explanation of each departure relaxed. Where others explain one as well, its
 /// intervals reach to theirs.
 Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
@@ -226,14 +270,10 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
     for (const RelaxationTest& other : tests.departures[d].explanations | std::views::drop(1)) {
       Numbers instead = best;
       instead[d] = other.index;
-      const Estimate rival = with(instead);
-      if (!estimate.interval95 || !rival.interval95) continue;
-      widen(estimate.interval95->zeta, rival.interval95->zeta);
-      widen(estimate.interval95->c, rival.interval95->c);
-      widen(estimate.interval95->x_f, rival.interval95->x_f);
-      widen(estimate.interval95->F0, rival.interval95->F0);
+      widen(estimate, with(instead));
     }
   }
+  reach_over_nearly_seen(model, tests, best, estimate);
   return estimate;
 }
 
@@ -252,7 +292,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   ledger.data = model.data;
   ledger.plain = model.value;
   ledger.left_out = model.left_out;
-  const RelaxationTests tests = test_relaxations(model);
+  const RelaxationTests tests = test_relaxations(model, options.least_change);
   Writer writer(model, tests, options);
   writer.write(ledger);
   writer.add_sight(ledger);
@@ -261,7 +301,9 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
     return std::ranges::any_of(named, is_of_friction);
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
-  if (!is_friction && has_spring) ledger.joint = joint_estimate(model, tests);
+  if (is_friction || !has_spring) return ledger;
+  ledger.joint = joint_estimate(model, tests);
+  note_nearly_seen(model, tests, ledger);
   return ledger;
 }
 

@@ -69,8 +69,29 @@ Eigen::VectorXd statistics(const Eigen::VectorXd& along, double squares, double 
 
 double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, freedom); }
 
-/// The largest |t| of draws under the base model, ascending.
-std::vector<double> largest_statistics(const Projection& projection) {
+/// By how much each test may be stricter than others, as a factor on |t|. Where the least change of zeta or F0 that
+/// matters lies many standard errors off, a test sees it at a strict level as well; the level that it does not use
+/// is left to those that need it.
+Eigen::VectorXd strictness_of(const JointModel& model, const Projection& projection, double deviation,
+                              double least_change) {
+  constexpr double most = 1.6;
+  constexpr double usual = 3.0;  // |t| that is significant for a family
+  constexpr double seen = 2.0;   // and that it reaches beyond with a probability of 0.98
+  Eigen::VectorXd strictness = Eigen::VectorXd::Ones(projection.lengths.size());
+  for (Eigen::Index j = 0; j < strictness.size(); ++j) {
+    const double unit = deviation / projection.lengths[j];
+    const double zeta = std::abs(projection.shifts(0, j)) * unit / std::abs(model.value.zeta);
+    const auto own = static_cast<Eigen::Index>(projection.indices[static_cast<std::size_t>(j)]);
+    const double part = model.F0_parts.size() > 0 ? model.F0_parts[own] : 0.0;
+    const double F0 = std::max(std::abs(projection.shifts(1, j)), part) * unit / std::abs(model.value.F0);
+    const double errors = least_change / std::max({zeta, F0, 1e-12});
+    if (std::isfinite(errors)) strictness[j] = std::clamp((errors - seen) / usual, 1.0, most);
+  }
+  return strictness;
+}
+
+/// The largest |t| over its strictness of draws under the base model, ascending.
+std::vector<double> largest_statistics(const Projection& projection, const Eigen::VectorXd& strictness) {
   constexpr std::size_t draws = 2000;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projection.unit);
   const auto rank = std::min<Eigen::Index>(qr.rank(), static_cast<Eigen::Index>(projection.scale_freedom));
@@ -92,33 +113,41 @@ std::vector<double> largest_statistics(const Projection& projection) {
       const double root = 1.0 - width + std::sqrt(width) * stream.normal(drawn++);
       squares += beside * std::max(0.0, root * root * root);
     }
-    largest.push_back(statistics(directions * z, squares, projection.scale_freedom).cwiseAbs().maxCoeff());
+    const Eigen::VectorXd t = statistics(directions * z, squares, projection.scale_freedom);
+    largest.push_back(t.cwiseQuotient(strictness).cwiseAbs().maxCoeff());
   }
   std::ranges::sort(largest);
   return largest;
 }
 
-double family_p_value(double t, double freedom, const std::vector<double>& largest, std::size_t tests) {
-  const auto above = largest.end() - std::ranges::lower_bound(largest, std::abs(t));
-  constexpr int enough = 20;  // fewer of the draws say little: then Bonferroni's bound
-  const double bound = std::min(1.0, static_cast<double>(tests) * two_sided(t, freedom));
-  if (above < enough) return bound;
-  return std::min(bound, static_cast<double>(above) / static_cast<double>(largest.size()));
+double family_p_value(double t, double strictness, double freedom, const std::vector<double>& largest) {
+  const auto above = largest.end() - std::ranges::lower_bound(largest, std::abs(t) / strictness);
+  constexpr int enough = 20;  // fewer of the draws say little
+  const auto draws = static_cast<double>(largest.size());
+  if (above >= enough) return static_cast<double>(above) / draws;
+  // Beyond them the tail falls as that of one test.
+  const double last = largest[largest.size() - enough];
+  const double tail = two_sided(std::abs(t) / strictness, freedom) / two_sided(last, freedom);
+  return enough / draws * std::min(1.0, tail);
 }
 
 /// Tests of all relaxations beside those taken.
-std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projection& projection) {
+std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projection& projection,
+                                         double least_change) {
   std::vector<RelaxationTest> tests;
   if (projection.indices.empty() || projection.freedom < 2.0) return tests;
   const double squares = projection.residuals.squaredNorm();
   const Eigen::VectorXd along = projection.unit.transpose() * projection.residuals;
   const Eigen::VectorXd t = statistics(along, squares, projection.freedom);
-  const std::vector<double> largest = largest_statistics(projection);
+  const double deviation = std::sqrt(squares / projection.freedom);
+  const Eigen::VectorXd strictness = strictness_of(model, projection, deviation, least_change);
+  const std::vector<double> largest = largest_statistics(projection, strictness);
   for (Eigen::Index j = 0; j < t.size(); ++j) {
     RelaxationTest test;
     test.index = projection.indices[static_cast<std::size_t>(j)];
     test.t = t[j];
-    test.p_value = family_p_value(t[j], projection.scale_freedom - 1.0, largest, projection.indices.size());
+    test.p_value = family_p_value(t[j], strictness[j], projection.scale_freedom - 1.0, largest);
+    test.p_alone = two_sided(t[j], projection.scale_freedom - 1.0);
     const double rows = projection.freedom + static_cast<double>(model.base.cols());
     test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
     const double gain = along[j] / projection.lengths[j];
@@ -126,6 +155,7 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
         std::sqrt((squares - along[j] * along[j]) / (projection.freedom - 1.0)) / projection.lengths[j];
     test.zeta_change = projection.shifts(0, j) * gain;
     test.F0_change = projection.shifts(1, j) * gain;
+    if (model.F0_parts.size() > 0) test.F0_part = gain * model.F0_parts[static_cast<Eigen::Index>(test.index)];
     test.zeta_blind = found_at * std::abs(projection.shifts(0, j)) * error;
     test.F0_blind = found_at * std::abs(projection.shifts(1, j)) * error;
     tests.push_back(test);
@@ -165,12 +195,12 @@ struct Rest {
   ParameterSet value;
 };
 
-Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_t candidate) {
+Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_t candidate, double least_change) {
   taken.push_back(candidate);
   const JointModel fitted = model.refit(taken);
   Rest rest;
   rest.value = fitted.value;
-  for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken))) {
+  for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken), least_change)) {
     rest.p_value = std::min(rest.p_value, test.p_value);
     rest.largest = std::max(rest.largest, test.explained);
   }
@@ -181,12 +211,12 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
 /// from the fit a linearised model ranks them wrongly: where it can be fitted anew, candidates are judged by what
 /// they leave.
 Departure charged(const JointModel& model, const std::vector<std::size_t>& taken,
-                  const std::vector<RelaxationTest>& tests) {
+                  const std::vector<RelaxationTest>& tests, double least_change) {
   std::vector<RelaxationTest> list = candidates(model, tests);
   if (!model.refit || list.size() == 1) return {list};
   std::vector<Rest> rests;
   for (RelaxationTest& test : list) {
-    rests.push_back(rest_of(model, taken, test.index));
+    rests.push_back(rest_of(model, taken, test.index, least_change));
     test.zeta_change = rests.back().value.zeta - model.value.zeta;
     test.F0_change = rests.back().value.F0 - model.value.F0;
   }
@@ -212,7 +242,7 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
 
 }  // namespace
 
-RelaxationTests test_relaxations(const JointModel& model) {
+RelaxationTests test_relaxations(const JointModel& model, double least_change) {
   RelaxationTests result;
   std::vector<std::size_t> taken;
   constexpr std::size_t most_departures = 4;
@@ -223,11 +253,11 @@ RelaxationTests test_relaxations(const JointModel& model) {
       result.alone.push_back(j);
   while (true) {
     const JointModel& here = result.relaxed ? *result.relaxed : model;
-    result.tests = tests_beside(here, projection);
+    result.tests = tests_beside(here, projection, least_change);
     result.freedom = projection.freedom;
     const auto least = std::ranges::min_element(result.tests, {}, &RelaxationTest::p_value);
     if (least == result.tests.end() || least->p_value >= family_level || taken.size() == most_departures) break;
-    result.departures.push_back(charged(here, taken, result.tests));
+    result.departures.push_back(charged(here, taken, result.tests, least_change));
     // That of the departure, whichever relaxation is charged with it.
     for (RelaxationTest& test : result.departures.back().explanations) test.p_value = least->p_value;
     RelaxationTest& best = result.departures.back().explanations.front();

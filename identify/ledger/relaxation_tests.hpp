@@ -4,8 +4,10 @@
 /// The t statistic of a relaxation is that of its coefficient beside the base parameters. Statistics of one record
 /// are correlated, so the family is controlled by the distribution of their maximum under the base model, which is
 /// simulated with the correlations as they are (westfall1993): the family-wise p-value of a test is how often the
-/// maximum is as large. Where one is below the level, the relaxation that explains most is taken into the model and
-/// the others are tested again beside it, until none is left.
+/// maximum is as large. A test that would see all that matters at a far stricter level is held to one: its |t|
+/// counts divided by up to 1.6, and the level that it leaves is that of the tests that need it. Where one is below
+/// the level, the relaxation that explains most is taken into the model and the others are tested again beside it,
+/// until none is left.
 ///
 /// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
 /// of parameters) is named beside it: the record cannot tell them apart.
@@ -27,9 +29,11 @@ struct RelaxationTest {
   std::size_t index = 0;     ///< in the model's list
   double t = 0.0;            ///< statistic
   double p_value = 1.0;      ///< of the family
+  double p_alone = 1.0;      ///< of this test alone
   double explained = 0.0;    ///< twice the gain of the log-likelihood
   double zeta_change = 0.0;  ///< of the damping ratio when relaxed; of c where there is no spring
   double F0_change = 0.0;    ///< N
+  double F0_part = 0.0;      ///< by which the friction force of a part of the record is off the mean [N]
   double zeta_blind = 0.0;   ///< change that a departure may make and be missed in one record of five
   double F0_blind = 0.0;
 };
@@ -47,6 +51,7 @@ struct RelaxationTests {
   std::optional<JointModel> relaxed;  ///< the model linearised with the departures relaxed, where it has such a fit
 };
 
-[[nodiscard]] RelaxationTests test_relaxations(const JointModel& model);
+/// `least_change`: relative change of zeta or F0 that matters.
+[[nodiscard]] RelaxationTests test_relaxations(const JointModel& model, double least_change = 0.02);
 
 }  // namespace dualdamp::identify

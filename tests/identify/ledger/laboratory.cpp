@@ -56,6 +56,17 @@ class Laboratory {
   double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   double normal() { return off_.noise * std::normal_distribution()(random_); }
 
+  /// As an analog to digital converter reads a signal, and a clock the times.
+  void convert(std::vector<double>& signal) const {
+    if (off_.bits == 0 || signal.empty()) return;
+    const auto [low, high] = std::ranges::minmax_element(signal);
+    const double step = 1.25 * (*high - *low) / std::pow(2.0, off_.bits);
+    for (double& value : signal) value = step * std::round(value / step);
+  }
+  [[nodiscard]] double on_clock(double time) const {
+    return off_.clock > 0.0 ? off_.clock * std::round(time / off_.clock) : time;
+  }
+
   /// Drive amplitudes from twice to six times what dry friction alone withstands; L and V of the largest.
   void choose_level() {
     Rig& rig = result_.rig;
@@ -133,8 +144,9 @@ class Laboratory {
       const double x = std::abs(motion.x[i]) > std::abs(motion.x[i + 1]) ? motion.x[i] : motion.x[i + 1];
       if (std::abs(x) < 3.0 * rig.x_f()) break;
       record.extremes.push_back(x * (1.0 + off_.gain) + sx * normal());
-      record.times.push_back((static_cast<double>(i) + share) / rate + st * normal());
+      record.times.push_back(on_clock((static_cast<double>(i) + share) / rate + st * normal()));
     }
+    convert(record.extremes);
     result_.record.decay = std::move(record);
   }
 
@@ -171,7 +183,7 @@ class Laboratory {
   void history() {
     const Rig& rig = result_.rig;
     const double period = 2.0 * pi / rig.omega();
-    const double rate = std::round(100.0 / period);
+    const double rate = std::round(off_.samples / period);
     const bool free = kind_ == Kind::decay;
     const Motion motion = motion_of(rig, drive(), (free ? 60.0 : 40.0) * period, rate, free ? rig.L : 0.0);
     const auto [low, high] = std::ranges::minmax_element(motion.x);
@@ -187,6 +199,7 @@ class Laboratory {
       if (!free) history.force.push_back(motion.drive[i] + 0.005 * largest_force * normal());
       if (off_.v_noise > 0.0) history.v.push_back(motion.v[i] + off_.v_noise * size * rig.omega() * normal());
     }
+    for (std::vector<double>* signal : {&history.x, &history.v, &history.force}) convert(*signal);
     result_.record.histories.push_back(std::move(history));
   }
 

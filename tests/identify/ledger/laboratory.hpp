@@ -33,6 +33,9 @@ struct Off {
   double sweep_drift = 0.0;  ///< F0 of the last sweep over that of the first, less one
   double v_noise = 0.0;      ///< of a measured velocity, over its largest value; 0: not measured
   double noise = 1.0;        ///< factor on all noise
+  double clock = 0.0;        ///< step of the clock that times of extremes are rounded to [s]; 0: none
+  int bits = 0;              ///< of the converter of every signal, over 1.25 times its range; 0: none
+  double samples = 100.0;    ///< a natural period, of histories
 };
 
 struct Measured {

@@ -1,5 +1,6 @@
 #include "identify/ledger/relaxation_tests.hpp"
 
+#include <Eigen/QR>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -68,4 +69,28 @@ TEST_CASE("Relaxations that explain alike are named together") {
   const RelaxationTests found = test_relaxations(model);
   REQUIRE(found.departures.size() == 1);
   REQUIRE(found.departures[0].explanations.size() == 2);  // beside a line, sin 3u is all but u^3
+}
+
+TEST_CASE("A test that sees all that matters at a strict level leaves its level to the others") {
+  // Forty terms move the base by nothing that matters; the square moves the constant.
+  const auto smallest_p = [](double share) {
+    JointModel model = line_with(2.2, 5);
+    constexpr Eigen::Index more = 40;
+    const Eigen::Index own = model.relaxed.cols();
+    model.relaxed.conservativeResize(Eigen::NoChange, own + more);
+    const dualdamp::core::RandomStream random{4, 1};
+    for (Eigen::Index j = own; j < own + more; ++j) {
+      for (Eigen::Index i = 0; i < model.relaxed.rows(); ++i)
+        model.relaxed(i, j) = random.normal(static_cast<std::uint64_t>(100 * j + i));
+      // Beside the line, and a share of it: what the term would do to the base.
+      const Eigen::VectorXd term = model.relaxed.col(j);
+      model.relaxed.col(j) = term - model.base * model.base.colPivHouseholderQr().solve(term);
+      model.relaxed.col(j) += share * model.base.col(1);
+      model.relaxations.push_back({Assumption::sensors, "noise"});
+    }
+    for (const RelaxationTest& test : test_relaxations(model).tests)
+      if (test.index == 0) return test.p_value;
+    return test_relaxations(model).departures.at(0).explanations.at(0).p_value;
+  };
+  CHECK(smallest_p(1e-4) < 0.5 * smallest_p(1.0));
 }

@@ -21,6 +21,7 @@
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
+#include "tests/identify/ledger/uncertain_rates.hpp"
 
 namespace {
 
@@ -55,6 +56,9 @@ std::vector<Row> rows() {
   add("detuning 2 %", nullptr, {.frequency = 0.02}, pairs);
   add("drift", nullptr, {.sweep_drift = 0.2}, {Kind::xy, Kind::xy_phase});
   add("drift", [](Rig& rig) { rig.drift = 0.3; }, {}, driven);
+  add("clock of 0.02 s", nullptr, {.noise = 0.1, .clock = 0.02}, {Kind::extremes});
+  add("8 bits", nullptr, {.bits = 8}, {Kind::extremes, Kind::decay, Kind::forced, Kind::beat, Kind::random});
+  add("12 samples", nullptr, {.samples = 12.0}, {Kind::decay, Kind::forced, Kind::beat, Kind::random});
   add("noise in v", nullptr, {.v_noise = 0.02}, {Kind::decay, Kind::forced, Kind::beat, Kind::ramp, Kind::random});
   add("friction: quadratic", [](Rig& rig) { rig.drag = 0.5; }, {}, all);
   add("friction: saturating", [](Rig& rig) { rig.saturation = 0.5; }, {}, all);
@@ -77,7 +81,8 @@ Identification identified(Measured& measured) {
     return concluded(std::move(estimates), std::move(ledger));
   }
   for (const MethodEntry& method : methods())
-    if (method.lacks(record).empty()) estimates.push_back(method.run(record, measured.constants));
+    if (!method.takes_seconds && method.lacks(record).empty())
+      estimates.push_back(method.run(record, measured.constants));
   return concluded(std::move(estimates), std::move(ledger));
 }
 
@@ -207,14 +212,17 @@ int main(int argc, char** argv) {
   if (argc < 3) return 2;
   const int records = std::atoi(argv[1]);
   const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
+  const auto wanted = [&](const std::string& name) {
+    return argc == 3 || std::any_of(argv + 3, argv + argc,
+                                    [&](const char* part) { return name.find(part) != std::string::npos; });
+  };
   for (const Row& row : rows()) {
-    const bool wanted = argc == 3 || std::any_of(argv + 3, argv + argc, [&](const char* part) {
-                          return row.name.find(part) != std::string::npos;
-                        });
-    if (!wanted) continue;
+    if (!wanted(row.name)) continue;
     Counts counts;
     for (int i = 0; i < records; ++i) count(row, first + static_cast<std::uint64_t>(i), counts);
     print(row, counts);
   }
+  for (const Kind kind : all)
+    if (wanted("uncertain, " + std::string(name_of(kind)))) print_uncertain_rates(kind, records, first);
   return 0;
 }
