@@ -120,8 +120,9 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] Eigen::RowVectorXd guard_gradient(std::size_t watch, double t, double& by_time) const;
   void carry_to_event(std::size_t watch);
   void carry_from_event();
-  [[nodiscard]] Eigen::MatrixXd through(const Change& change, const Eigen::MatrixXd& states) const;
-  [[nodiscard]] Eigen::MatrixXd jump_derivative() const;
+  [[nodiscard]] std::vector<double> sizes_of(std::size_t law, const friction::Memory& memory) const;
+  [[nodiscard]] Eigen::VectorXd through(const Change& change, Eigen::Index column,
+                                        const Eigen::VectorXd& states) const;
 
   VelocityHistory past_;
   Flow flow_;   ///< of the present interval

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "friction_models/state_sizes.hpp"
 #include "sim/engine/radau_collocation.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/engine/variation.hpp"
@@ -142,66 +144,73 @@ void SmoothEngine::carry_to_event(std::size_t watch) {
   lead_ -= ahead;
 }
 
-/// Through the mode changes. The motion after them begins with the same lead.
-void SmoothEngine::carry_from_event() { columns_ = jump_derivative() * columns_; }
-
-/// The derivative of a law's states after a mode change, from `states`, that of those before it.
-Eigen::MatrixXd SmoothEngine::through(const Change& change, const Eigen::MatrixXd& states) const {
-  const friction::Law& law = model_.friction[change.law];
-  const auto difference = [&](const auto& displaced, double step) {
-    const auto after = [&](double shift) {
-      friction::Memory memory = change.before;
-      friction::Instant at = now();
-      displaced(shift, memory, at);
-      law.jump(memory, change.trigger, at, change.direction);
-      return memory.state;
-    };
-    const std::vector<double> above = after(step);
-    const std::vector<double> below = after(-step);
-    return Eigen::VectorXd((as_vector(above) - as_vector(below)) / (2.0 * step));
-  };
-  const Eigen::VectorXd by_x =
-      difference([](double shift, friction::Memory&, friction::Instant& at) { at.x += shift; },
-                 displacement * flow_.scales()[0]);
-  const Eigen::VectorXd by_v =
-      difference([](double shift, friction::Memory&, friction::Instant& at) { at.v += shift; },
-                 displacement * flow_.scales()[1]);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(by_x.size(), states.cols());
-  for (std::size_t k = 0; k < change.before.state.size(); ++k) {
-    const Eigen::VectorXd by_state =
-        difference([k](double shift, friction::Memory& memory, friction::Instant&) { memory.state[k] += shift; },
-                   displacement * std::max(std::abs(change.before.state[k]), flow_.scales()[0]));
-    result += by_state * states.row(static_cast<Eigen::Index>(k));
+/// Sizes of a law's states, as `Flow` has them.
+std::vector<double> SmoothEngine::sizes_of(std::size_t law, const friction::Memory& memory) const {
+  std::vector<double> sizes(memory.state.size(), 0.0);
+  model_.friction[law].scales(memory, sizes);
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (sizes[k] == friction::size_of_velocity) sizes[k] = flow_.scales()[1];
+    if (!(sizes[k] > 0.0)) sizes[k] = flow_.scales()[0];
+    sizes[k] = std::max(sizes[k], least_size * std::abs(memory.state[k]));
   }
-  result.col(0) += by_x;
-  result.col(1) += by_v;
-  return result;
+  return sizes;
 }
 
-/// Of the coordinates after the mode changes by those before.
-Eigen::MatrixXd SmoothEngine::jump_derivative() const {
+/// A law's states after a mode change, of the perturbed motion `column`, from `states`, those before it. It is
+/// displaced as a whole: at a crossing all its parts together leave the guard at zero, one of them alone does not.
+/// What a law takes for rounding of its guard is so rounding here too.
+Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
+                                      const Eigen::VectorXd& states) const {
+  const friction::Law& law = model_.friction[change.law];
+  const double dx = columns_(0, column);
+  const double dv = columns_(1, column);
+  double part = std::max(std::abs(dx) / flow_.scales()[0], std::abs(dv) / flow_.scales()[1]);
+  const std::vector<double> sizes = sizes_of(change.law, change.before);
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    part = std::max(part, std::abs(states[static_cast<Eigen::Index>(k)]) / sizes[k]);
+  const double step = part > 0.0 ? displacement / part : 0.0;
+  const auto after = [&](double by) {
+    friction::Memory memory = change.before;
+    for (std::size_t k = 0; k < memory.state.size(); ++k)
+      memory.state[k] += by * states[static_cast<Eigen::Index>(k)];
+    friction::Instant at = now();
+    at.x += by * dx;
+    at.v += by * dv;
+    law.jump(memory, change.trigger, at, change.direction);
+    return memory.state;
+  };
+  const std::vector<double> above = after(step);
+  const std::vector<double> below = after(-step);
+  if (step == 0.0) return Eigen::VectorXd::Zero(as_vector(above).size());
+  return (as_vector(above) - as_vector(below)) / (2.0 * step);
+}
+
+/// Through the mode changes. The motion after them begins with the same lead.
+void SmoothEngine::carry_from_event() {
+  if (changes_.empty()) return;
   Eigen::Index rows = 2;
   for (const friction::Memory& memory : memories_) rows += static_cast<Eigen::Index>(memory.state.size());
-  const Eigen::Index columns = columns_.rows();
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
-  result.topLeftCorner(2, 2).setIdentity();
+  Eigen::MatrixXd result(rows, columns_.cols());
+  result.topRows(2) = columns_.topRows(2);
   Eigen::Index row = 2;
-  Eigen::Index column = 2;
+  Eigen::Index row_before = 2;
   for (std::size_t i = 0; i < memories_.size(); ++i) {
     const auto of_law = [&](const Change& change) { return change.law == i; };
     const auto first = std::ranges::find_if(changes_, of_law);
     const friction::Memory& before = first == changes_.end() ? memories_[i] : first->before;
-    const auto n = static_cast<Eigen::Index>(before.state.size());
-    Eigen::MatrixXd states = Eigen::MatrixXd::Zero(n, columns);
-    states.middleCols(column, n).setIdentity();
-    for (const Change& change : changes_) {
-      if (of_law(change)) states = through(change, states);
+    const auto count_before = static_cast<Eigen::Index>(before.state.size());
+    const auto count = static_cast<Eigen::Index>(memories_[i].state.size());
+    for (Eigen::Index c = 0; c < columns_.cols(); ++c) {
+      Eigen::VectorXd states = columns_.col(c).segment(row_before, count_before);
+      for (const Change& change : changes_) {
+        if (of_law(change)) states = through(change, c, states);
+      }
+      result.col(c).segment(row, count) = states;
     }
-    result.middleRows(row, states.rows()) = states;
-    row += states.rows();
-    column += n;
+    row += count;
+    row_before += count_before;
   }
-  return result;
+  columns_ = std::move(result);
 }
 
 }  // namespace dualdamp::sim

@@ -126,3 +126,25 @@ TEST_CASE("smooth engine: springs under a force limit that vanished and comes ba
     CHECK((period.monodromy.col(j) - expected).head(2).norm() < 1e-3 * expected.head(2).norm());
   }
 }
+
+TEST_CASE("smooth engine: a mode change is differentiated along each perturbation and in the sizes of its states",
+          "[sim][smooth][derivative]") {
+  // The heat of a contact is a state of 1e-6 W beside positions of 1 m: a displacement by a part of a position
+  // would be many times its size.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.8};
+  ParameterValues values = {
+      {"kinetic", 1e-3}, {"static", 1e-3}, {"contact_stiffness", 1.0}, {"contact_damping", 0.3}};
+  const std::vector<ParameterValues> warming = {{{"power", 1e-6}, {"time_constant", 1e4}}};
+  values.set("warming", warming);
+  add_law(model, "contact_compliance", std::move(values));
+  model.solver.tolerance = 1e-12;
+  sim::PeriodMap map(model);
+  const ForcingPeriod period = third_period(map, 0.3, 0.2);
+  REQUIRE(period.monodromy.rows() == 4);
+  const Eigen::Index heat = 3;
+  const Eigen::VectorXd expected = quotient(map, period, heat, 1e-9);
+  CAPTURE(period.monodromy.col(heat).transpose(), expected.transpose());
+  CHECK((period.monodromy.col(heat) - expected).norm() < 1e-5 * expected.norm());
+}
