@@ -12,6 +12,8 @@ namespace dualdamp::crosscheck {
 namespace {
 
 constexpr double amplification = 100.0;
+/// Times what another tolerance changes: the looser of two tolerances is ten times as far from the motion.
+constexpr double beyond_unresolved = 3.0;
 /// A larger uncertainty says nothing any more.
 constexpr double most_allowed = 1e-3;
 /// Events this much of the walk apart are coincident.
@@ -248,20 +250,23 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
   for (std::size_t i = 0; i < count; ++i) {
     course = std::max(course, sensitivity.deviation[i]);
     if (i < sensitivity.unresolved.size()) unresolved = std::max(unresolved, sensitivity.unresolved[i]);
-    const double allowed = tolerance + amplification * course + unresolved;
-    if (unresolved > tolerance) {
+    const double share = unresolved > tolerance ? beyond_unresolved : 1.0;
+    const double allowed = tolerance + amplification * course + share * unresolved;
+    // From here on times of events say nothing; positions still may not differ by more than the tolerance explains.
+    if (unresolved > tolerance && result.exception.empty()) {
       result.exception =
           fmt::format("unresolved: from t = {:.6g} s on another tolerance changes the motion by {:.1e}",
                       a.samples[i].t, unresolved);
-      break;
     }
     if (!(allowed < most_allowed)) {
-      result.exception =
-          fmt::format("sensitive: from t = {:.6g} s on a change of the data by {:.0e} changes the motion by {:.1e}",
-                      a.samples[i].t, sensitivity.change, course);
+      if (result.exception.empty()) {
+        result.exception = fmt::format(
+            "sensitive: from t = {:.6g} s on a change of the data by {:.0e} changes the motion by {:.1e}",
+            a.samples[i].t, sensitivity.change, course);
+      }
       break;
     }
-    result.until = a.samples[i].t;
+    if (result.exception.empty()) result.until = a.samples[i].t;
     speeds.push_back(allowed * sizes_of_v[i]);
     if (apart[i] / allowed > worst_share || std::isnan(apart[i])) {
       worst_share = apart[i] / allowed;

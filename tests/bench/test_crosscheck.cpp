@@ -126,12 +126,14 @@ TEST_CASE("crosscheck: what an engine does not resolve by its tolerance is named
     for (sim::Sample& sample : other.samples) sample.x += sample.t > from ? by : 0.0;
     return other;
   };
-  // A looser tolerance moves the motion by 2e-6 from 4 s on: the other engine is compared up to there.
+  // A looser tolerance moves the motion by 2e-6 from 4 s on: from there on the other engine may be a few times as
+  // far off, not more, and times of events are not compared.
   mild.unresolved = crosscheck::resolution(walk, off(4.0, 2e-6));
   CHECK(mild.unresolved.size() == walk.samples.size());
-  const crosscheck::Difference late = crosscheck::difference(walk, off(4.5, 1e-5), mild, 1e-7);
+  const crosscheck::Difference late = crosscheck::difference(walk, off(4.5, 5e-6), mild, 1e-7);
   CHECK(late.fault.empty());
   CHECK_THAT(late.exception, Catch::Contains("unresolved"));
+  CHECK_FALSE(crosscheck::difference(walk, off(4.5, 1e-5), mild, 1e-7).fault.empty());
   CHECK(late.until == Approx(4.0));
   CHECK_FALSE(crosscheck::difference(walk, off(3.0, 1e-5), mild, 1e-7).fault.empty());
   // It loses an event: from there on nothing is excused.
