@@ -41,7 +41,14 @@ identify::Record fifty_pairs() {
   return measured(curve, 0.0);
 }
 
-double seconds_for(const char* method, const identify::Record& record, const identify::OptionValues& options) {
+identify::Record eight_states_with_phases() {
+  scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
+  for (int i = 0; i < 8; ++i) curve.amplitudes.push_back(4.5e-3 + 0.4e-3 * i);
+  return measured(curve, 1000.0);
+}
+
+double seconds_for(const char* method, const identify::Record& record, const identify::OptionValues& options,
+                   int batches = 9) {
   const identify::MethodEntry& entry = *identify::find_method(method);
   const sim::Model model = bearing();
   const identify::KnownConstants constants{model.oscillator.mass, model.oscillator.stiffness,
@@ -50,7 +57,7 @@ double seconds_for(const char* method, const identify::Record& record, const ide
   const std::vector<std::function<void(int)>> works = {[&](int runs) {
     for (int run = 0; run < runs; ++run) given = given && entry.run(record, constants, options).outcome.ok();
   }};
-  const double seconds = time_alternately(works, 9, 0.05).front().median;
+  const double seconds = time_alternately(works, batches, 0.05).front().median;
   if (!given) throw std::runtime_error(std::string(method) + " gave no estimate");
   return seconds;
 }
@@ -66,6 +73,11 @@ double seconds_for_output_error() {
   histories.duration = 10.0;
   histories.settle = 5.0;
   return seconds_for("output_error", measured(histories, 1000.0), {});
+}
+
+double seconds_for_any_law() {
+  constexpr int batches = 3;
+  return seconds_for("any_law", eight_states_with_phases(), {}, batches);
 }
 
 double seconds_for_law_selection() { return seconds_for("law_selection", fifty_pairs(), {}); }

@@ -9,6 +9,9 @@ namespace dualdamp::bench::speed {
 /// `output_error` with its intervals on ten seconds of noisy y and x at 1 kHz.
 [[nodiscard]] double seconds_for_output_error();
 
+/// `any_law` on eight noisy steady states with phases, on all cores.
+[[nodiscard]] double seconds_for_any_law();
+
 /// `law_selection` on fifty noisy pairs.
 [[nodiscard]] double seconds_for_law_selection();
 

@@ -117,6 +117,7 @@ void print_identification() {
   fmt::print("\n{:60}{:>14}{:>14}\n", "seconds of identification, one core, at most", "measured", "target");
   print_time("1,000 bootstrap replicates of 50 pairs", seconds_for_bootstrap(), "0.1");
   print_time("output_error with intervals, 10 s at 1 kHz", seconds_for_output_error(), "1");
+  print_time("any_law of 8 states with phases", seconds_for_any_law(), "20");
   print_time("law_selection of 50 pairs", seconds_for_law_selection(), "");
 }
 

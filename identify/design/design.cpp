@@ -249,7 +249,7 @@ class Advisor {
     for (const LawFit& fit : rival.law->fits) {
       if (fit.chi2 > rival.law->best().chi2 + reach) continue;
       const LawAt law{fit.severity == 0.0 ? nullptr : rival.law->law.departure, fit.severity};
-      const std::unique_ptr<NearbyOrbits> own = planned.no_orbits();
+      const std::unique_ptr<NearbyOrbits> own = planned.no_orbits(planned.known_deviations());
       const VectorXd unknowns = unknowns_for(record_, fit, planned);
       const std::optional<VectorXd> residuals = planned.residuals(law, unknowns, *own);
       if (!residuals) continue;

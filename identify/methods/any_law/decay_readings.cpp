@@ -14,16 +14,19 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double accuracy = 1e-8;
+/// Error of steps over the noise of the readings, and its bounds. Errors add up over the swings.
+constexpr double share_of_noise = 1e-4;
+constexpr double finest = 1e-8;
+constexpr double coarsest = 1e-6;
 /// Of differences, relative to the unknown's unit.
 constexpr double step = 2e-3;
-/// No extreme is believed to a smaller share of the release.
-constexpr double least_share = 1e-4;
 constexpr double release_deviation = 1.0;
 constexpr double offset_deviation = 0.2;
 
 /// Decays need no neighbours.
-struct NoOrbits final : NearbyOrbits {};
+struct NoOrbits final : NearbyOrbits {
+  double accuracy = finest;
+};
 
 class DecayReadings final : public ReadingModel {
  public:
@@ -46,7 +49,7 @@ class DecayReadings final : public ReadingModel {
                   .Y = std::abs(release_)};
     channels_.assign(static_cast<std::size_t>(readings_.size()), 0);
     known_deviations_ = {sigma_x};
-    least_deviations_ = {least_share * std::abs(release_)};
+    least_deviations_ = {least_relative_deviation * std::abs(release_)};
     smooth_curve_.resize(readings_.size(), 4);
     for (Index i = 0; i < readings_.size(); ++i) {
       const double swing = (readings_[i] - offset) / release_;
@@ -68,14 +71,19 @@ class DecayReadings final : public ReadingModel {
     c_unit_ = record.c_unit();
     channels_.assign(static_cast<std::size_t>(count), 0);
     known_deviations_ = {deviation};
-    least_deviations_ = {least_share * std::abs(release_)};
+    least_deviations_ = {least_relative_deviation * std::abs(release_)};
   }
 
-  [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits() const override { return std::make_unique<NoOrbits>(); }
+  [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const override {
+    auto none = std::make_unique<NoOrbits>();
+    none->accuracy = std::clamp(share_of_noise * relative_noise(deviations), finest, coarsest);
+    return none;
+  }
 
   [[nodiscard]] std::optional<VectorXd> residuals(const LawAt& law, const VectorXd& p,
-                                                  NearbyOrbits& /*none*/) const override {
-    const sim::FreeDecay decay = sim::free_decay(model_of(law, p), static_cast<int>(readings_.size()));
+                                                  NearbyOrbits& none) const override {
+    const double accuracy = static_cast<const NoOrbits&>(none).accuracy;
+    const sim::FreeDecay decay = sim::free_decay(model_of(law, p, accuracy), static_cast<int>(readings_.size()));
     if (!decay.outcome.ok() || decay.peaks.empty()) return std::nullopt;
     VectorXd result(readings_.size());
     for (Index i = 0; i < result.size(); ++i) {
@@ -102,7 +110,7 @@ class DecayReadings final : public ReadingModel {
   }
 
  private:
-  [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p) const {
+  [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, double accuracy) const {
     bench::Truth truth;
     truth.model.oscillator.mass = constants_.mass;
     truth.model.oscillator.stiffness = constants_.stiffness;

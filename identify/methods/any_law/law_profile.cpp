@@ -18,12 +18,6 @@ using Eigen::VectorXd;
 /// Friction and damping keep to a share of what plain friction has: below it a law is another one.
 constexpr double least_share = 0.02;
 
-/// Rows over their deviations, with a row for the prior of each nuisance.
-struct Rows {
-  VectorXd residuals;
-  MatrixXd jacobian;
-};
-
 VectorXd weights_of(const ReadingModel& model, const ReadingNoise& noise) {
   VectorXd weights(model.readings().size());
   for (Index i = 0; i < weights.size(); ++i)
@@ -49,86 +43,122 @@ MatrixXd with_priors(const ReadingModel& model, const MatrixXd& weighted) {
   return all;
 }
 
-/// Gauss and Newton, whose derivatives are taken again only after a step that leaves their reach.
+/// Gauss and Newton with Broyden's corrections of the derivatives: taken anew only where they mislead.
 class Search {
  public:
   Search(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise, NearbyOrbits& near)
       : model_(model), law_(law), weights_(weights_of(model, noise)), near_(near) {}
 
-  [[nodiscard]] std::optional<LawFit> from(const VectorXd& start) {
-    constexpr int most_steps = 8;
-    constexpr double settled = 0.05;    // standard deviations
-    constexpr double linear_in = 0.02;  // of a step relative to the unknowns
-    VectorXd p = start;
-    if (!evaluate(p) || !differentiate(p)) return std::nullopt;
+  /// `slopes`: derivatives of a similar law, to begin with; empty: none are known.
+  [[nodiscard]] bool minimize(const VectorXd& start, const MatrixXd& slopes) {
+    constexpr int most_steps = 10;
+    constexpr double settled = 0.1;     // standard deviations: what is left is linear
+    constexpr double misleading = 0.3;  // of a step
+    p_ = start;
+    if (!evaluate(p_)) return false;
+    jacobian_ = slopes;
+    bool fresh = slopes.size() == 0;
+    if (fresh && !differentiate()) return false;
     for (int i = 0; i < most_steps; ++i) {
       VectorXd step = pivoted_least_squares(jacobian_, residuals_);
-      if (!step.allFinite()) return std::nullopt;
-      const double length = (jacobian_ * step).norm();
-      if (!advance(p, step)) break;
-      if (length < settled) break;
-      if (step.cwiseAbs().maxCoeff() > linear_in && !differentiate(p)) return std::nullopt;
+      if (!step.allFinite()) return false;
+      if ((jacobian_ * step).norm() < settled) {
+        accept_unseen(step);
+        return true;
+      }
+      const VectorXd before = residuals_;
+      const bool moved = advance(step);
+      if (!moved && fresh) return true;
+      const double surprise = moved ? learn(before, step) : 1.0;
+      fresh = surprise > misleading || !moved;
+      if (fresh && !differentiate()) return false;
     }
-    return result(p);
+    return true;
+  }
+
+  /// Takes the derivatives where the search has ended.
+  [[nodiscard]] bool differentiate() {
+    const std::optional<MatrixXd> slopes = model_.derivatives(law_, seen_, *raw_, near_);
+    if (!slopes) return false;
+    jacobian_ = with_priors(model_, weights_.asDiagonal() * *slopes);
+    return true;
+  }
+
+  [[nodiscard]] LawFit result() const {
+    LawFit fit;
+    fit.severity = law_.severity;
+    fit.unknowns = p_;
+    fit.residuals = residuals_;
+    fit.chi2 = residuals_.squaredNorm();
+    fit.slopes = jacobian_;
+    return fit;
   }
 
  private:
   bool evaluate(const VectorXd& p) {
     raw_ = model_.residuals(law_, p, near_);
     if (!raw_) return false;
+    seen_ = p;
     residuals_ = with_priors(model_, raw_->cwiseProduct(weights_), p);
     return true;
   }
 
-  bool differentiate(const VectorXd& p) {
-    const std::optional<MatrixXd> slopes = model_.derivatives(law_, p, *raw_, near_);
-    if (!slopes) return false;
-    jacobian_ = with_priors(model_, weights_.asDiagonal() * *slopes);
-    return true;
+  /// A step that is too short to be worth an evaluation.
+  void accept_unseen(const VectorXd& step) {
+    if ((p_ + step).head(2).minCoeff() < least_share) return;
+    p_ += step;
+    residuals_ -= jacobian_ * step;
+  }
+
+  /// Broyden's correction; how far the step went from what was expected, over its length.
+  double learn(const VectorXd& before, const VectorXd& step) {
+    const VectorXd expected = jacobian_ * step;
+    const VectorXd apart = before - expected - residuals_;
+    jacobian_ += apart * step.transpose() / step.squaredNorm();
+    return apart.norm() / expected.norm();
   }
 
   /// Halves the step until the sum of squares falls; false where it does not.
-  bool advance(VectorXd& p, VectorXd& step) {
+  bool advance(VectorXd& step) {
     const double before = residuals_.squaredNorm();
     const VectorXd kept = residuals_;
     const std::optional<VectorXd> raw = raw_;
+    const VectorXd seen = seen_;
     constexpr int halvings = 4;
     constexpr double most = 0.5;
     step = step.cwiseMax(-most).cwiseMin(most);
     for (int i = 0; i < halvings; ++i, step *= 0.5) {
-      VectorXd moved = p + step;
+      VectorXd moved = p_ + step;
       moved.head(2) = moved.head(2).cwiseMax(least_share);
       if (!evaluate(moved) || residuals_.squaredNorm() > before) continue;
-      step = moved - p;
-      p = moved;
+      step = moved - p_;
+      p_ = moved;
       return true;
     }
     residuals_ = kept;
     raw_ = raw;
+    seen_ = seen;
     return false;
-  }
-
-  [[nodiscard]] std::optional<LawFit> result(const VectorXd& p) const {
-    LawFit fit;
-    fit.severity = law_.severity;
-    fit.unknowns = p;
-    fit.residuals = residuals_;
-    fit.chi2 = residuals_.squaredNorm();
-    const MatrixXd information = jacobian_.transpose() * jacobian_;
-    const Eigen::LDLT<MatrixXd> factor(information);
-    fit.covariance = factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
-    const bool sound = fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() > 0.0;
-    return sound && std::isfinite(fit.chi2) ? std::optional(fit) : std::nullopt;
   }
 
   const ReadingModel& model_;
   LawAt law_;
   VectorXd weights_;
   NearbyOrbits& near_;
-  std::optional<VectorXd> raw_;  ///< residuals in the units of the readings
+  VectorXd p_;
+  VectorXd seen_;                ///< unknowns of the last evaluation that counts, within a step of p_
+  std::optional<VectorXd> raw_;  ///< residuals there, in the units of the readings
   VectorXd residuals_;
   MatrixXd jacobian_;
 };
+
+/// Covariance of the unknowns from the derivatives; false where the readings do not determine them.
+bool find_covariance(LawFit& fit) {
+  const MatrixXd information = fit.slopes.transpose() * fit.slopes;
+  const Eigen::LDLT<MatrixXd> factor(information);
+  fit.covariance = factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
+  return fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() > 0.0 && std::isfinite(fit.chi2);
+}
 
 /// What the smooth curve leaves of the residuals of each channel, from residuals over `noise`.
 ReadingNoise noise_of(const ReadingModel& model, const ReadingNoise& noise, const VectorXd& residuals) {
@@ -160,11 +190,37 @@ ReadingNoise noise_of(const ReadingModel& model, const ReadingNoise& noise, cons
   return found;
 }
 
+/// Unknowns at a severity, continued from those of the last two fits.
+VectorXd continued(const std::vector<LawFit>& fits, double severity) {
+  const LawFit& last = fits.back();
+  if (fits.size() < 3) return last.unknowns;
+  const LawFit& before = fits[fits.size() - 2];
+  const double part = (severity - last.severity) / (last.severity - before.severity);
+  VectorXd unknowns = last.unknowns + part * (last.unknowns - before.unknowns);
+  unknowns.head(2) = unknowns.head(2).cwiseMax(least_share);
+  return unknowns;
+}
+
+/// The last but one fit takes the derivatives between those of its neighbours, which took their own.
+void share_slopes(std::vector<LawFit>& fits) {
+  const LawFit& right = fits.back();
+  const LawFit& left = fits[fits.size() - 3];
+  LawFit& middle = fits[fits.size() - 2];
+  const double part = (middle.severity - left.severity) / (right.severity - left.severity);
+  LawFit shared = middle;
+  shared.slopes = (1.0 - part) * left.slopes + part * right.slopes;
+  if (find_covariance(shared)) middle = std::move(shared);
+}
+
 }  // namespace
 
 std::optional<LawFit> fit_law(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise,
-                              const VectorXd& start, NearbyOrbits& near) {
-  return Search(model, law, noise, near).from(start);
+                              const LawStart& start, NearbyOrbits& near) {
+  Search search(model, law, noise, near);
+  if (!search.minimize(start.unknowns, start.slopes)) return std::nullopt;
+  if (start.own_slopes && !search.differentiate()) return std::nullopt;
+  LawFit fit = search.result();
+  return find_covariance(fit) ? std::optional(fit) : std::nullopt;
 }
 
 std::optional<PlainFit> plain_fit(const ReadingModel& model) {
@@ -175,13 +231,13 @@ std::optional<PlainFit> plain_fit(const ReadingModel& model) {
     plain.noise.deviations.push_back(known > 0.0 ? known
                                                  : first_guess * model.least_deviation(static_cast<int>(channel)));
   }
-  const std::unique_ptr<NearbyOrbits> near = model.no_orbits();
-  VectorXd start = model.start();
+  const std::unique_ptr<NearbyOrbits> near = model.no_orbits(plain.noise.deviations);
+  LawStart start{.unknowns = model.start()};
   constexpr int rounds = 3;
   for (int i = 0; i < rounds; ++i) {
     const std::optional<LawFit> fit = fit_law(model, {}, plain.noise, start, *near);
     if (!fit) return std::nullopt;
-    start = fit->unknowns;
+    start.unknowns = fit->unknowns;
     plain.fit = *fit;
     plain.noise = noise_of(model, plain.noise, fit->residuals.head(model.readings().size()));
   }
@@ -196,14 +252,17 @@ std::vector<LawFit> law_profile(const ReadingModel& model, const bench::Rig& dep
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;
   std::vector<LawFit> fits = {plain};
-  const std::unique_ptr<NearbyOrbits> near = model.no_orbits();
+  const std::unique_ptr<NearbyOrbits> near = model.no_orbits(noise.deviations);
   double least = plain.chi2;
   for (int i = 1; i <= count; ++i) {
     // Deflections act on the motion by their root as much as in proportion: the mild severities stand closer.
     const double severity = largest * std::pow(static_cast<double>(i) / count, 1.5);
-    const std::optional<LawFit> fit = fit_law(model, {&departure, severity}, noise, fits.back().unknowns, *near);
+    const bool own_slopes = i % 2 == 1;
+    const LawStart start{continued(fits, severity), fits.back().slopes, own_slopes};
+    const std::optional<LawFit> fit = fit_law(model, {&departure, severity}, noise, start, *near);
     if (!fit) break;
     fits.push_back(*fit);
+    if (own_slopes && i > 1) share_slopes(fits);
     least = std::min(least, fit->chi2);
     if (fit->chi2 > least + out_of_reach && fit->chi2 > fits[fits.size() - 2].chi2) break;
   }

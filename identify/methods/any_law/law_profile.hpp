@@ -26,12 +26,21 @@ struct LawFit {
   double chi2 = 0.0;
   Eigen::VectorXd unknowns;
   Eigen::VectorXd residuals;   ///< over their deviations
+  Eigen::MatrixXd slopes;      ///< derivatives of the readings over their deviations by the unknowns
   Eigen::MatrixXd covariance;  ///< of the unknowns
+};
+
+/// Where a fit begins.
+struct LawStart {
+  Eigen::VectorXd unknowns;
+  Eigen::MatrixXd slopes{};  ///< of a similar law; empty: none are known
+  /// Whether derivatives are taken where the fit ends; else they are those that the search has learnt on its way.
+  bool own_slopes = true;
 };
 
 /// The best fit of a law at one severity from `start` on; nothing where it has no steady states there.
 [[nodiscard]] std::optional<LawFit> fit_law(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise,
-                                            const Eigen::VectorXd& start, NearbyOrbits& near);
+                                            const LawStart& start, NearbyOrbits& near);
 
 /// The noise of the readings, where it is not known: what a smooth curve leaves of the residuals of Coulomb +
 /// viscous friction. `plain`: that fit; it is repeated until its weights are those of the noise. Nothing where it

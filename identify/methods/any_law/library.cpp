@@ -4,7 +4,9 @@
 #include <array>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
+#include "identify/rigs/groups.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -12,7 +14,44 @@ namespace dualdamp::identify {
 namespace {
 
 /// Departures that mean something for a severity of either sign.
-constexpr std::array two_sided = {"cubic_spring", "detuning", "position_slope", "viscous_power"};
+constexpr std::array two_sided = {"cubic_spring", "detuning", "film_beside_damper", "position_slope",
+                                  "viscous_power"};
+
+/// A film takes half of the viscous force and thins with speed; a negative severity is a drag with the square of
+/// speed beside the damper. c is that of low speeds, as under `viscous_saturating`; to the first order in the
+/// severity both give c v (1 - s |v|/V).
+sim::Model film_beside_damper(const bench::RigBase& base, bench::RigValues p) {
+  sim::Model model = bench::with_coulomb(base);
+  const double V = base.reference.speed();
+  if (p[0] < 0.0)
+    return bench::with_law(std::move(model), "viscous_power",
+                           {{"coefficient", -p[0] * base.c() / V}, {"exponent", 2.0}});
+  constexpr double share = 0.5;
+  model.oscillator.damping *= 1.0 - share;
+  return bench::with_law(std::move(model), "viscous_saturating",
+                         {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
+}
+
+/// Laws that a record may have and that the stress test does not play.
+const std::vector<bench::Rig>& further_laws() {
+  static const std::vector<bench::Rig> list = {
+      {.name = "film_beside_damper",
+       .meaning = "a film that thins under shear, or a drag, beside the damper",
+       .parameters = {},
+       .build = film_beside_damper,
+       .severity = "fall of the viscous force at the peak speed, of the first order",
+       .largest = 1.0,
+       .values_at = [](const bench::RigBase&, double s) { return std::vector{s}; },
+       .family = bench::Family::velocity}};
+  return list;
+}
+
+std::vector<bench::Rig> all_laws() {
+  std::vector<bench::Rig> all = bench::departures();
+  all.insert(all.end(), further_laws().begin(), further_laws().end());
+  std::ranges::sort(all, {}, &bench::Rig::name);
+  return all;
+}
 constexpr std::array no_laws = {"rough_way", "warming"};
 /// The other sign of a law that is two-sided here.
 constexpr std::array twins = {"detuned_below", "softening_spring", "viscous_power_below", "position_slope_up"};
@@ -36,7 +75,8 @@ LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit
 
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
-  for (const bench::Rig& departure : bench::departures()) {
+  static const std::vector<bench::Rig> all = all_laws();
+  for (const bench::Rig& departure : all) {
     if (names(no_laws, departure.name) || names(twins, departure.name)) continue;
     // What a laboratory does not know of itself is no law.
     if (departure.mislead != nullptr || names(options.without, departure.name)) continue;

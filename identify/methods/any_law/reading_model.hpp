@@ -5,7 +5,9 @@
 /// of order one: F0 and c over those where the search begins, and what else the record cannot exclude.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,12 +63,20 @@ class ReadingModel {
   [[nodiscard]] double least_deviation(int channel) const {
     return least_deviations_[static_cast<std::size_t>(channel)];
   }
+  /// The smallest of the channels' deviations, relative to the size of what the channel reads.
+  [[nodiscard]] double relative_noise(const std::vector<double>& deviations) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < deviations.size(); ++i)
+      if (least_deviations_[i] > 0.0) least = std::min(least, deviations[i] / least_deviations_[i]);
+    return least_relative_deviation * least;
+  }
   /// Whether a base drives the mass: else departures of the drive mean nothing.
   [[nodiscard]] bool is_driven() const { return driven_; }
   [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }  ///< of the data used
   [[nodiscard]] const std::string& data() const { return data_; }             ///< "8 steady states with phases"
 
-  [[nodiscard]] virtual std::unique_ptr<NearbyOrbits> no_orbits() const = 0;
+  /// To begin with. Predictions next to them err by little beside the readings' `deviations`, one for each channel.
+  [[nodiscard]] virtual std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const = 0;
   /// Readings less their predictions; nothing where the law has none there.
   [[nodiscard]] virtual std::optional<Eigen::VectorXd> residuals(const LawAt& law, const Eigen::VectorXd& unknowns,
                                                                  NearbyOrbits& near) const = 0;
@@ -77,6 +87,9 @@ class ReadingModel {
                                                                    NearbyOrbits& near) const = 0;
 
  protected:
+  /// No reading is believed to a smaller share of its size, no phase to a smaller angle [rad].
+  static constexpr double least_relative_deviation = 1e-4;
+
   std::vector<Nuisance> nuisances_;
   Eigen::VectorXd start_;
   double F0_unit_ = 0.0;

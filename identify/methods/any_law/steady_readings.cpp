@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 
@@ -17,16 +18,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Error of steps and closure of orbits; noise is a hundred times larger at least.
-constexpr double accuracy = 1e-7;
+/// Error of steps and closure of orbits over the noise of the readings, and its bounds.
+constexpr double share_of_noise = 1.0 / 300.0;
+constexpr double finest = 1e-8;
+constexpr double coarsest = 1e-5;
 /// A motion that has not settled by then is no steady state that a laboratory waits for.
 constexpr int patience = 300;
 /// Of differences, relative to F0 and c.
-constexpr double step = 2e-3;
-
-/// No amplitude is believed to a smaller share of the largest, no phase to a smaller angle [rad].
-constexpr double least_amplitude_deviation = 1e-4;
-constexpr double least_phase_deviation = 1e-4;
+constexpr double step = 4e-3;
 
 constexpr const char* no_plain_motion =
     "plain Coulomb and viscous friction fits with a negative force or damping: there is no motion to begin with";
@@ -35,9 +34,25 @@ constexpr double stiffness_deviation = 0.05;
 constexpr double hardening_deviation = 0.1;
 constexpr Index stiffness_unknown = 2;
 
+/// Corrections from a neighbour, more of which are dearer than a new monodromy matrix.
+constexpr int most_corrections = 4;
+
 struct SteadyOrbits final : NearbyOrbits {
+  double accuracy = finest;
   std::vector<std::optional<sim::KnownOrbit>> orbits;
 };
+
+/// Lag of x's fundamental behind the base's [rad], by the trapezoidal rule. It takes the harmonics next to `count`
+/// for the fundamental: under Coulomb friction they are below 1e-6 of x.
+double phase_of(const sim::Model& model, const sim::SteadyState& state) {
+  constexpr int count = 64;
+  const std::vector<sim::Sample> samples = sim::one_period(model, state, count * state.period_ratio);
+  std::complex<double> sum = 0.0;
+  // The sample at the end of the period is that at its begin.
+  for (std::size_t i = 0; i < std::min(samples.size(), static_cast<std::size_t>(count * state.period_ratio)); ++i)
+    sum += samples[i].x * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(i) / count);
+  return model.excitation.phase - std::arg(sum);
+}
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
@@ -74,8 +89,9 @@ class SteadyReadings final : public ReadingModel {
     known_deviations_ = {deviations[0], deviations[1]};
   }
 
-  [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits() const override {
+  [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const override {
     auto none = std::make_unique<SteadyOrbits>();
+    none->accuracy = std::clamp(share_of_noise * relative_noise(deviations), finest, coarsest);
     none->orbits.resize(states_.size());
     return none;
   }
@@ -83,18 +99,16 @@ class SteadyReadings final : public ReadingModel {
   [[nodiscard]] std::optional<VectorXd> residuals(const LawAt& law, const VectorXd& p,
                                                   NearbyOrbits& near) const override {
     auto& orbits = static_cast<SteadyOrbits&>(near).orbits;
+    const double accuracy = static_cast<SteadyOrbits&>(near).accuracy;
     VectorXd result(readings_.size());
     Index phase_row = amplitudes();
     for (std::size_t i = 0; i < states_.size(); ++i) {
-      const sim::Model model = model_of(law, p, states_[i]);
+      const sim::Model model = model_of(law, p, states_[i], accuracy);
       const sim::SteadyState state = found(model, orbits[i]);
       if (!state.outcome.ok()) return std::nullopt;
-      if (orbits[i])
-        orbits[i]->start = state.start;
-      else
-        orbits[i] = sim::known_orbit(model, state);
+      remember(model, state, orbits[i]);
       result[static_cast<Index>(i)] = states_[i].x - state.amplitude;
-      if (has_phase(states_[i])) result[phase_row++] = wrapped(states_[i].phase - state.phase);
+      if (has_phase(states_[i])) result[phase_row++] = wrapped(states_[i].phase - phase_of(model, state));
     }
     return result;
   }
@@ -179,10 +193,10 @@ class SteadyReadings final : public ReadingModel {
     double slope = 0.0;
     for (const Pair& state : states_) slope += state.x / state.Y / static_cast<double>(states_.size());
     known_deviations_ = {std::hypot(known.sigma_x, slope * known.sigma_Y), 0.0};
-    least_deviations_ = {least_amplitude_deviation * unit_, least_phase_deviation};
+    least_deviations_ = {least_relative_deviation * unit_, least_relative_deviation};
   }
 
-  [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, const Pair& state) const {
+  [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, const Pair& state, double accuracy) const {
     bench::Truth truth;
     double k = constants_.stiffness;
     if (unknowns() > stiffness_unknown)
@@ -200,9 +214,19 @@ class SteadyReadings final : public ReadingModel {
     return model;
   }
 
-  [[nodiscard]] sim::SteadyState found(const sim::Model& model, const std::optional<sim::KnownOrbit>& near) const {
+  static void remember(const sim::Model& model, const sim::SteadyState& state,
+                       std::optional<sim::KnownOrbit>& near) {
+    const bool far = state.transient_periods > 0 || state.newton_steps > most_corrections;
+    if (near && !far)
+      near->start = state.start;
+    else
+      near = sim::known_orbit(model, state);
+  }
+
+  /// Amplitudes are all that its account need hold.
+  [[nodiscard]] static sim::SteadyState found(const sim::Model& model, const std::optional<sim::KnownOrbit>& near) {
     const sim::SteadyStateOptions options{
-        .tolerance = accuracy, .max_periods = patience, .full_account = phases_ > 0};
+        .tolerance = model.solver.tolerance, .max_periods = patience, .full_account = false};
     return near ? sim::steady_state_near(*near, model, options) : sim::steady_state(model, options);
   }
 

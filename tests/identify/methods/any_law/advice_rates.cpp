@@ -1,0 +1,71 @@
+#include "tests/identify/methods/any_law/advice_rates.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "identify/design/design.hpp"
+#include "identify/methods/any_law/law_intervals.hpp"
+#include "identify/methods/any_law/steady_readings.hpp"
+
+namespace dualdamp::identify::testing {
+
+namespace {
+
+std::optional<LawIntervals> answer_of(const LawRig& rig, const Record& record) {
+  const auto readings = steady_readings(record, rig.constants, {});
+  const auto* model = std::get_if<0>(&readings);
+  if (model == nullptr) return std::nullopt;
+  auto study = study_laws(**model, rig.constants, {});
+  if (auto* found = std::get_if<LawStudy>(&study)) return std::move(found->intervals);
+  return std::nullopt;
+}
+
+/// Both records as one.
+Record together(const Record& first, const Record& second) {
+  Record all = first;
+  for (Pair pair : second.pairs->pairs) {
+    pair.number = static_cast<int>(all.pairs->pairs.size()) + 1;
+    all.pairs->pairs.push_back(pair);
+  }
+  return all;
+}
+
+bool rejects_plain(const LawIntervals& laws) {
+  return std::ranges::find(laws.laws, "coulomb_viscous", &LawAnswer::name)->rejected;
+}
+
+bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
+
+double width(const Interval& interval) { return interval[1] - interval[0]; }
+
+}  // namespace
+
+std::optional<Followed> followed_advice(const LawRig& rig, const bench::Rig& departure, double severity,
+                                        std::uint64_t seed) {
+  const Record first = law_record(LawRecord::amplitudes, rig, &departure, severity, seed);
+  if (!first.pairs) return std::nullopt;
+  const auto found = design_after(first, rig.constants, {}, {});
+  const auto* design = std::get_if<Design>(&found);
+  if (design == nullptr) return std::nullopt;
+  // A release cannot be read together with states.
+  const auto best = std::ranges::find_if(design->advice, [](const Advice& advice) {
+    return std::holds_alternative<std::vector<PlannedState>>(advice.candidate.plan);
+  });
+  if (best == design->advice.end()) return std::nullopt;
+  const auto& states = std::get<std::vector<PlannedState>>(best->candidate.plan);
+  const Record advised = states_record(rig, &departure, severity, states, best->candidate.phases, seed + 1);
+  const Record equal = law_record(LawRecord::amplitudes, rig, &departure, severity, seed + 1);
+  if (!advised.pairs || !equal.pairs) return std::nullopt;
+  const auto after_advice = answer_of(rig, together(first, advised));
+  const auto after_equal = answer_of(rig, together(first, equal));
+  if (!after_advice || !after_equal) return std::nullopt;
+  return Followed{.advice = best->candidate.name,
+                  .narrower = {width(after_equal->zeta_hull) / width(after_advice->zeta_hull),
+                               width(after_equal->F0_hull) / width(after_advice->F0_hull)},
+                  .rejected = {rejects_plain(*after_equal), rejects_plain(*after_advice)},
+                  .held = {holds(after_advice->zeta_hull, rig.zeta), holds(after_advice->F0_hull, rig.truth.F0)}};
+}
+
+}  // namespace dualdamp::identify::testing

@@ -1,0 +1,28 @@
+#pragma once
+/// What following the advice of `design` is worth, on a random rig: eight levels of amplitudes are followed by
+/// eight states more, either those advised or eight equally spaced levels again.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "tests/identify/methods/any_law/law_laboratory.hpp"
+
+namespace dualdamp::identify::testing {
+
+struct Followed {
+  std::string advice;
+  /// Width of the hull after equally spaced levels over that after the advice, of zeta and of F0.
+  std::array<double, 2> narrower{};
+  /// Whether plain friction is rejected: after equally spaced levels, after the advice.
+  std::array<bool, 2> rejected{};
+  /// Whether the hulls after the advice hold zeta and F0.
+  std::array<bool, 2> held{};
+};
+
+/// Nothing where one of the records has no answer.
+[[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const bench::Rig& departure,
+                                                      double severity, std::uint64_t seed);
+
+}  // namespace dualdamp::identify::testing

@@ -1,0 +1,24 @@
+#pragma once
+/// How narrow any interval can be that holds the truth in 95 % under every law of the library.
+///
+/// Let d(theta) be the least distance, in standard deviations of the readings, between what plain friction with the
+/// true zeta and F0 reads and what any law of the library reads whose own zeta (or F0) is theta; priors of
+/// nuisances count as readings. An interval that holds theta in 95 % where theta is true leaves it out in 5 %
+/// there, and so, by the lemma of Neyman and Pearson, in at most Phi(d - 1.645) where plain friction is true. The
+/// expected length is the integral of the probability to hold theta (Pratt 1961):
+///
+///   expected length >= int Phi(1.645 - d(theta)) dtheta
+///
+/// The noise is known here; an interval that has to estimate it is wider.
+
+#include <array>
+#include <optional>
+
+#include "tests/identify/methods/any_law/law_laboratory.hpp"
+
+namespace dualdamp::identify::testing {
+
+/// Half of the least expected length for zeta and for F0 [N], for the record of plain friction on this rig.
+[[nodiscard]] std::optional<std::array<double, 2>> alias_bound(LawRecord kind, const LawRig& rig);
+
+}  // namespace dualdamp::identify::testing

@@ -1,0 +1,48 @@
+#pragma once
+/// Records of random rigs whose friction departs from Coulomb and viscous friction in a known way, to find out how
+/// often the ranges over laws hold the truth. The engines make the motions; the rigs, their severities and their
+/// noise are drawn.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "identify/design/candidate.hpp"
+#include "identify/record.hpp"
+#include "identify/rigs/rigs.hpp"
+
+namespace dualdamp::identify::testing {
+
+enum class LawRecord {
+  phases,      ///< eight levels at resonance, amplitude and phase
+  amplitudes,  ///< eight levels at resonance, amplitudes alone
+  response,    ///< 21 frequencies across resonance, amplitude and phase
+  extremes,    ///< extremes of a release
+  history,     ///< x of a release, sampled
+};
+
+[[nodiscard]] std::string_view name_of(LawRecord kind);
+
+/// A rig with Coulomb and viscous friction and the motion in the middle of its tests.
+struct LawRig {
+  bench::Truth truth;
+  bench::ReferenceMotion reference;
+  double zeta = 0.0;
+  double noise = 0.003;  ///< of an amplitude over the reference amplitude, of a phase in rad
+  KnownConstants constants;
+};
+
+/// The same seed gives the same rig: mass 0.3 to 10 kg, 2 to 20 Hz, zeta 0.02 to 0.12 (forced) or 0.005 to 0.03
+/// (released), a friction that takes 0.25 to 0.6 of the drive in the middle of the tests.
+[[nodiscard]] LawRig law_rig(LawRecord kind, std::uint64_t seed);
+
+/// What the rig reads under a departure of this severity; nullptr: under plain friction. The same seed gives the
+/// same noise under every law. Empty where a state was not found.
+[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const bench::Rig* departure, double severity,
+                                std::uint64_t seed);
+
+/// The same of given states.
+[[nodiscard]] Record states_record(const LawRig& rig, const bench::Rig* departure, double severity,
+                                   const std::vector<PlannedState>& states, bool phases, std::uint64_t seed);
+
+}  // namespace dualdamp::identify::testing

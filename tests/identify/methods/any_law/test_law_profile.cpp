@@ -1,0 +1,120 @@
+#include "identify/methods/any_law/law_profile.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "identify/methods/any_law/law_intervals.hpp"
+#include "identify/methods/any_law/steady_readings.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "tests/identify/methods/any_law/law_laboratory.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr std::uint64_t seed = 31;
+
+struct Case {
+  LawRig rig = law_rig(LawRecord::phases, seed);
+  Record record;
+  std::unique_ptr<const ReadingModel> model;
+  PlainFit plain;
+};
+
+Case case_of(const char* law, double severity) {
+  Case one;
+  one.record = law_record(LawRecord::phases, one.rig, bench::find_departure(law), severity, seed);
+  REQUIRE(one.record.pairs);
+  auto readings = steady_readings(one.record, one.rig.constants, {});
+  REQUIRE(std::holds_alternative<std::unique_ptr<const ReadingModel>>(readings));
+  one.model = std::move(std::get<0>(readings));
+  const std::optional<PlainFit> plain = plain_fit(*one.model);
+  REQUIRE(plain);
+  one.plain = *plain;
+  return one;
+}
+
+}  // namespace
+
+TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
+  const Case one = case_of("contact_compliance", 0.1);
+  const ReadingModel& model = *one.model;
+  const std::vector<double>& noise = one.plain.noise.deviations;
+  constexpr double severity = 0.2;
+  for (const char* law : {"bouc_wen", "contact_compliance", "dahl", "elasto_plastic", "friction_lag", "iwan",
+                          "lugre", "stribeck", "viscous_saturating"}) {
+    INFO(law);
+    const bench::Rig& departure = *bench::find_departure(law);
+    const auto near = model.no_orbits(noise);
+    Eigen::VectorXd unknowns = one.plain.fit.unknowns;
+    unknowns.tail(2).setZero();
+    REQUIRE(model.residuals({&departure, severity}, unknowns, *near));
+    // Next to the orbits of other unknowns, as in a fit.
+    unknowns.head(2) *= 0.98;
+    const std::optional<Eigen::VectorXd> residuals = model.residuals({&departure, severity}, unknowns, *near);
+    REQUIRE(residuals);
+    const std::vector<Pair>& states = one.record.pairs->pairs;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      bench::Truth truth = one.rig.truth;
+      truth.F0 = unknowns[0] * model.F0_unit();
+      truth.model.oscillator.damping = unknowns[1] * model.c_unit();
+      truth.model.excitation = {
+          .type = sim::ExcitationType::base_harmonic, .amplitude = states[i].Y, .frequency = states[i].omega};
+      const sim::SteadyState exact =
+          sim::steady_state(bench::departed(departure, truth, model.reference(), severity));
+      REQUIRE(exact.outcome.ok());
+      const auto row = static_cast<Eigen::Index>(i);
+      const auto phase_row = row + static_cast<Eigen::Index>(states.size());
+      constexpr double share = 1.0 / 30.0;
+      CHECK(std::abs(states[i].x - exact.amplitude - (*residuals)[row]) < share * noise[0]);
+      CHECK(std::abs(std::remainder(states[i].phase - exact.phase - (*residuals)[phase_row],
+                                    2.0 * std::numbers::pi)) < share * noise[1]);
+    }
+  }
+}
+
+TEST_CASE("any_law: fits that share derivatives are those that take their own") {
+  const Case one = case_of("contact_compliance", 0.15);
+  for (const char* law : {"contact_compliance", "dahl", "stribeck"}) {
+    const bench::Rig& departure = *bench::find_departure(law);
+    constexpr double largest = 0.3;
+    const std::vector<LawFit> fits = law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit);
+    REQUIRE(fits.size() > 3);
+    for (std::size_t i = 1; i < fits.size(); ++i) {
+      INFO(law << " at severity " << fits[i].severity);
+      const auto near = one.model->no_orbits(one.plain.noise.deviations);
+      const std::optional<LawFit> own = fit_law(*one.model, {&departure, fits[i].severity}, one.plain.noise,
+                                                {.unknowns = fits[i].unknowns}, *near);
+      REQUIRE(own);
+      // Both searches end where a step is below a tenth of a standard deviation.
+      const double deviation = std::sqrt(own->covariance(0, 0));
+      CHECK(std::abs(fits[i].unknowns[0] - own->unknowns[0]) < 0.2 * deviation);
+      CHECK(fits[i].chi2 == Approx(own->chi2).margin(0.1).epsilon(0.01));
+      CHECK(std::sqrt(fits[i].covariance(0, 0)) == Approx(deviation).epsilon(0.1));
+      CHECK(std::sqrt(fits[i].covariance(1, 1)) == Approx(std::sqrt(own->covariance(1, 1))).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("any_law: a film that levels off is held by other viscous laws when its own is not in the library") {
+  const Case one = case_of("viscous_saturating", 0.15);
+  const auto hull_without = [&](const std::vector<std::string>& laws) {
+    auto study = study_laws(*one.model, one.rig.constants, {.without = laws});
+    REQUIRE(std::holds_alternative<LawStudy>(study));
+    return std::get<LawStudy>(study).intervals.zeta_hull;
+  };
+  const Interval held = hull_without({"viscous_saturating"});
+  CHECK(held[0] <= one.rig.zeta);
+  CHECK(held[1] >= one.rig.zeta);
+  // No other law has the damping of low speeds beside one that falls.
+  CHECK(hull_without({"film_beside_damper", "viscous_saturating"})[1] < held[1]);
+}
