@@ -5,7 +5,7 @@
 /// true zeta and F0 reads and what any law of the library reads whose own zeta (or F0) is theta; priors of
 /// nuisances count as readings. An interval that holds theta in 95 % where theta is true leaves it out in 5 %
 /// there, and so, by the lemma of Neyman and Pearson, in at most Phi(d - 1.645) where plain friction is true. The
-/// expected length is the integral of the probability to hold theta (Pratt 1961):
+/// expected length is the integral of the probability to hold theta (pratt1961length):
 ///
 ///   expected length >= int Phi(1.645 - d(theta)) dtheta
 ///
