@@ -37,7 +37,8 @@ struct Expectation {
 /// One law that the record allows.
 struct Rival {
   const LawFits* law = nullptr;
-  double weight = 0.0;
+  double weight = 0.0;                ///< in the average over laws
+  double density = 0.0;               ///< weight over the sum of the likelihoods of its points
   std::vector<Expectation> points{};  ///< by severity
   std::size_t best = 0;
 };
@@ -99,10 +100,15 @@ struct Widths {
 
 double width(const Interval& ends) { return ends[1] - ends[0]; }
 
-/// Points of one law, with the weight of the law.
+/// Points of one law.
 struct Curve {
-  double weight = 0.0;
+  double density = 0.0;
+  double before = 0.0;  ///< its least chi2 by the record alone
   std::vector<SeverityPoint> points;
+
+  [[nodiscard]] double likelihood(const SeverityPoint& point) const {
+    return std::exp(-0.5 * (point.chi2 - before) + point.log_volume);
+  }
 };
 
 /// Mean and variance of a mixture by moments.
@@ -122,23 +128,21 @@ class Moments {
   double sum_ = 0.0, first_ = 0.0, second_ = 0.0;
 };
 
-/// `student`: half width of a region, in deviations. Laws whose misfit grows beyond it are told apart.
+/// `student`: half width of a region, in deviations. The record allows all of these laws; those whose misfit the
+/// measurement raises by more than its square are told apart.
 Widths widths_of(const std::vector<Curve>& curves, double student) {
   const double limit = student * student;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Curve& curve : curves) least = std::min(least, best_of(curve.points).chi2);
   Interval zeta{std::numeric_limits<double>::infinity(), 0.0};
   Interval F0 = zeta;
   Moments mean_zeta;
   Moments mean_F0;
   for (const Curve& curve : curves) {
-    const double own = best_of(curve.points).chi2;
     for (const SeverityPoint& point : curve.points) {
-      const double weight = curve.weight * std::exp(-0.5 * (point.chi2 - least) + point.log_volume);
+      const double weight = curve.density * curve.likelihood(point);
       mean_zeta.add(weight, point.c, point.c_deviation);
       mean_F0.add(weight, point.F0, point.F0_deviation);
     }
-    if (own > least + limit) continue;
+    if (best_of(curve.points).chi2 > curve.before + limit) continue;
     const Interval c = region_of(curve.points, limit, &SeverityPoint::c, &SeverityPoint::c_deviation);
     const Interval f = region_of(curve.points, limit, &SeverityPoint::F0, &SeverityPoint::F0_deviation);
     zeta = {std::min(zeta[0], c[0]), std::max(zeta[1], c[1])};
@@ -158,7 +162,13 @@ class Advisor {
     }
     double sum = 0.0;
     for (const Rival& rival : rivals_) sum += rival.weight;
-    for (Rival& rival : rivals_) rival.weight /= sum;
+    for (Rival& rival : rivals_) {
+      rival.weight /= sum;
+      const Curve curve = curve_now(rival);
+      double likelihood = 0.0;
+      for (const SeverityPoint& point : curve.points) likelihood += curve.likelihood(point);
+      rival.density = rival.weight / likelihood;
+    }
   }
 
   [[nodiscard]] std::size_t rivals() const { return rivals_.size(); }
@@ -204,20 +214,22 @@ class Advisor {
  private:
   [[nodiscard]] std::vector<Curve> now() const {
     std::vector<Curve> curves;
-    for (const Rival& rival : rivals_) {
-      std::vector<LawFit> fits;
-      for (const LawFit& fit : rival.law->fits)
-        if (fit.chi2 < rival.law->best().chi2 + reach) fits.push_back(fit);
-      curves.push_back({rival.weight, severity_curve(record_, fits)});
-    }
+    for (const Rival& rival : rivals_) curves.push_back(curve_now(rival));
     return curves;
+  }
+
+  [[nodiscard]] Curve curve_now(const Rival& rival) const {
+    std::vector<LawFit> fits;
+    for (const LawFit& fit : rival.law->fits)
+      if (fit.chi2 < rival.law->best().chi2 + reach) fits.push_back(fit);
+    return {rival.density, rival.law->best().chi2, severity_curve(record_, fits)};
   }
 
   [[nodiscard]] Curve after_readings(const ReadingModel& planned, const Rival& rival,
                                      const VectorXd& readings) const {
     std::vector<LawFit> fits;
     for (const Expectation& point : rival.points) fits.push_back(updated(record_, planned, point, readings));
-    return {rival.weight, severity_curve(planned, fits)};
+    return {rival.density, rival.law->best().chi2, severity_curve(planned, fits)};
   }
 
   [[nodiscard]] std::unique_ptr<const ReadingModel> plan(const CandidateMeasurement& candidate) const {

@@ -71,6 +71,20 @@ TEST_CASE("design: after amplitudes alone their phases tell laws apart, and repe
   CHECK(phases.text.find("record the phase of the same states: zeta's range goes from") == 0);
 }
 
+TEST_CASE("design: no measurement is expected to widen the ranges, however different the laws fit the record") {
+  // The paper's points: a film fits far better than the contacts that are allowed beside it.
+  const auto found = design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0});
+  REQUIRE(std::holds_alternative<Design>(found));
+  const Design& design = std::get<Design>(found);
+  constexpr double rounding = 1.01;
+  for (const Advice& advice : design.advice) {
+    INFO(advice.candidate.name);
+    CHECK(advice.hull.zeta < rounding);
+    CHECK(advice.hull.F0 < rounding);
+  }
+  CHECK(named(design, "record the phase of the same states").hull.zeta < 0.3);
+}
+
 TEST_CASE("design: a record without steady states gets no advice, with the reason") {
   Record record;
   record.decay = DecayRecord{{1.0, -0.9, 0.8, -0.7, 0.6, -0.5}, {}};

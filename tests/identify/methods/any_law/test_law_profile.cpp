@@ -30,8 +30,9 @@ struct Case {
   PlainFit plain;
 };
 
-Case case_of(const char* law, double severity) {
+Case case_of(const char* law, double severity, double noise = 0.003) {
   Case one;
+  one.rig.noise = noise;
   one.record = law_record(LawRecord::phases, one.rig, bench::find_departure(law), severity, seed);
   REQUIRE(one.record.pairs);
   auto readings = steady_readings(one.record, one.rig.constants, {});
@@ -106,15 +107,20 @@ TEST_CASE("any_law: fits that share derivatives are those that take their own") 
 }
 
 TEST_CASE("any_law: a film that levels off is held by other viscous laws when its own is not in the library") {
-  const Case one = case_of("viscous_saturating", 0.15);
-  const auto hull_without = [&](const std::vector<std::string>& laws) {
+  // With less noise the second order tells the two films apart.
+  constexpr double noise = 0.002;
+  const Case one = case_of("viscous_saturating", 0.1, noise);
+  const auto held_without = [&](const std::vector<std::string>& laws) {
     auto study = study_laws(*one.model, one.rig.constants, {.without = laws});
     REQUIRE(std::holds_alternative<LawStudy>(study));
-    return std::get<LawStudy>(study).intervals.zeta_hull;
+    const Interval hull = std::get<LawStudy>(study).intervals.zeta_hull;
+    for (const LawAnswer& law : std::get<LawStudy>(study).intervals.laws)
+      UNSCOPED_INFO(law.name << " p " << law.p_value << " severity " << law.severity << " zeta "
+                             << law.zeta_interval95[0] << " to " << law.zeta_interval95[1]);
+    UNSCOPED_INFO("hull " << hull[0] << " to " << hull[1] << ", truth " << one.rig.zeta);
+    return hull[0] <= one.rig.zeta && one.rig.zeta <= hull[1];
   };
-  const Interval held = hull_without({"viscous_saturating"});
-  CHECK(held[0] <= one.rig.zeta);
-  CHECK(held[1] >= one.rig.zeta);
+  CHECK(held_without({"viscous_saturating"}));
   // No other law has the damping of low speeds beside one that falls.
-  CHECK(hull_without({"film_beside_damper", "viscous_saturating"})[1] < held[1]);
+  CHECK_FALSE(held_without({"film_beside_damper", "viscous_saturating"}));
 }
