@@ -16,7 +16,6 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr Eigen::Index least_samples = 64;
-constexpr double level = 1e-3;
 
 /// The longest length up to `count` whose prime factors are 2, 3 and 5: others take long to transform.
 Eigen::Index quick_length(Eigen::Index count) {
@@ -81,9 +80,14 @@ double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std
   return f_test_p_value(residuals.squaredNorm() / (signal.noise * signal.noise * freedom), freedom, known);
 }
 
+bool is_noise(double p_value) {
+  constexpr double level = 1e-3;
+  return !(p_value < level);
+}
+
 void warn_of_residuals(const Experiments& experiments, Fit& fit) {
   for (const FittedSignal& fitted : fit.signals) {
-    if (!(fitted.p_value < level)) continue;
+    if (is_noise(fitted.p_value)) continue;
     const Experiment& experiment = *experiments[fitted.rows.experiment];
     std::string text = experiment.label + ": the residuals of " + experiment.signals[fitted.rows.signal].name;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";

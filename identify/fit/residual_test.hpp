@@ -24,6 +24,9 @@ namespace dualdamp::identify {
 /// stated noise do not tell. `parameters`: how many were fitted.
 [[nodiscard]] double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std::size_t parameters);
 
+/// Whether such a chance is noise's, or none is known.
+[[nodiscard]] bool is_noise(double p_value);
+
 /// Says in `fit.warnings` which signals hold more than noise.
 void warn_of_residuals(const Experiments& experiments, Fit& fit);
 

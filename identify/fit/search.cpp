@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "identify/fit/residual_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/median.hpp"
@@ -195,8 +196,8 @@ std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> point
   return search_whole(points, search, problem);
 }
 
-/// Searches with tied models and with first parts of the motions; where two of them do not end alike, or there are
-/// no motions, also from several starts with all readings.
+/// Searches with first parts of the motions; where two of them do not end alike, or there are no motions, also from
+/// several starts with all readings.
 std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, const Search& search,
                                               const FitProblem& problem, const SearchOptions& options) {
   std::optional<LeastSquaresFit> best;
@@ -207,8 +208,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
     take_better(std::move(*found), problem, best);
     return agrees;
   };
-  ends_alike(search_tied(points, search, problem, options));
-  if (ends_alike(search_growing(points, 0.1, search, problem, options))) return best;
+  ends_alike(search_growing(points, 0.1, search, problem, options));
   if (ends_alike(search_growing(points, 0.35, search, problem, options))) return best;
   const std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
   constexpr int few = 8;
@@ -234,6 +234,18 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
   return found;
 }
 
+/// Whether the residuals of a signal are more than noise.
+bool holds_motion(const LeastSquaresFit& found, const FitProblem& problem) {
+  Eigen::VectorXd outputs;
+  if (!problem.outputs(found.parameters, outputs)) return false;
+  const Eigen::VectorXd misses = outputs - problem.measured();
+  const auto parameters = static_cast<std::size_t>(found.parameters.size());
+  return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
+    const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
+    return !is_noise(noise_p_value(problem.signal(rows), part, parameters));
+  });
+}
+
 }  // namespace
 
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
@@ -244,11 +256,17 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                                   : start_points(problem, parameters, sizes, options.points);
   // The first steps ask for the region of the minimum, not for its place.
   const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
-  std::optional<LeastSquaresFit> best =
-      search_roughly(points, Search(rough_problem, options), rough_problem, options);
-  if (!best) return std::nullopt;
+  const Search rough_search(rough_problem, options);
   Search search(problem, options);
-  best = finish(std::move(*best), search, problem, options.robust || problem.signals().size() > 1);
+  const bool several_weights = options.robust || problem.signals().size() > 1;
+  std::optional<LeastSquaresFit> best = search_roughly(points, rough_search, rough_problem, options);
+  if (best) best = finish(std::move(*best), search, problem, several_weights);
+  // Both beginnings may end beside the same false minimum. Tied models come from elsewhere, and cost most of a fit.
+  if (!best || holds_motion(*best, problem)) {
+    std::optional<LeastSquaresFit> other = search_tied(points, rough_search, rough_problem, options);
+    if (other) other = finish(std::move(*other), search, problem, several_weights);
+    if (other) take_better(std::move(*other), problem, best);
+  }
   if (!best) return std::nullopt;
   return SearchResult{best->parameters, search.weights()};
 }

@@ -2,10 +2,10 @@
 /// Searches the parameters of a rig whose motions come closest to what was measured.
 ///
 /// Least squares with weights from the noise of each signal, from several starts. The sum of squares of a long
-/// motion has a false minimum for each number of its swings and of its sticks; so a search begins with models tied
-/// to the measured motion (`tie.hpp`), others with the first part of each motion, and take in more and more of it.
-/// Where two of these do not end alike, others begin with all readings. The first steps are rough: a looser
-/// tolerance and fewer samples.
+/// motion has a false minimum for each number of its swings and of its sticks; so searches begin with the first
+/// part of each motion and take in more and more of it. Where these do not end alike, others begin with all
+/// readings. Where what is left is no noise, another search begins with models tied to the measured motion
+/// (`tie.hpp`). The first steps are rough: a looser tolerance and fewer samples.
 
 #include <Eigen/Core>
 #include <optional>
