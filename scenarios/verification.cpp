@@ -10,6 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
+#include "scenarios/aligned_answer.hpp"
 #include "sim/engine/engine.hpp"
 
 namespace dualdamp::scenarios {
@@ -75,8 +76,10 @@ bool is_compared(const Table& table, const Column& column) {
 
 class Comparison {
  public:
-  Comparison(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields)
-      : answer_(answer), other_(other), fields_(fields) {}
+  /// `rounding`: sizes at which a number of a unit is rounding only.
+  Comparison(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields,
+             SizesOfUnits rounding)
+      : answer_(answer), other_(other), fields_(fields), sizes_(std::move(rounding)) {}
 
   Verification compare() {
     Leaves mine;
@@ -242,7 +245,7 @@ class Comparison {
   const Answer& answer_;
   const Answer& other_;
   const std::vector<ResultField>& fields_;
-  std::map<std::string, double> sizes_;
+  SizesOfUnits sizes_;
   double share_ = -1.0;
   Verification result_;
 };
@@ -304,8 +307,23 @@ double verification_tolerance(std::string_view unit) {
   return unit == "m" || unit == "m/s" || unit == "N" ? of_motion : of_times_and_works;
 }
 
-Verification compare_answers(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields) {
-  return Comparison(answer, other, fields).compare();
+SizesOfUnits sizes_of_rounding(const sim::Model& model) {
+  const sim::Oscillator& oscillator = model.oscillator;
+  const sim::Excitation& drive = model.excitation;
+  const double omega = std::sqrt(oscillator.stiffness / oscillator.mass);
+  double X = std::abs(model.initial.position) + std::abs(model.initial.velocity) / omega;
+  if (drive.is_harmonic()) X += drive.moves_base() ? drive.amplitude : drive.amplitude / oscillator.stiffness;
+  // Times the tolerance of a work that is 1e-15 of the energy in the spring.
+  const double share = std::isfinite(X) ? 1e-9 * X : 0.0;
+  return {{"m", share},
+          {"m/s", share * omega},
+          {"N", share * oscillator.stiffness},
+          {"J", share * oscillator.stiffness * X}};
+}
+
+Verification compare_answers(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields,
+                             const SizesOfUnits& rounding) {
+  return Comparison(answer, aligned(answer, other, verification_tolerance("s")), fields, rounding).compare();
 }
 
 Verification verify(const Scenario& scenario, const RunOptions& options, const Answer& all) {
@@ -324,7 +342,8 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
       result.reason = "the other computation has no result: " + other.answer.failure;
     return result;
   }
-  Verification result = compare_answers(answer, other.answer, scenario.result_fields);
+  const SizesOfUnits rounding = sizes_of_rounding(scenario.model);
+  Verification result = compare_answers(answer, other.answer, scenario.result_fields, rounding);
   result.engine = words;
   const std::optional<OtherWay> more =
       scenario.question->other_way({scenario.model, scenario.tolerance, scenario.resolved, options}, answer);
@@ -336,7 +355,7 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
   Answer same = failed({});
   for (const auto& [key, value] : more->answer.result.items())
     if (answer.result.contains(key)) same.result[key] = answer.result.at(key);
-  result = worse(std::move(result), compare_answers(same, more->answer, scenario.result_fields));
+  result = worse(std::move(result), compare_answers(same, more->answer, scenario.result_fields, rounding));
   result.engine = words + "; " + more->words;
   return result;
 }

@@ -113,6 +113,53 @@ TEST_CASE("verification: grazings are left out, other events are not", "[scenari
   CHECK(scenarios::compare_answers(all, events({1.0, 2.0}, {"stop", "reversal"}), {}).quantity == "events[1].kind");
 }
 
+TEST_CASE("verification: events at one time may come in another order, others not", "[scenarios][verification]") {
+  const auto events = [](double second, const std::string& first_kind, const std::string& second_kind) {
+    Answer result;
+    result.result = {{"events", nullptr}};
+    result.tables.push_back({.name = "events",
+                             .columns = {{.name = "t", .unit = "s", .numbers = {1.0, second, 10.0}},
+                                         {.name = "kind",
+                                          .texts = {first_kind, second_kind, "stop"},
+                                          .kind = scenarios::CellKind::text},
+                                         {.name = "x", .unit = "m", .numbers = {1.0, 1.0, 2.0}}},
+                             .key = "events"});
+    return result;
+  };
+  CHECK(scenarios::compare_answers(events(1.0, "stop", "switching"), events(1.0, "switching", "stop"), {}).agrees);
+  CHECK_FALSE(
+      scenarios::compare_answers(events(1.1, "stop", "switching"), events(1.1, "switching", "stop"), {}).agrees);
+  CHECK_FALSE(scenarios::compare_answers(events(1.0, "stop", "stop"), events(1.0, "switching", "stop"), {}).agrees);
+}
+
+TEST_CASE("verification: a subharmonic motion may begin with another period", "[scenarios][verification]") {
+  const auto orbit = [](const std::vector<double>& x, double start) {
+    Answer result;
+    result.result = {{"period_ratio", 2}, {"period", 2.0}, {"sticks", Json::array({{{"start", start}}})}};
+    result.tables.push_back({.name = "orbit",
+                             .columns = {{.name = "t", .unit = "s", .numbers = {0.0, 0.5, 1.0, 1.5, 2.0}},
+                                         {.name = "x", .unit = "m", .numbers = x}}});
+    return result;
+  };
+  const Answer one = orbit({1.0, 2.0, 3.0, 4.0, 1.0}, 0.2);
+  CHECK(scenarios::compare_answers(one, orbit({3.0, 4.0, 1.0, 2.0, 3.0}, 1.2), {}).agrees);
+  CHECK_FALSE(scenarios::compare_answers(one, orbit({3.0, 4.0, 1.0, 2.0, 3.0}, 0.2), {}).agrees);
+  CHECK_FALSE(scenarios::compare_answers(one, orbit({2.0, 3.0, 4.0, 1.0, 2.0}, 0.2), {}).agrees);
+}
+
+TEST_CASE("verification: of a mass that never moves rounding is no number", "[scenarios][verification]") {
+  CHECK(scenarios::run(scenario_of("{law: coulomb, kinetic: 200}", "{type: steady_state}")).verification->agrees);
+  const auto work = [](double joule) {
+    Answer result;
+    result.result = {{"energy", joule}};
+    return result;
+  };
+  const std::vector<scenarios::ResultField> energy = {{"energy", "J", ""}};
+  CHECK_FALSE(scenarios::compare_answers(work(3e-33), work(1e-19), energy).agrees);
+  CHECK(scenarios::compare_answers(work(3e-33), work(1e-19), energy, {{"J", 1e-9}}).agrees);
+  CHECK_FALSE(scenarios::compare_answers(work(1.0), work(1.0 + 2e-6), energy, {{"J", 1e-9}}).agrees);
+}
+
 TEST_CASE("verification: the results of every kind of motion are computed again and agree",
           "[scenarios][verification]") {
   const std::string lugre = "{law: lugre, kinetic: 2, static: 3, stribeck_velocity: 0.05, sigma0: 1e4, sigma1: 20}";
