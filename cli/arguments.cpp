@@ -114,6 +114,7 @@ class Parser {
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again by another engine and compare; the same as numerics.verify");
     add_plot(*run_command_, run_.plot);
+    add_units(*run_command_, run_.shown_units);
     add_plugins(*run_command_);
   }
 
@@ -207,6 +208,7 @@ class Parser {
         "--robust", identify_.robust,
         "Bounds the influence of readings that do not belong to the others (Huber), and replaces spikes");
     add_file_options(command, identify_);
+    add_units(command, identify_.shown_units);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
   }
 
@@ -228,6 +230,7 @@ class Parser {
     add("--sigma-x", next_.sigma_x, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
     add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
     add_file_options(command, next_);
+    add_units(command, next_.shown_units);
     add_output_options(command, next_.out, next_.json, next_.quiet);
   }
 
@@ -248,6 +251,7 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
     add_file_options(command, options);
+    add_units(command, options.shown_units);
     add_output_options(command, options.out, options.json, options.quiet);
     add_plugins(command);
   }
@@ -298,6 +302,7 @@ class Parser {
         ->required()
         ->type_name("");
     add_plot(*report_command_, report_.plot);
+    add_units(*report_command_, report_.shown_units);
     new_command_ = app_.add_subcommand("new", "Print a commented scenario to begin with");
     new_command_->add_option("ANALYSIS", new_.analysis, "What it asks for, such as xy_curve; see dualdamp analyses")
         ->required()
@@ -307,6 +312,7 @@ class Parser {
         ->required()
         ->expected(2, most_compared)
         ->type_name("");
+    add_units(*compare_command_, compare_.shown_units);
     compare_command_->add_option("--out", compare_.out, "Directory for compare.html, compare.csv and compare.svg")
         ->type_name("DIR")
         ->capture_default_str()

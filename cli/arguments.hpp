@@ -19,8 +19,9 @@ struct RunCommand {
   bool dry_run = false;
   bool resume = false;
   bool overwrite = false;
-  bool verify = false;  ///< compute every result again in another way
-  std::string plot;     ///< SVG file for the main chart; empty: none
+  bool verify = false;      ///< compute every result again in another way
+  std::string plot;         ///< SVG file for the main chart; empty: none
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 /// `stress export`: records for programs outside.
@@ -93,6 +94,7 @@ struct IdentifyCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 /// What to measure next, after data or a scenario.
@@ -103,6 +105,7 @@ struct NextCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 struct FitCommand : FileOptions {
@@ -120,6 +123,7 @@ struct FitCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 struct PredictCommand : FileOptions {
@@ -132,11 +136,13 @@ struct PredictCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 struct ReportCommand {
   std::vector<std::string> directories;
-  std::string plot;  ///< SVG file for the main chart; empty: none
+  std::string plot;         ///< SVG file for the main chart; empty: none
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 struct NewCommand {
@@ -146,6 +152,7 @@ struct NewCommand {
 struct CompareCommand {
   std::vector<std::string> directories;  ///< two or more
   std::string out = "compare";
+  std::string shown_units;  ///< of charts, pages and what is printed, with commas
 };
 
 /// Nothing to do but to print and leave: help, version, or a wrong command line.

@@ -14,8 +14,8 @@ namespace dualdamp::cli {
 
 namespace fs = std::filesystem;
 
-std::string plot_result(const std::string& directory, const std::string& file) {
-  const Chart chart = main_chart(directory);
+std::string plot_result(const std::string& directory, const std::string& file, const std::string& units) {
+  const Chart chart = main_chart(directory, units);
   const fs::path path(file);
   scenarios::write_files(path.has_parent_path() ? path.parent_path().string() : ".",
                          {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}});
@@ -31,8 +31,9 @@ void add_plot(Report& report, const std::string& directory, const std::string& f
   }
 }
 
-std::string compare_results(const std::vector<std::string>& directories, const std::string& out) {
-  const std::vector<scenarios::OutputFile> files = comparison(directories);
+std::string compare_results(const std::vector<std::string>& directories, const std::string& out,
+                            const std::string& units) {
+  const std::vector<scenarios::OutputFile> files = comparison(directories, units);
   scenarios::write_files(out, files);
   std::string messages;
   for (const scenarios::OutputFile& file : files)

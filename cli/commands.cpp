@@ -34,6 +34,7 @@
 #include "core/numbers.hpp"
 #include "friction_models/plugin.hpp"
 #include "scenarios/output.hpp"
+#include "scenarios/results/shown_units.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/schema.hpp"
@@ -96,6 +97,11 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
   return report;
 }
 
+/// The option was checked when it was read.
+void show_in(const std::string& units, Scenario& scenario) {
+  if (!units.empty()) static_cast<void>(scenarios::ask_for_units(units, scenario.written_units));
+}
+
 /// nullptr where the question is none.
 const scenarios::Campaign* campaign_of(const Scenario& scenario) {
   return dynamic_cast<const scenarios::Campaign*>(scenario.question.get());
@@ -132,6 +138,7 @@ Report load(const RunCommand& command, const std::string& file, std::optional<Sc
     for (const std::string& assignment : command.set) options.set.push_back({assignment});
     if (command.verify) options.set.push_back({"numerics.verify=true", "--verify"});
     Scenario loaded = scenarios::load_scenario(file, options);
+    show_in(command.shown_units, loaded);
     if ((command.resume || command.overwrite) && campaign_of(loaded) == nullptr)
       return refused(ExitStatus::usage, file +
                                             (command.resume ? ": --resume goes on with" : ": --overwrite begins") +
@@ -248,7 +255,9 @@ int execute_on_records(const RecordCommand& command, const std::string& data, co
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
                const fs::path standard = fs::path("results") / (fs::path(data).stem().string() + suffix);
-               return run_and_write(scenario_of(command),
+               Scenario scenario = scenario_of(command);
+               show_in(command.shown_units, scenario);
+               return run_and_write(std::move(scenario),
                                     {.directory = command.out.empty() ? standard.string() : command.out},
                                     command.quiet);
              }),
@@ -295,10 +304,10 @@ int execute(const ReportCommand& command) {
       // Where there is no directory there is no result either: nothing is created.
       if (!fs::is_directory(directory))
         return refused(ExitStatus::invalid_input, directory + ": there is no such directory");
-      scenarios::write_files(directory, {report_page(directory)});
+      scenarios::write_files(directory, {report_page(directory, command.shown_units)});
       Report done;
       done.messages = "wrote " + (fs::path(directory) / "report.html").string() + "\n";
-      if (!command.plot.empty()) done.messages += plot_result(directory, command.plot);
+      if (!command.plot.empty()) done.messages += plot_result(directory, command.plot, command.shown_units);
       return done;
     });
     print(report, {});
@@ -311,7 +320,7 @@ int execute(const CompareCommand& command) {
   return say(guarded([&] {
                refuse_unusable(command.out);
                Report report;
-               report.messages = compare_results(command.directories, command.out);
+               report.messages = compare_results(command.directories, command.out, command.shown_units);
                return report;
              }),
              {});

@@ -1,7 +1,10 @@
 #include "cli/shared_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <vector>
+
+#include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
 
@@ -11,6 +14,17 @@ void add_output_options(CLI::App& command, std::string& out, bool& json, bool& q
       ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
   command.add_flag("--json", json, "Print one JSON document and nothing else");
   command.add_flag("--quiet", quiet, "Print only errors on stderr");
+}
+
+void add_units(CLI::App& command, std::string& units) {
+  command
+      .add_option("--units", units,
+                  "Units of charts, pages and what is printed, with commas: --units mm,Hz; files stay in SI")
+      ->type_name("UNITS")
+      ->check([](const std::string& text) {
+        std::map<std::string, std::string> written;
+        return scenarios::ask_for_units(text, written);
+      });
 }
 
 void add_plot(CLI::App& command, std::string& plot) {

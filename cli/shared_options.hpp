@@ -13,6 +13,8 @@ namespace dualdamp::cli {
 
 /// Where results go and what is printed.
 void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet);
+/// Units of what is shown to people.
+void add_units(CLI::App& command, std::string& units);
 void add_plot(CLI::App& command, std::string& plot);
 /// What a data file does not say of itself.
 void add_file_options(CLI::App& command, FileOptions& options);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/speed/contender.hpp"
+#include "bench/speed/fits.hpp"
 #include "bench/speed/identification.hpp"
 #include "bench/speed/sampled_drive.hpp"
 #include "bench/speed/smooth_table.hpp"
@@ -119,6 +120,11 @@ void print_identification() {
   print_time("output_error with intervals, 10 s at 1 kHz", seconds_for_output_error(), "1");
   print_time("any_law of 8 states with phases", seconds_for_any_law(), "20");
   print_time("law_selection of 50 pairs", seconds_for_law_selection(), "");
+  fmt::print("\n{:60}{:>14}{:>14}\n", "processor seconds, all threads, at most", "measured", "target");
+  print_time("fit of coulomb and damping, 10 s at 1 kHz", seconds_for_coulomb_fit(), "");
+  print_time("fit of lugre (five numbers) and damping, 10 s at 1 kHz", seconds_for_lugre_fit(), "60");
+  print_time("prediction of such a record", seconds_for_prediction(), "");
+  print_time("sweep of 100 by 100 steady states", seconds_for_sweep(), "");
 }
 
 int compare(int batches) {

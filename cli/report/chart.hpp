@@ -15,6 +15,7 @@ struct ChartAxis {
   bool is_whole = false;
   /// SI unit, and the factor from it, where the unit is one that the user wrote.
   std::optional<std::pair<std::string, double>> written_for = {};
+  bool is_asked = false;  ///< that unit, for numbers of any size
 };
 
 enum class SeriesKind {

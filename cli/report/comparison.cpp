@@ -17,6 +17,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/units.hpp"
+#include "friction_models/registry.hpp"
 
 namespace dualdamp::cli {
 
@@ -32,28 +33,49 @@ using Json = StoredRun::Json;
                                           {}});
 }
 
+/// The SI unit of a number of a law, or of the oscillator; empty: it has none, or is not known here.
+std::string si_unit(const Json& owner, const std::string& key) {
+  if (owner.contains("law") && owner.at("law").is_string()) {
+    const friction::LawEntry* law = friction::find_law(owner.at("law").get<std::string>());
+    if (law == nullptr) return {};
+    const auto found = std::ranges::find(law->parameters, key, &friction::Parameter::name);
+    return found == law->parameters.end() || found->unit == "1" ? std::string() : std::string(found->unit);
+  }
+  static const std::map<std::string, std::string, std::less<>> units = {
+      {"mass", "kg"},    {"stiffness", "N/m"}, {"damping", "N.s/m"}, {"cubic_stiffness", "N/m^3"},
+      {"position", "m"}, {"velocity", "m/s"},  {"duration", "s"}};
+  const auto found = units.find(key);
+  return found == units.end() ? std::string() : found->second;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return core::format_number(value, 6) + (unit.empty() ? "" : " " + unit);
+}
+
 /// A number of a resolved scenario, which is SI, in the unit the user wrote.
-std::string in_written_unit(double value, const std::string& unit) {
+std::string in_written_unit(double value, const std::string& unit, const std::string& si) {
   constexpr std::array dimensions = {"kg",    "m", "s",   "N",       "N/m",       "N.s/m", "m/s",   "rad",   "1",
                                      "N/m^3", "J", "N.m", "N.m/rad", "N.m.s/rad", "N/s",   "m/s^2", "kg.m^2"};
   for (const char* dimension : dimensions)
     if (const auto factor = core::unit_factor(unit, dimension).value; !unit.empty() && factor && *factor > 0.0)
-      return core::format_number(value / *factor, 6) + " " + unit;
-  return core::format_number(value, 6);
+      return with_unit(value / *factor, unit);
+  return with_unit(value, si);
 }
 
 /// What the values of a scenario look like, by path; a list of numbers is one value.
-void flatten(const Json& json, const std::string& path, const Json& units,
+/// `si`: the unit of a number; nothing: those of an angle, which go by other names.
+void flatten(const Json& json, const std::string& path, const Json& units, const std::optional<std::string>& si,
              std::map<std::string, std::string>& values) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items())
       if (!path.empty() || (key != "title" && key != "expect" && key != "schema"))
-        flatten(value, path.empty() ? key : path + "." + key, units, values);
+        flatten(value, path.empty() ? key : path + "." + key, units,
+                si ? std::optional(si_unit(json, key)) : std::nullopt, values);
   } else if (json.is_array() && !json.empty() && json.front().is_structured()) {
     for (std::size_t i = 0; i < json.size(); ++i)
-      flatten(json[i], path + "[" + std::to_string(i) + "]", units, values);
+      flatten(json[i], path + "[" + std::to_string(i) + "]", units, si, values);
   } else if (json.is_number_float()) {
-    values[path] = in_written_unit(json.get<double>(), units.value(path, ""));
+    values[path] = in_written_unit(json.get<double>(), units.value(path, ""), si.value_or(""));
   } else if (json.is_string() && json.get<std::string>().ends_with(" rad/s") && units.contains(path)) {
     const double value = core::read_number(json.get<std::string>()).value.value_or(0.0);
     const auto unit = units.at(path).get<std::string>();
@@ -80,8 +102,8 @@ struct Compared {
 
 class Comparison {
  public:
-  explicit Comparison(const std::vector<std::string>& directories) {
-    const StoredRun first(directories.front());
+  Comparison(const std::vector<std::string>& directories, const std::string& units) {
+    const StoredRun first(directories.front(), units);
     analysis_ = first.document().at("analysis");
     for (const std::string& directory : directories) {
       const StoredRun run(directory);
@@ -175,7 +197,9 @@ class Comparison {
                  .title = title_of(run),
                  .started = provenance.value("started", ""),
                  .sha256 = provenance.value("scenario_sha256", "")};
-    flatten(run.document().at("scenario"), "", units, one.values);
+    const Json& scenario = run.document().at("scenario");
+    const bool is_angle = scenario.value("system", Json::object()).value("coordinate", "") == "angle";
+    flatten(scenario, "", units, is_angle ? std::nullopt : std::optional<std::string>(""), one.values);
     for (const auto& [path, unit] : units.items()) one.written.insert(path);
     one.chart = std::move(*chart);
     compared_.push_back(std::move(one));
@@ -269,8 +293,9 @@ class Comparison {
 
 }  // namespace
 
-std::vector<scenarios::OutputFile> comparison(const std::vector<std::string>& directories) {
-  const auto compared = std::make_shared<const Comparison>(directories);
+std::vector<scenarios::OutputFile> comparison(const std::vector<std::string>& directories,
+                                              const std::string& units) {
+  const auto compared = std::make_shared<const Comparison>(directories, units);
   return {{"compare.csv", [compared](std::ostream& out) { compared->write_csv(out); }},
           {"compare.svg", [compared](std::ostream& out) { write_svg(out, compared->chart()); }},
           {"compare.html", [compared](std::ostream& out) {

@@ -65,7 +65,7 @@ const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 function written(unit, largest) {
   const told = run.shown_units?.[unit];
   const most = told ? largest * told.factor : 0;
-  return told && (most === 0 || (most >= 1e-3 && most < 1e6)) ? told : null;
+  return told && (told.asked || most === 0 || (most >= 1e-3 && most < 1e6)) ? told : null;
 }
 
 /** Unit and factor for numbers up to `largest`: as the user wrote it, else with a prefix, 0.004 m is 4 mm. */

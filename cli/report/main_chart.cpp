@@ -123,6 +123,7 @@ class ChartMaker {
     if (shown == units_.end()) return;
     axis.unit = shown->second.unit;
     axis.written_for = {unit, shown->second.factor};
+    axis.is_asked = shown->second.is_asked;
     for (ChartSeries& series : chart_.series)
       for (double& value : series.*list) value *= shown->second.factor;
   }
@@ -287,7 +288,7 @@ void make_readable(Chart& chart) {
     if (axis.written_for) {
       const auto& [unit, written] = *axis.written_for;
       const double largest = largest_of(chart.series, list) / written;
-      if (axis.unit == unit || scenarios::is_legible(largest, {axis.unit, written})) return;
+      if (axis.unit == unit || scenarios::is_legible(largest, {axis.unit, written, axis.is_asked})) return;
       axis.unit = unit;
       factor = 1.0 / written;
     }
@@ -301,8 +302,8 @@ void make_readable(Chart& chart) {
   scale(chart.y, &ChartSeries::y);
 }
 
-Chart main_chart(const std::string& directory) {
-  const StoredRun run(directory);
+Chart main_chart(const std::string& directory, const std::string& units) {
+  const StoredRun run(directory, units);
   std::optional<Chart> chart;
   run.read([&] { chart = main_chart(run, run); });
   if (chart) {

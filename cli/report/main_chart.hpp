@@ -16,7 +16,8 @@ namespace dualdamp::cli {
 void make_readable(Chart& chart);
 
 /// The readable chart of a directory. Errors: `core::InputError` when there is no result, or it has no chart.
-[[nodiscard]] Chart main_chart(const std::string& directory);
+/// `units`: those that somebody asks for, with commas.
+[[nodiscard]] Chart main_chart(const std::string& directory, const std::string& units = {});
 
 /// The file, or the scenario's title.
 [[nodiscard]] std::string title_of(const StoredRun& run);

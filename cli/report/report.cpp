@@ -44,16 +44,16 @@ Json document(const StoredRun& run) {
   Json json = run.document();
   run.read([&] {
     for (const auto& [si, shown] : scenarios::shown_units(written_units(run)))
-      json["shown_units"][si] = {{"unit", shown.unit}, {"factor", shown.factor}};
+      json["shown_units"][si] = {{"unit", shown.unit}, {"factor", shown.factor}, {"asked", shown.is_asked}};
   });
   return json;
 }
 
 }  // namespace
 
-scenarios::OutputFile report_page(const std::string& directory) {
-  return {"report.html", [directory](std::ostream& out) {
-            const StoredRun run(directory);
+scenarios::OutputFile report_page(const std::string& directory, const std::string& units) {
+  return {"report.html", [directory, units](std::ostream& out) {
+            const StoredRun run(directory, units);
             write_page(out, document(run), tables(run),
                        {assets::views_js, assets::sweep_js, assets::views_of_analyses_js, assets::page_js});
           }};

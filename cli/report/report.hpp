@@ -13,7 +13,7 @@ namespace dualdamp::cli {
 /// report.html of `directory`. Lists in result.json beyond 5000 items, and rows of a table beyond 50,000 (200,000
 /// of a map), are thinned out and the page says so. Errors: `core::InputError` when there is no result.json or it
 /// is none of ours; raised when the file is written. Tables that another run or program left there are not shown.
-[[nodiscard]] scenarios::OutputFile report_page(const std::string& directory);
+[[nodiscard]] scenarios::OutputFile report_page(const std::string& directory, const std::string& units = {});
 
 /// What a directory holds of the run whose result.json stands there.
 struct StoredResult {

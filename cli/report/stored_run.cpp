@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
 
@@ -136,10 +137,18 @@ const StoredColumn* StoredTable::find(std::string_view name) const {
   return found == columns.end() ? nullptr : &*found;
 }
 
-StoredRun::StoredRun(const std::string& directory)
+StoredRun::StoredRun(const std::string& directory, const std::string& units)
     : directory_(directory),
       document_(read_document(directory_ / "result.json")),
-      tables_(tables_of(directory_, document_)) {}
+      tables_(tables_of(directory_, document_)) {
+  if (units.empty()) return;
+  read([&] {
+    std::map<std::string, std::string> written = written_units(*this);
+    std::erase_if(written, [](const auto& entry) { return scenarios::is_asked_for(entry.first); });
+    static_cast<void>(scenarios::ask_for_units(units, written));
+    document_["provenance"]["written_units"] = written;
+  });
+}
 
 void StoredRun::read(const std::function<void()>& work) const {
   try {

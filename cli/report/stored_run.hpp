@@ -32,7 +32,8 @@ class StoredRun {
 
   /// Lists of the document beyond 5000 items are cut: their rows are in the tables. Errors: `core::InputError` when
   /// there is no result.json or it is none of ours.
-  explicit StoredRun(const std::string& directory);
+  /// `units`: to show numbers in, before those the user wrote (`--units`).
+  explicit StoredRun(const std::string& directory, const std::string& units = {});
 
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
   [[nodiscard]] const Json& document() const { return document_; }

@@ -1,10 +1,48 @@
 #include "scenarios/results/shown_units.hpp"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "core/units.hpp"
 
 namespace dualdamp::scenarios {
+
+namespace {
+
+/// Before the number of a unit that was asked for: no path of a scenario begins so.
+constexpr std::string_view asked = "--units[";
+
+void add(const std::string& unit, std::span<const char* const> kinds, bool is_asked, ShownUnits& units) {
+  // Torque and work have one dimension.
+  const std::string_view other = unit.find('J') == std::string::npos ? "J" : "N.m";
+  for (const char* kind : kinds)
+    if (const auto factor = core::unit_factor(unit, kind).value; factor && *factor > 0.0 && kind != other)
+      units.emplace(kind, ShownUnit{unit, 1.0 / *factor, is_asked});
+}
+
+constexpr std::array all_kinds = {"m", "rad", "rad/s", "m/s", "s",     "N",     "N.m",  "J",
+                                  "W", "kg",  "N/m",   "N/s", "N.s/m", "m/s^2", "N/m^3"};
+
+}  // namespace
+
+std::string ask_for_units(std::string_view list, std::map<std::string, std::string>& written) {
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    std::string unit(list.substr(begin, end - begin));
+    std::erase(unit, ' ');
+    ShownUnits known;
+    if (!unit.empty()) add(unit, all_kinds, true, known);
+    if (known.empty())
+      return "'" + unit + "' is no unit of a result; such as mm, um, Hz, rpm, ms, mm/s, deg, kN, N/mm";
+    written[std::string(asked) + std::to_string(number++) + "]"] = unit;
+    begin = end + 1;
+  }
+  return {};
+}
+
+bool is_asked_for(std::string_view path) { return path.starts_with(asked); }
 
 ShownUnits shown_units(const std::map<std::string, std::string>& written) {
   constexpr std::array kinds = {"m", "rad", "rad/s", "m/s", "s", "N", "N.m"};
@@ -14,13 +52,12 @@ ShownUnits shown_units(const std::map<std::string, std::string>& written) {
                                      "excitation.frequency", "initial.position",
                                      "initial.velocity",     "system.friction.kinetic"};
   ShownUnits units;
+  for (const auto& [path, unit] : written)
+    if (is_asked_for(path)) add(unit, all_kinds, true, units);
   for (const std::string quantity : quantities)
     for (const std::string& path : {quantity, quantity + ".from"}) {
       const auto unit = written.find(path);
-      if (unit == written.end()) continue;
-      for (const char* kind : kinds)
-        if (const auto factor = core::unit_factor(unit->second, kind).value; factor && *factor > 0.0)
-          units.emplace(kind, ShownUnit{unit->second, 1.0 / *factor});
+      if (unit != written.end()) add(unit->second, kinds, false, units);
     }
   return units;
 }
@@ -29,7 +66,7 @@ bool is_legible(double largest, const ShownUnit& unit) {
   constexpr double least = 1e-3;
   constexpr double most = 1e6;
   const double number = largest * unit.factor;
-  return largest == 0.0 || (number >= least && number < most);
+  return unit.is_asked || largest == 0.0 || (number >= least && number < most);
 }
 
 std::optional<ShownUnit> shown_unit(const ShownUnits& units, const std::string& unit, double largest) {

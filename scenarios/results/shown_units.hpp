@@ -5,18 +5,27 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace dualdamp::scenarios {
 
 struct ShownUnit {
   std::string unit;
-  double factor = 1.0;  ///< numbers in SI times this are in the unit
+  double factor = 1.0;    ///< numbers in SI times this are in the unit
+  bool is_asked = false;  ///< by name, for whatever size
 };
 
 using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by SI unit
 
 /// `written`: `Scenario::written_units`. What is varied tells first, then the excitation, then the initial state.
 [[nodiscard]] ShownUnits shown_units(const std::map<std::string, std::string>& written);
+
+/// Notes units that the user asks results to be shown in, with commas ("mm, Hz, kN"), among the written ones, which
+/// they go before. Why not, where one is no unit of results; empty: all are.
+[[nodiscard]] std::string ask_for_units(std::string_view list, std::map<std::string, std::string>& written);
+
+/// Whether an entry of the written units is one that was asked for.
+[[nodiscard]] bool is_asked_for(std::string_view path);
 
 /// Whether numbers up to `largest` [SI] can be read in a unit: 3 um would not in metres. What is never more than
 /// zero can.

@@ -101,6 +101,29 @@ class Charts(Case):
             self.run_program("run", "curve.yaml", "--out", names[-1], "--set", assignment)
         return self.run_program("compare", *names, "--out", "both", status=status)
 
+    def test_units_that_are_asked_for(self):
+        # Before those of the file, in the terminal, the chart, the page, and of a stored result.
+        result = self.run_program("run", "curve.yaml", "--out", "out", "--plot", "curve.svg", "--units", "um, Hz")
+        self.assertIn("Y [um]", result.stdout)
+        texts, _ = self.drawing("curve.svg")
+        self.assertIn("input amplitude Y [um]", texts)
+        self.assertIn('"asked":true', (self.folder / "out/report.html").read_text().replace(" ", ""))
+        with open(self.folder / "out/curve.csv") as lines:
+            self.assertIn("Y [m]", next(line for line in lines if not line.startswith("#")))
+        self.run_program("report", "out", "--plot", "again.svg", "--units", "mm")
+        self.assertIn("input amplitude Y [mm]", self.drawing("again.svg")[0])
+        self.run_program("run", "curve.yaml", "--out", "other", "--set", "system.friction.kinetic=1 N")
+        self.run_program("compare", "out", "other", "--out", "both", "--units", "km")
+        self.assertIn("input amplitude Y [km]", self.drawing("both/compare.svg")[0])
+        for wrong in ("foo", "mm,,Hz", "%"):
+            self.assertIn("is no unit of a result", self.run_program("run", "curve.yaml", "--units", wrong, status=2).stderr)
+
+    def test_compare_names_units_of_bare_numbers(self):
+        self.compare("system.friction.kinetic=1", "system.friction.kinetic=3")
+        texts, _ = self.drawing("both/compare.svg")
+        for text in ("kinetic = 1 N", "kinetic = 3 N"):
+            self.assertIn(text, texts)
+
     def test_compare(self):
         self.compare("system.friction.kinetic=1 N", "system.friction.kinetic=3 N")
         texts, series = self.drawing("both/compare.svg")

@@ -1,0 +1,108 @@
+#include "bench/speed/fits.hpp"
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "core/random.hpp"
+#include "friction_models/registry.hpp"
+#include "identify/fit/prediction.hpp"
+#include "scenarios/run.hpp"
+#include "sim/motion/simulate.hpp"
+
+namespace dualdamp::bench::speed {
+
+namespace {
+
+/// 1 kg, 1000 N/m, 1 N.s/m under a base motion of 5 mm at 4 Hz.
+identify::Rig rig_with(const char* law, friction::ParameterValues values) {
+  identify::Rig rig;
+  rig.known.oscillator = {.mass = 1.0, .stiffness = 1000.0, .damping = 1.0};
+  rig.known.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 5e-3, .frequency = 2.0 * std::numbers::pi * 4.0};
+  rig.known.solver.tolerance = 1e-9;
+  rig.laws.push_back({friction::find_law(law), std::move(values)});
+  return rig;
+}
+
+identify::Rig coulomb_rig() { return rig_with("coulomb", {{"kinetic", 1.0}}); }
+
+identify::Experiments measured(const identify::Rig& rig, std::uint64_t seed) {
+  identify::Record record;
+  identify::History& history = record.histories.emplace_back();
+  history.sample_rate = 1000.0;
+  const sim::History motion =
+      sim::simulate(*identify::model_of(rig), {.duration = 10.0, .sample_rate = history.sample_rate});
+  const core::RandomStream draws{seed, 930};
+  constexpr double noise = 1e-5;
+  for (std::size_t i = 0; i < motion.samples.size(); ++i)
+    history.x.push_back(motion.samples[i].x + noise * draws.normal(i));
+  std::string fault;
+  return identify::experiments_of(record, {.name = "measured"}, fault);
+}
+
+double seconds_of(const std::function<bool()>& work) {
+  const std::clock_t start = std::clock();
+  if (!work()) throw std::runtime_error("a fit that is timed failed");
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+identify::Fit fit_from_nothing(identify::Rig rig, const identify::Experiments& experiments) {
+  rig.known.oscillator.damping = identify::unknown;
+  rig.laws.front().values = {};
+  std::vector<std::string> faults;
+  std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig, faults);
+  for (const identify::Own own : experiments.front()->own_free)
+    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  return identify::fit_rig(rig, std::move(parameters), experiments);
+}
+
+double seconds_for_fit(const identify::Rig& rig) {
+  const identify::Experiments experiments = measured(rig, 1);
+  return seconds_of([&] {
+    const identify::Fit fit = fit_from_nothing(rig, experiments);
+    constexpr double most = 1.1;
+    return fit.outcome.ok() && fit.noise_units < most;
+  });
+}
+
+}  // namespace
+
+double seconds_for_coulomb_fit() { return seconds_for_fit(coulomb_rig()); }
+
+double seconds_for_lugre_fit() {
+  return seconds_for_fit(rig_with(
+      "lugre",
+      {{"kinetic", 1.0}, {"static", 1.5}, {"stribeck_velocity", 0.03}, {"sigma0", 5000.0}, {"sigma1", 20.0}}));
+}
+
+double seconds_for_prediction() {
+  const identify::Fit fit = fit_from_nothing(coulomb_rig(), measured(coulomb_rig(), 1));
+  const identify::Experiments other = measured(coulomb_rig(), 2);
+  std::vector<identify::FitParameter> parameters;
+  for (const identify::FittedParameter& fitted : fit.parameters) parameters.push_back(fitted.parameter);
+  return seconds_of([&] {
+    return identify::predict_records(fit.rig, parameters, identify::shared_covariance(fit), other).outcome.ok();
+  });
+}
+
+double seconds_for_sweep() {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "dualdamp_speed_sweep.yaml";
+  std::ofstream(file) << "schema: dualdamp/1\n"
+                         "system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb}}\n"
+                         "excitation: {type: base_harmonic, frequency: natural}\n"
+                         "analysis: {type: steady_state}\n"
+                         "sweep:\n"
+                         "  system.friction.kinetic: {from: 1 N, to: 5 N, count: 100}\n"
+                         "  excitation.amplitude: {from: 10 cm, to: 30 cm, count: 100}\n";
+  const scenarios::Scenario scenario = scenarios::load_scenario(file.string());
+  std::filesystem::remove(file);
+  return seconds_of([&] { return scenarios::run(scenario).status == core::ExitStatus::done; });
+}
+
+}  // namespace dualdamp::bench::speed
