@@ -257,15 +257,18 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   // The first steps ask for the region of the minimum, not for its place.
   const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
   const Search rough_search(rough_problem, options);
-  Search search(problem, options);
   const bool several_weights = options.robust || problem.signals().size() > 1;
+  Search search(problem, options);
   std::optional<LeastSquaresFit> best = search_roughly(points, rough_search, rough_problem, options);
   if (best) best = finish(std::move(*best), search, problem, several_weights);
   // Both beginnings may end beside the same false minimum. Tied models come from elsewhere, and cost most of a fit.
   if (!best || holds_motion(*best, problem)) {
+    Search again(problem, options);
+    const Search alike(problem, options);  // the others weigh their own residuals
     std::optional<LeastSquaresFit> other = search_tied(points, rough_search, rough_problem, options);
-    if (other) other = finish(std::move(*other), search, problem, several_weights);
-    if (other) take_better(std::move(*other), problem, best);
+    if (other) other = finish(std::move(*other), again, problem, several_weights);
+    if (other && (!best || alike.squares(other->parameters) < alike.squares(best->parameters)))
+      return SearchResult{other->parameters, again.weights()};
   }
   if (!best) return std::nullopt;
   return SearchResult{best->parameters, search.weights()};

@@ -121,7 +121,7 @@ class Charts(Case):
     def test_compare_names_units_of_bare_numbers(self):
         self.compare("system.friction.kinetic=1", "system.friction.kinetic=3")
         texts, _ = self.drawing("both/compare.svg")
-        for text in ("kinetic = 1 N", "kinetic = 3 N"):
+        for text in ("kinetic = 1 N, static = 1 N", "kinetic = 3 N, static = 3 N"):
             self.assertIn(text, texts)
 
     def test_compare(self):
