@@ -48,6 +48,8 @@ void SmoothEngine::reset_sensitivity() {
   Eigen::Index n = 2;
   for (const friction::Memory& memory : memories_) n += static_cast<Eigen::Index>(memory.state.size());
   columns_ = Eigen::MatrixXd::Identity(n, n);
+  // A mass that sticks stops again at once, over a distance of second order.
+  if (direction_ == friction::Direction::none) columns_.row(1).setZero();
   lead_ = Eigen::RowVectorXd::Zero(n);
   changes_.clear();
 }

@@ -150,6 +150,8 @@ TEST_CASE("verification: a subharmonic motion may begin with another period", "[
 TEST_CASE("verification: of a mass that never moves rounding is no number", "[scenarios][verification]") {
   const std::string held = "{type: simulate, cycles: 5, sample_rate: 50}";
   CHECK(scenarios::run(scenario_of("{law: coulomb, kinetic: 200}", held)).verification->agrees);
+  // One multiplier is 1, as any place can be held, the other 0: a push of the mass comes to nothing.
+  CHECK(scenarios::run(scenario_of("{law: coulomb, kinetic: 200}", "{type: steady_state}")).verification->agrees);
   const auto work = [](double joule) {
     Answer result;
     result.result = {{"energy", joule}};
