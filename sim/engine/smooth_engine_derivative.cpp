@@ -81,7 +81,7 @@ void SmoothEngine::track_step() {
   const auto size = static_cast<std::size_t>(columns_.rows());
   if (variation_size_ != size) variation_ = make_variation(size);
   variation_size_ = size;
-  const long rows = RadauCollocation::stages * columns_.rows();
+  const auto rows = static_cast<Eigen::Index>(RadauCollocation::stages) * columns_.rows();
   variation_work_ += rows * rows * rows / operations_in_unit;
   Eigen::VectorXd late(columns_.rows());
   const TakenStep step{*stepper_, local_time_, taken_, part_for_rate * shortest_period()};
