@@ -7,8 +7,8 @@
 
 #include "bench/consequence.hpp"
 #include "bench/grid.hpp"
+#include "bench/rigs.hpp"
 #include "identify/record.hpp"
-#include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench {

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "bench/mechanisms.hpp"
+#include "bench/rigs.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
-#include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::bench {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/rigs/rigs.hpp"
+#include "bench/rigs.hpp"
 #include "scenarios/analyses/analysis.hpp"
 
 namespace dualdamp::bench {

@@ -1,6 +1,6 @@
 #include "bench/motions.hpp"
 
-#include "identify/rigs/rigs.hpp"
+#include "bench/rigs.hpp"
 
 namespace dualdamp::bench {
 

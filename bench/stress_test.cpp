@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "bench/campaign.hpp"
+#include "bench/rigs.hpp"
 #include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
-#include "identify/rigs/rigs.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/method_choice.hpp"

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/rigs.hpp"
 #include "bench/score/case_answer.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
-#include "identify/rigs/rigs.hpp"
 #include "scenarios/analyses/analysis.hpp"
 
 namespace dualdamp::bench {

@@ -3,7 +3,7 @@
 
 #include "identify/rigs/groups.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 namespace {
 
@@ -205,4 +205,4 @@ std::vector<Rig> bristles() {
 
 std::vector<Rig> contact_rigs() { return of_family(Family::presliding, joined({sliders(), bristles()})); }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

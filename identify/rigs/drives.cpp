@@ -4,7 +4,7 @@
 
 #include "identify/rigs/groups.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 namespace {
 
@@ -174,4 +174,4 @@ std::vector<Rig> drive_rigs() {
   return joined({of_family(Family::drive, drives()), of_family(Family::spring, springs())});
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

@@ -2,7 +2,7 @@
 
 #include "identify/rigs/groups.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::vector<Rig> film_rigs() {
       });
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

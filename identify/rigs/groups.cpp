@@ -7,7 +7,7 @@
 
 #include "friction_models/registry.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 using friction::ParameterValues;
 
@@ -46,4 +46,4 @@ double when_cold(const RigBase& base, double found, double heat, double power) {
   return base.found_at_reference ? found * std::exp(heat / power) : found;
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

@@ -8,7 +8,7 @@
 #include "friction_models/parameters.hpp"
 #include "identify/rigs/rigs.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 /// Friction that yields before it slips: contacts behind a stiffness, and bristles.
 [[nodiscard]] std::vector<Rig> contact_rigs();
@@ -75,4 +75,4 @@ inline constexpr RigParameter power_parameter = {
     .low = 0.1,
     .high = 1e3};
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

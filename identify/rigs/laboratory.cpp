@@ -1,6 +1,6 @@
 #include "identify/rigs/groups.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::vector<Rig> laboratory_rigs() {
                  [](Laboratory& laboratory, double s) { laboratory.constants.stiffness *= 1.0 - 0.5 * s; })};
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

@@ -9,7 +9,7 @@
 
 #include "identify/rigs/groups.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 namespace {
 
@@ -113,4 +113,4 @@ double natural_scale(const Apparatus& apparatus, std::string_view unit) {
   throw std::logic_error("no scale for the unit " + std::string(unit));
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

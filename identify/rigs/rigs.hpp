@@ -23,7 +23,7 @@
 #include "identify/records/sensors.hpp"
 #include "sim/model.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 /// The motion that parameters are measured by.
 struct ReferenceMotion {
@@ -168,4 +168,4 @@ struct RigFriction {
 /// for another unit.
 [[nodiscard]] double natural_scale(const Apparatus& apparatus, std::string_view unit);
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

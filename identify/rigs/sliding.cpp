@@ -2,7 +2,7 @@
 
 #include "identify/rigs/groups.hpp"
 
-namespace dualdamp::bench {
+namespace dualdamp::identify::rigs {
 
 namespace {
 
@@ -217,4 +217,4 @@ std::vector<Rig> sliding_rigs() {
                  of_family(Family::position, by_place()), of_family(Family::memory, by_warmth())});
 }
 
-}  // namespace dualdamp::bench
+}  // namespace dualdamp::identify::rigs

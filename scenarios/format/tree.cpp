@@ -152,6 +152,9 @@ void Document::put(std::string_view path, Node value, const std::function<Place(
   if (!steps)
     refuse(0, "'" + shortened(path) + "' does not name a value",
            "a path such as system.friction.kinetic or excitation.harmonics[0].order");
+  if (steps->size() > static_cast<std::size_t>(max_depth))
+    refuse((*steps)[static_cast<std::size_t>(max_depth)].offset,
+           "this is nested deeper than " + std::to_string(max_depth) + " levels", {});
   Node* node = &root_;
   for (const Step& step : *steps) {
     if (step.index) {

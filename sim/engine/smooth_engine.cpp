@@ -102,6 +102,7 @@ void SmoothEngine::begin_motion() {
   h_ = 0.0;
   x_scale_ = 0.0;
   counted_to_ = 0.0;
+  landing_ = {};
   follows_event_ = false;
   if (tracking_) reset_sensitivity();
 }
@@ -310,7 +311,9 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   taken_ = 0.0;
   end_ = X_;
   if (!at_once && left > 0.0) {
+    landing_ = {};
     if (!move(left, hit, found)) return nullptr;
+    if (found) note_landing(hit);
   }
   if (!comes_to_an_end(taken_ == 0.0)) return nullptr;
   const bool is_over = !found && taken_ == left;

@@ -60,6 +60,11 @@ class SmoothEngine final : public Engine {
     std::size_t watch = 0;
     double part = 1.0;
   };
+  /// How far from zero a guard may be at the begin of the present interval that was zero at the end of the last.
+  struct Landing {
+    std::size_t law = 0;
+    double error = 0.0;  ///< in the unit of the law's guards
+  };
   /// A mode change, for its derivative.
   struct Change {
     std::size_t law;
@@ -97,7 +102,9 @@ class SmoothEngine final : public Engine {
   void evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const;
   [[nodiscard]] double guard(std::size_t watch, double part) const;
   [[nodiscard]] double guard_rate(std::size_t watch, std::span<const double> X, double t) const;
-  [[nodiscard]] bool goes_negative(std::size_t watch) const;
+  void note_landing(const Hit& hit);
+  [[nodiscard]] double level_at_start(const Watch& watch) const;
+  [[nodiscard]] bool goes_negative(std::size_t watch, double level) const;
   [[nodiscard]] bool find_violated(Hit& hit) const;
   [[nodiscard]] bool find_hit(Hit& hit);
   [[nodiscard]] double first_negative(std::size_t watch);
@@ -136,7 +143,8 @@ class SmoothEngine final : public Engine {
   double h_ = 0.0;           ///< proposed next step [s]; 0: none
   double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
   long steps_ = 0;
-  double taken_ = 0.0;          ///< length of the step taken last [s]
+  double taken_ = 0.0;  ///< length of the step taken last [s]
+  Landing landing_;
   bool ended_at_once_ = false;  ///< a slip that began at v = 0 and never moved in its direction
   std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]
   std::vector<double> X_;

@@ -113,7 +113,7 @@ double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, do
 /// acceleration may both be zero, so that a guard on the position begins with the third power of time, which a
 /// method of second order does not see. The first step is shorter than any decay of a law; one that is longer than
 /// a decay leads nowhere, which two steps of half the length show.
-bool SmoothEngine::goes_negative(std::size_t watch) const {
+bool SmoothEngine::goes_negative(std::size_t watch, double level) const {
   const auto value_after = [&](double length, int steps) {
     const double s = length / steps;
     std::vector<double> X = X_;
@@ -140,11 +140,25 @@ bool SmoothEngine::goes_negative(std::size_t watch) const {
   for (double part = shortest_probe; part < 0.1; part *= 100.0) {
     const double length = part * longest_step();
     const double later = value_after(length, 1);
-    if (std::abs(later) <= equal * watches_[watch].scale) continue;
+    if (std::abs(later) <= level) continue;
     const double again = value_after(length, 2);
     return again < 0.0 && std::abs(later - again) <= 0.5 * std::abs(again);
   }
   return false;
+}
+
+/// What the step that ended at a mode change leaves to the interval after it: that law's guards are known no better
+/// than the step landed, however small they are there.
+void SmoothEngine::note_landing(const Hit& hit) {
+  if (const auto* guard = std::get_if<LawGuard>(&watches_[hit.watch].ending))
+    landing_ = {guard->law, resolution * watches_[hit.watch].scale};
+}
+
+/// Values within it of zero are zero at the start of the interval.
+double SmoothEngine::level_at_start(const Watch& watch) const {
+  const double level = equal * watch.scale;
+  const auto* guard = std::get_if<LawGuard>(&watch.ending);
+  return guard != nullptr && guard->law == landing_.law ? std::max(level, landing_.error) : level;
 }
 
 /// A guard that is negative at the start of the interval, or zero and going to be.
@@ -154,9 +168,9 @@ bool SmoothEngine::find_violated(Hit& hit) const {
   for (std::size_t w = 0; w < watches_.size(); ++w) {
     // The direction of a slip was decided by the forces.
     if (is<SlipEnd>(watches_[w].ending)) continue;
-    const double level = equal * watches_[w].scale;
+    const double level = level_at_start(watches_[w]);
     if (values[w] > level) continue;
-    if (values[w] >= -level && (is<StickEnd>(watches_[w].ending) || !goes_negative(w))) continue;
+    if (values[w] >= -level && (is<StickEnd>(watches_[w].ending) || !goes_negative(w, level))) continue;
     hit = {w, 0.0};
     return true;
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <csignal>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -210,20 +209,11 @@ TEST_CASE("crosscheck: a crash, an endless loop and an exception are entries and
   CHECK(endings[14].text == "answer 14");
 }
 
-TEST_CASE("crosscheck: random systems have no disagreement, crash or hang but the known ones",
-          "[crosscheck][campaign]") {
-  // The first cases of three seeds that were taken before they were run. What is open of them has a line in
-  // docs/crosscheck.md and is to be mended, not to grow.
-  struct Part {
-    std::uint64_t seed;
-    std::set<std::uint32_t> open;
-  };
-  const Part part = GENERATE(Part{31, {}}, Part{41, {66}}, Part{42, {}});
+TEST_CASE("crosscheck: random systems have no disagreement, crash or hang", "[crosscheck][campaign]") {
+  // The first cases of three seeds that were taken before they were run.
+  const std::uint64_t seed = GENERATE(31U, 41U, 42U);
   crosscheck::Summary summary;
-  crosscheck::run_campaign(part.seed, 0, 70, {.jobs = 2, .processor_seconds = 30}, summary);
-  INFO(summary.text(part.seed));
-  for (const auto& [index, fault] : summary.faults()) {
-    INFO(index << ": " << fault);
-    CHECK(part.open.contains(index));
-  }
+  crosscheck::run_campaign(seed, 0, 70, {.jobs = 2, .processor_seconds = 30}, summary);
+  INFO(summary.text(seed));
+  for (const auto& [index, fault] : summary.faults()) FAIL_CHECK(index << ": " << fault);
 }

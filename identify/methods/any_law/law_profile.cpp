@@ -247,7 +247,7 @@ std::optional<PlainFit> plain_fit(const ReadingModel& model) {
   return plain;
 }
 
-std::vector<LawFit> law_profile(const ReadingModel& model, const bench::Rig& departure, double largest,
+std::vector<LawFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
                                 const ReadingNoise& noise, const LawFit& plain) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;

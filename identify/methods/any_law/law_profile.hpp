@@ -54,7 +54,7 @@ struct PlainFit {
 /// Fits over the severities of one departure, the mildest first; `plain` stands for severity zero. Ends where a law
 /// explains the readings so much worse than a milder one that no region reaches it. Negative `largest`: the other
 /// sign.
-[[nodiscard]] std::vector<LawFit> law_profile(const ReadingModel& model, const bench::Rig& departure,
-                                              double largest, const ReadingNoise& noise, const LawFit& plain);
+[[nodiscard]] std::vector<LawFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
+                                              const ReadingNoise& noise, const LawFit& plain);
 
 }  // namespace dualdamp::identify

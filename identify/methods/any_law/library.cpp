@@ -20,36 +20,36 @@ constexpr std::array two_sided = {"cubic_spring", "detuning", "film_beside_dampe
 /// A film takes half of the viscous force and thins with speed; a negative severity is a drag with the square of
 /// speed beside the damper. c is that of low speeds, as under `viscous_saturating`; to the first order in the
 /// severity both give c v (1 - s |v|/V).
-sim::Model film_beside_damper(const bench::RigBase& base, bench::RigValues p) {
-  sim::Model model = bench::with_coulomb(base);
+sim::Model film_beside_damper(const rigs::RigBase& base, rigs::RigValues p) {
+  sim::Model model = rigs::with_coulomb(base);
   const double V = base.reference.speed();
   if (p[0] < 0.0)
-    return bench::with_law(std::move(model), "viscous_power",
-                           {{"coefficient", -p[0] * base.c() / V}, {"exponent", 2.0}});
+    return rigs::with_law(std::move(model), "viscous_power",
+                          {{"coefficient", -p[0] * base.c() / V}, {"exponent", 2.0}});
   constexpr double share = 0.5;
   model.oscillator.damping *= 1.0 - share;
-  return bench::with_law(std::move(model), "viscous_saturating",
-                         {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
+  return rigs::with_law(std::move(model), "viscous_saturating",
+                        {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
 }
 
 /// Laws that a record may have and that the stress test does not play.
-const std::vector<bench::Rig>& further_laws() {
-  static const std::vector<bench::Rig> list = {
+const std::vector<rigs::Rig>& further_laws() {
+  static const std::vector<rigs::Rig> list = {
       {.name = "film_beside_damper",
        .meaning = "a film that thins under shear, or a drag, beside the damper",
        .parameters = {},
        .build = film_beside_damper,
        .severity = "fall of the viscous force at the peak speed, of the first order",
        .largest = 1.0,
-       .values_at = [](const bench::RigBase&, double s) { return std::vector{s}; },
-       .family = bench::Family::velocity}};
+       .values_at = [](const rigs::RigBase&, double s) { return std::vector{s}; },
+       .family = rigs::Family::velocity}};
   return list;
 }
 
-std::vector<bench::Rig> all_laws() {
-  std::vector<bench::Rig> all = bench::departures();
+std::vector<rigs::Rig> all_laws() {
+  std::vector<rigs::Rig> all = rigs::departures();
   all.insert(all.end(), further_laws().begin(), further_laws().end());
-  std::ranges::sort(all, {}, &bench::Rig::name);
+  std::ranges::sort(all, {}, &rigs::Rig::name);
   return all;
 }
 constexpr std::array no_laws = {"rough_way", "warming"};
@@ -75,8 +75,8 @@ LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit
 
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
-  static const std::vector<bench::Rig> all = all_laws();
-  for (const bench::Rig& departure : all) {
+  static const std::vector<rigs::Rig> all = all_laws();
+  for (const rigs::Rig& departure : all) {
     if (names(no_laws, departure.name) || names(twins, departure.name)) continue;
     // What a laboratory does not know of itself is no law.
     if (departure.mislead != nullptr || names(options.without, departure.name)) continue;

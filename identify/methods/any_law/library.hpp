@@ -18,9 +18,9 @@ struct LawIntervalOptions {
 };
 
 struct LibraryLaw {
-  const bench::Rig* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
-  double largest = 0.0;                   ///< severity up to which it is sought
-  double deviation = 0.0;                 ///< of the prior of its severity
+  const rigs::Rig* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
+  double largest = 0.0;                  ///< severity up to which it is sought
+  double deviation = 0.0;                ///< of the prior of its severity
   bool both_signs = false;
 
   [[nodiscard]] std::string name() const {

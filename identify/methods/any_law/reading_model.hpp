@@ -22,7 +22,7 @@ namespace dualdamp::identify {
 
 /// A law at a severity; without a departure it is Coulomb + viscous friction.
 struct LawAt {
-  const bench::Rig* departure = nullptr;
+  const rigs::Rig* departure = nullptr;
   double severity = 0.0;
 };
 
@@ -50,7 +50,7 @@ class ReadingModel {
   [[nodiscard]] double c_unit() const { return c_unit_; }
 
   /// The motion that severities are measured by.
-  [[nodiscard]] const bench::ReferenceMotion& reference() const { return reference_; }
+  [[nodiscard]] const rigs::ReferenceMotion& reference() const { return reference_; }
 
   [[nodiscard]] const Eigen::VectorXd& readings() const { return readings_; }
   /// The channel of each reading: readings of one channel have one standard deviation.
@@ -94,7 +94,7 @@ class ReadingModel {
   Eigen::VectorXd start_;
   double F0_unit_ = 0.0;
   double c_unit_ = 0.0;
-  bench::ReferenceMotion reference_;
+  rigs::ReferenceMotion reference_;
   Eigen::VectorXd readings_;
   std::vector<int> channels_;
   std::vector<double> known_deviations_;

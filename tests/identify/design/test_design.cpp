@@ -28,7 +28,7 @@ Record amplitudes(Normal& normal) {
   Record record;
   record.pairs.emplace();
   for (int i = 0; i < 8; ++i) {
-    bench::Truth rig;
+    identify::rigs::Truth rig;
     rig.F0 = F0;
     rig.model.oscillator = {
         .mass = mass, .stiffness = stiffness, .damping = 2.0 * zeta * std::sqrt(mass * stiffness)};
@@ -36,10 +36,10 @@ Record amplitudes(Normal& normal) {
     rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
                             .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
                             .frequency = natural};
-    const bench::ReferenceMotion reference{
+    const identify::rigs::ReferenceMotion reference{
         .amplitude = X, .frequency = natural, .Y = rig.model.excitation.amplitude};
-    const sim::SteadyState state =
-        sim::steady_state(bench::departed(*bench::find_departure("contact_compliance"), rig, reference, 0.15));
+    const sim::SteadyState state = sim::steady_state(
+        identify::rigs::departed(*identify::rigs::find_departure("contact_compliance"), rig, reference, 0.15));
     REQUIRE(state.outcome.ok());
     Pair pair{.Y = rig.model.excitation.amplitude, .x = state.amplitude + 0.003 * X * normal(), .number = i + 1};
     pair.omega = natural;

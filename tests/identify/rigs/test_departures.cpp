@@ -10,24 +10,24 @@
 using namespace dualdamp;
 
 TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") {
-  const auto& list = bench::departures();
+  const auto& list = identify::rigs::departures();
   CHECK(list.size() >= 12);
-  CHECK(std::ranges::is_sorted(list, {}, &bench::Rig::name));
-  bench::Truth truth;
+  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Rig::name));
+  identify::rigs::Truth truth;
   truth.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
   truth.F0 = 2.0;
-  const sim::SteadyState reference = sim::steady_state(bench::undisturbed(truth));
+  const sim::SteadyState reference = sim::steady_state(identify::rigs::undisturbed(truth));
   REQUIRE(reference.outcome.ok());
-  const bench::ReferenceMotion motion{.amplitude = reference.amplitude, .frequency = 10.0, .Y = 0.1};
-  for (const bench::Rig& departure : list) {
+  const identify::rigs::ReferenceMotion motion{.amplitude = reference.amplitude, .frequency = 10.0, .Y = 0.1};
+  for (const identify::rigs::Rig& departure : list) {
     CAPTURE(departure.name);
-    CHECK(bench::find_departure(departure.name) == &departure);
+    CHECK(identify::rigs::find_departure(departure.name) == &departure);
     CHECK_FALSE(departure.severity.empty());
-    CHECK(departure.family != bench::Family::none);
+    CHECK(departure.family != identify::rigs::Family::none);
     if (departure.mislead != nullptr) {  // the motion is the truth's, and the laboratory is wrong about it
-      bench::Laboratory laboratory{.constants = {.mass = 1.0, .stiffness = 100.0, .frequency = 10.0},
-                                   .sensors = {}};
+      identify::rigs::Laboratory laboratory{.constants = {.mass = 1.0, .stiffness = 100.0, .frequency = 10.0},
+                                            .sensors = {}};
       departure.mislead(laboratory, 0.1);
       const identify::Sensors& sensors = laboratory.sensors;
       CHECK((laboratory.constants.mass != 1.0 || laboratory.constants.stiffness != 100.0 ||
@@ -36,7 +36,7 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
       continue;
     }
     const auto distance = [&](double s) {
-      const sim::SteadyState state = sim::steady_state(bench::departed(departure, truth, motion, s));
+      const sim::SteadyState state = sim::steady_state(identify::rigs::departed(departure, truth, motion, s));
       REQUIRE(state.outcome.ok());
       return std::abs(state.amplitude / reference.amplitude - 1.0) + std::abs(state.phase - reference.phase);
     };

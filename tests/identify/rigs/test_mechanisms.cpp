@@ -20,14 +20,15 @@ namespace {
 /// The rig of the paper: X = 9.7 mm in mid range.
 const sim::Oscillator oscillator{.mass = 1.042, .stiffness = 1568.0};
 const double natural = sim::natural_frequency(oscillator);
-const bench::Apparatus rig{.oscillator = oscillator,
-                           .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
-const bench::RigFriction usual{.F0 = 3.7, .c = 11.0};
+const identify::rigs::Apparatus rig{.oscillator = oscillator,
+                                    .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
+const identify::rigs::RigFriction usual{.F0 = 3.7, .c = 11.0};
 
 sim::SteadyState steady(const std::string& name, const std::vector<double>& values) {
-  const bench::Rig* mechanism = bench::find_mechanism(name);
+  const identify::rigs::Rig* mechanism = identify::rigs::find_mechanism(name);
   REQUIRE(mechanism != nullptr);
-  const sim::SteadyState state = sim::steady_state(bench::driven(*mechanism, rig, usual, values, rig.reference.Y));
+  const sim::SteadyState state =
+      sim::steady_state(identify::rigs::driven(*mechanism, rig, usual, values, rig.reference.Y));
   REQUIRE(state.outcome.ok());
   return state;
 }
@@ -54,31 +55,31 @@ double force_at(const sim::Model& model, double v) {
 }  // namespace
 
 TEST_CASE("mechanisms: sorted, explained, with plausible values and searches within their ranges") {
-  const auto& list = bench::mechanisms();
+  const auto& list = identify::rigs::mechanisms();
   CHECK(list.size() >= 16);
-  CHECK(std::ranges::is_sorted(list, {}, &bench::Rig::name));
-  for (const bench::Rig& mechanism : list) {
+  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Rig::name));
+  for (const identify::rigs::Rig& mechanism : list) {
     CAPTURE(mechanism.name);
-    CHECK(bench::find_mechanism(mechanism.name) == &mechanism);
+    CHECK(identify::rigs::find_mechanism(mechanism.name) == &mechanism);
     CHECK_FALSE(mechanism.meaning.empty());
     CHECK_FALSE(mechanism.plausible.empty());
-    for (const bench::RigParameter& parameter : mechanism.parameters) {
+    for (const identify::rigs::RigParameter& parameter : mechanism.parameters) {
       CAPTURE(parameter.name);
-      const double scale = bench::natural_scale(rig, parameter.unit);
+      const double scale = identify::rigs::natural_scale(rig, parameter.unit);
       CHECK(scale > 0.0);
       CHECK(parameter.low < parameter.start);
       CHECK(parameter.start < parameter.high);
       CHECK(parameter.range.contains(parameter.low * scale));
       CHECK(parameter.range.contains(parameter.high * scale));
     }
-    for (const bench::PlausibleValues& plausible : mechanism.plausible) {
+    for (const identify::rigs::PlausibleValues& plausible : mechanism.plausible) {
       REQUIRE(plausible.values.size() == mechanism.parameters.size());
       CHECK_FALSE(plausible.because.empty());
       for (std::size_t i = 0; i < plausible.values.size(); ++i)
         CHECK(mechanism.parameters[i].range.contains(plausible.values[i]));
     }
   }
-  CHECK(bench::find_mechanism("gremlins") == nullptr);
+  CHECK(identify::rigs::find_mechanism("gremlins") == nullptr);
 }
 
 TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose amplitude has a closed form") {
@@ -97,7 +98,7 @@ TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose 
       {"viscous_power", {1.000001}}, {"viscous_saturating", {4e5}},
       {"warming_contact", {1e6}},    {"warming_film", {1e6}}};
   const double expected = closed_form(usual.c);
-  for (const bench::Rig& mechanism : bench::mechanisms()) {
+  for (const identify::rigs::Rig& mechanism : identify::rigs::mechanisms()) {
     const std::string name(mechanism.name);
     CAPTURE(name);
     REQUIRE(vanishing.contains(name));
@@ -113,8 +114,8 @@ TEST_CASE("mechanisms: a film has the force of the damper c at the reference spe
   for (const auto& [name, value] :
        std::map<std::string, double>{{"viscous_power", 0.4}, {"viscous_saturating", 0.3}}) {
     CAPTURE(name);
-    const sim::Model model =
-        bench::driven(*bench::find_mechanism(name), rig, usual, std::vector{value}, rig.reference.Y);
+    const sim::Model model = identify::rigs::driven(*identify::rigs::find_mechanism(name), rig, usual,
+                                                    std::vector{value}, rig.reference.Y);
     CHECK(force_at(model, V) == Approx(expected).epsilon(1e-14));
     // Below it sublinear films have more: F = c V (v/V)^n, and c (1 + V/v0) v/(1 + v/v0).
     const double half =
@@ -127,7 +128,8 @@ TEST_CASE("mechanisms: a clipped base moves as the formula says and is read by i
   const double stroke = 6e-3;
   const double Y = 6.75e-3;
   const sim::Excitation drive =
-      bench::driven(*bench::find_mechanism("base_clipping"), rig, usual, std::vector{stroke}, Y).excitation;
+      identify::rigs::driven(*identify::rigs::find_mechanism("base_clipping"), rig, usual, std::vector{stroke}, Y)
+          .excitation;
   const double a = Y / stroke;
   // Coefficients fall by exp(-2 asinh(pi/2a)) = 0.11 from one to the next: eight of them leave 0.11^8 = 2e-8 of Y.
   for (int i = 0; i <= 40; ++i) {
@@ -149,8 +151,8 @@ TEST_CASE("mechanisms: a warm film is a weaker damper, by the power that it turn
   const double cold = usual.c * std::exp(0.5 * usual.c * V * V / power);
   double c = usual.c;
   for (int i = 0; i < 60; ++i) {
-    sim::Model model =
-        bench::driven(*bench::find_mechanism("coulomb_viscous"), rig, {usual.F0, c}, {}, rig.reference.Y);
+    sim::Model model = identify::rigs::driven(*identify::rigs::find_mechanism("coulomb_viscous"), rig,
+                                              {usual.F0, c}, {}, rig.reference.Y);
     const double heat = c * sim::steady_state(model).mean_square_speed;
     c = 0.5 * (c + cold * std::exp(-heat / power));
   }
@@ -162,11 +164,11 @@ TEST_CASE("mechanisms: what lies in drive or spring is not there in a free decay
   const double stiffness = 4365.0;
   const double zeta = usual.c / (2.0 * std::sqrt(oscillator.mass * stiffness));
   const auto expected = sim::analytic::free_decay_extremes(zeta, usual.F0 / stiffness, 14.7e-3, 5);
-  for (const bench::Rig& mechanism : bench::mechanisms()) {
+  for (const identify::rigs::Rig& mechanism : identify::rigs::mechanisms()) {
     CAPTURE(mechanism.name);
     const auto& values = mechanism.plausible.front().values;
     const sim::FreeDecay decay =
-        sim::free_decay(bench::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
+        sim::free_decay(identify::rigs::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
     REQUIRE(decay.outcome.ok());
     REQUIRE(decay.peaks.size() == expected.size());
     double distance = 0.0;

@@ -10,8 +10,8 @@ using namespace dualdamp;
 
 namespace {
 
-bench::RigBase base() {
-  bench::RigBase result{
+identify::rigs::RigBase base() {
+  identify::rigs::RigBase result{
       .F0 = 2.0, .reference = {.amplitude = 0.12, .frequency = 10.0, .Y = 0.1}, .warming_time = 3.0};
   result.boundary_velocity = 0.02;
   result.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
@@ -22,17 +22,17 @@ bench::RigBase base() {
 }  // namespace
 
 TEST_CASE("rigs: sorted, explained, each of them a departure or a mechanism") {
-  const auto& list = bench::rigs();
-  CHECK(std::ranges::is_sorted(list, std::ranges::less{}, &bench::Rig::name));
-  CHECK(std::ranges::adjacent_find(list, {}, &bench::Rig::name) == list.end());
-  for (const bench::Rig& rig : list) {
+  const auto& list = identify::rigs::rigs();
+  CHECK(std::ranges::is_sorted(list, std::ranges::less{}, &identify::rigs::Rig::name));
+  CHECK(std::ranges::adjacent_find(list, {}, &identify::rigs::Rig::name) == list.end());
+  for (const identify::rigs::Rig& rig : list) {
     CAPTURE(rig.name);
     CHECK_FALSE(rig.meaning.empty());
-    const bool is_departure = bench::find_departure(rig.name) != nullptr;
-    CHECK((is_departure || bench::find_mechanism(rig.name) != nullptr));
+    const bool is_departure = identify::rigs::find_departure(rig.name) != nullptr;
+    CHECK((is_departure || identify::rigs::find_mechanism(rig.name) != nullptr));
     CHECK(is_departure == (rig.values_at != nullptr));
     CHECK(is_departure == (rig.largest > 0.0));
-    for (const bench::RigParameter& parameter : rig.parameters) {
+    for (const identify::rigs::RigParameter& parameter : rig.parameters) {
       CHECK_FALSE(parameter.unit.empty());
       CHECK_FALSE(parameter.meaning.empty());
     }
@@ -40,7 +40,7 @@ TEST_CASE("rigs: sorted, explained, each of them a departure or a mechanism") {
 }
 
 TEST_CASE("rigs: parameters of a departure lie in their ranges at all severities") {
-  for (const bench::Rig& rig : bench::departures()) {
+  for (const identify::rigs::Rig& rig : identify::rigs::departures()) {
     CAPTURE(rig.name);
     for (const double s : {1e-6 * rig.largest, rig.largest}) {
       const std::vector<double> values = rig.values_at(base(), s);
@@ -57,17 +57,17 @@ TEST_CASE("rigs: one that serves both questions is the same model in both") {
   // A departure at s and the mechanism at the parameters of s, on the same oscillator and drive. Films and warmth
   // are left out: there F0 and c mean the limit s -> 0 in one question and the reference motion in the other;
   // lugre takes its speed of boundary lubrication from the question.
-  const bench::RigBase common = base();
-  bench::Truth truth{.model = common.model, .F0 = common.F0};
-  const bench::Apparatus apparatus{.oscillator = common.model.oscillator, .reference = common.reference};
+  const identify::rigs::RigBase common = base();
+  identify::rigs::Truth truth{.model = common.model, .F0 = common.F0};
+  const identify::rigs::Apparatus apparatus{.oscillator = common.model.oscillator, .reference = common.reference};
   for (const char* name : {"contact_compliance", "dahl", "detuning", "friction_lag", "stribeck", "viscous_power"}) {
     CAPTURE(name);
-    const bench::Rig& rig = *bench::find_departure(name);
+    const identify::rigs::Rig& rig = *identify::rigs::find_departure(name);
     const double s = 0.2;
     const std::vector<double> values = rig.values_at(common, s);
-    const sim::Model departed = bench::departed(rig, truth, common.reference, s);
-    const sim::Model driven =
-        bench::driven(*bench::find_mechanism(name), apparatus, {common.F0, common.c()}, values, common.reference.Y);
+    const sim::Model departed = identify::rigs::departed(rig, truth, common.reference, s);
+    const sim::Model driven = identify::rigs::driven(*identify::rigs::find_mechanism(name), apparatus,
+                                                     {common.F0, common.c()}, values, common.reference.Y);
     CHECK(departed.oscillator.damping == driven.oscillator.damping);
     CHECK(departed.excitation.frequency == driven.excitation.frequency);
     CHECK(departed.excitation.amplitude == driven.excitation.amplitude);

@@ -99,6 +99,30 @@ TEST_CASE("smooth engine: exact laws come out as in the exact engine", "[sim][sm
   }
 }
 
+TEST_CASE("smooth engine: a guard that passes zero within what a step lands by changes the mode once",
+          "[sim][smooth]") {
+  // At t = 114.54 s the late velocity passes zero where all that moves it is as small as what is left of
+  // it: 1.6e-17 m/s.
+  sim::Model model;
+  model.oscillator = {.mass = 17.099728675595408,
+                      .stiffness = 3.292623622011964,
+                      .damping = -0.9813737370539959,
+                      .cubic_stiffness = 436092.00283127645};
+  model.friction = {law("friction_lag", {{"kinetic", 1.5695147575818305e-07},
+                                         {"static", 6.042287471029727e-07},
+                                         {"stribeck_velocity", 1.1957276805978776e-05},
+                                         {"form", std::string("lorentz")},
+                                         {"lag", 0.024788305151357798}})};
+  model.initial = {.position = 0.0018834253952637234, .velocity = 0.0};
+  for (const SolverKind kind : {SolverKind::automatic, SolverKind::implicit_steps}) {
+    model.solver.kind = kind;
+    const sim::History history = sim::simulate(model, {.duration = 120.0});
+    INFO(history.outcome.reason);
+    CHECK(history.outcome.ok());
+    CHECK(std::abs(history.energy.defect) < 1e-9 * std::abs(history.energy.viscous));
+  }
+}
+
 TEST_CASE("smooth engine: the monodromy matrix is that of the exact engine", "[sim][smooth]") {
   const std::vector<std::pair<std::string_view, ParameterValues>> laws = {
       {"coulomb", {{"kinetic", 2.0}}},

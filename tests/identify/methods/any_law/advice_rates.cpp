@@ -42,7 +42,7 @@ double width(const Interval& interval) { return interval[1] - interval[0]; }
 
 }  // namespace
 
-std::optional<Followed> followed_advice(const LawRig& rig, const bench::Rig& departure, double severity,
+std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure, double severity,
                                         std::uint64_t seed) {
   const Record first = law_record(LawRecord::amplitudes, rig, &departure, severity, seed);
   if (!first.pairs) return std::nullopt;

@@ -22,7 +22,7 @@ struct Followed {
 };
 
 /// Nothing where one of the records has no answer.
-[[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const bench::Rig& departure,
+[[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure,
                                                       double severity, std::uint64_t seed);
 
 }  // namespace dualdamp::identify::testing

@@ -57,8 +57,8 @@ struct Departed {
   double severity = 0.0;
   double bias = 0.0;
 };
-std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig& rig, const bench::Rig& departure,
-                                    std::uint64_t seed) {
+std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig& rig,
+                                    const identify::rigs::Rig& departure, std::uint64_t seed) {
   double severity = std::min(largest_severity, departure.largest);
   std::optional<Departed> best;
   constexpr int rounds = 6;
@@ -75,7 +75,7 @@ std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig&
 }
 
 /// What a law of the library is called that plays this departure, of either sign.
-std::vector<std::string> without(const bench::Rig& departure) {
+std::vector<std::string> without(const identify::rigs::Rig& departure) {
   static const std::map<std::string, std::string> twins = {{"detuned_below", "detuning"},
                                                            {"softening_spring", "cubic_spring"},
                                                            {"viscous_power_below", "viscous_power"}};
@@ -135,7 +135,7 @@ void tell_miss(const LawIntervals& found, const LawRig& rig, const Departed& dep
   row.misses.emplace_back(text.data());
 }
 
-void count(LawRecord kind, const bench::Rig* departure, std::uint64_t seed, Row& row) {
+void count(LawRecord kind, const identify::rigs::Rig* departure, std::uint64_t seed, Row& row) {
   const LawRig rig = law_rig(kind, seed);
   // Biases evenly spread over their logarithm.
   const double wanted = least_bias * std::pow(largest_bias / least_bias, static_cast<double>(seed % 7) / 6.0);
@@ -177,7 +177,7 @@ void count(LawRecord kind, const bench::Rig* departure, std::uint64_t seed, Row&
     add(row.single, single.interval95->zeta, single.interval95->F0, rig);
 }
 
-void print(const std::string& name, const bench::Rig* departure, const Row& row) {
+void print(const std::string& name, const identify::rigs::Rig* departure, const Row& row) {
   const double n = std::max(row.records, 1);
   std::printf("%-36s n %3d harmless %3d failed %2d bias %4.1f %% |", name.c_str(), row.records, row.harmless,
               row.failed, 100.0 * row.bias / n);
@@ -196,12 +196,12 @@ void print(const std::string& name, const bench::Rig* departure, const Row& row)
 }
 
 /// Friction that departs, with plain friction first.
-std::vector<const bench::Rig*> played(LawRecord kind) {
-  std::vector<const bench::Rig*> list = {nullptr};
+std::vector<const identify::rigs::Rig*> played(LawRecord kind) {
+  std::vector<const identify::rigs::Rig*> list = {nullptr};
   const bool free = kind == LawRecord::extremes || kind == LawRecord::history;
-  for (const bench::Rig& departure : bench::departures()) {
-    const bool of_friction = departure.mislead == nullptr && departure.family != bench::Family::spring &&
-                             departure.family != bench::Family::drive;
+  for (const identify::rigs::Rig& departure : identify::rigs::departures()) {
+    const bool of_friction = departure.mislead == nullptr && departure.family != identify::rigs::Family::spring &&
+                             departure.family != identify::rigs::Family::drive;
     const bool of_drive = departure.name == "base_distortion" && !free;
     if ((of_friction && departure.name != "warming") || of_drive) list.push_back(&departure);
   }
@@ -243,7 +243,7 @@ void print_bound(LawRecord kind, int records, std::uint64_t first) {
   std::fflush(stdout);
 }
 
-void print_advice(const bench::Rig& departure, int records, std::uint64_t first) {
+void print_advice(const identify::rigs::Rig& departure, int records, std::uint64_t first) {
   std::array<std::vector<double>, 2> narrower;
   std::array<int, 2> rejected{};
   std::array<int, 2> held{};
@@ -285,7 +285,7 @@ int main(int argc, char** argv) {
   };
   for (const LawRecord kind :
        {LawRecord::phases, LawRecord::amplitudes, LawRecord::response, LawRecord::extremes, LawRecord::history}) {
-    for (const bench::Rig* departure : played(kind)) {
+    for (const identify::rigs::Rig* departure : played(kind)) {
       const std::string name =
           std::string(name_of(kind)) + "/" + (departure == nullptr ? "none" : std::string(departure->name));
       if (!wanted(name)) continue;
@@ -297,6 +297,6 @@ int main(int argc, char** argv) {
   for (const LawRecord kind : {LawRecord::phases, LawRecord::amplitudes, LawRecord::response})
     if (wanted("bound/" + std::string(name_of(kind)))) print_bound(kind, records, first);
   for (const char* name : {"contact_compliance", "dahl"})
-    if (wanted("advice/" + std::string(name))) print_advice(*bench::find_departure(name), records, first);
+    if (wanted("advice/" + std::string(name))) print_advice(*identify::rigs::find_departure(name), records, first);
   return 0;
 }

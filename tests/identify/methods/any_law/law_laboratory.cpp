@@ -21,13 +21,14 @@ namespace {
 /// Of the motions, relative; noise is thirty thousand times larger.
 constexpr double accuracy = 1e-7;
 
-double natural_frequency(const bench::Truth& truth) {
+double natural_frequency(const identify::rigs::Truth& truth) {
   return std::sqrt(truth.model.oscillator.stiffness / truth.model.oscillator.mass);
 }
 
-sim::Model model_of(const LawRig& rig, const bench::Truth& truth, const bench::Rig* departure, double severity) {
-  sim::Model model = departure == nullptr ? bench::undisturbed(truth)
-                                          : bench::departed(*departure, truth, rig.reference, severity);
+sim::Model model_of(const LawRig& rig, const identify::rigs::Truth& truth, const identify::rigs::Rig* departure,
+                    double severity) {
+  sim::Model model = departure == nullptr ? identify::rigs::undisturbed(truth)
+                                          : identify::rigs::departed(*departure, truth, rig.reference, severity);
   model.solver.tolerance = accuracy;
   return model;
 }
@@ -37,9 +38,9 @@ double level_for(const LawRig& rig, double x) {
   return 2.0 * rig.zeta * x + 4.0 / pi * rig.truth.F0 / rig.truth.model.oscillator.stiffness;
 }
 
-std::optional<Pair> state_of(const LawRig& rig, const bench::Rig* departure, double severity, double Y,
+std::optional<Pair> state_of(const LawRig& rig, const identify::rigs::Rig* departure, double severity, double Y,
                              double omega) {
-  bench::Truth truth = rig.truth;
+  identify::rigs::Truth truth = rig.truth;
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = Y, .frequency = omega};
   const sim::SteadyState state =
       sim::steady_state(model_of(rig, truth, departure, severity), {.tolerance = accuracy, .max_periods = 1000});
@@ -81,7 +82,7 @@ class Readings {
   bool complete_ = true;
 };
 
-Record response(const LawRig& rig, const bench::Rig* departure, double severity, std::uint64_t seed) {
+Record response(const LawRig& rig, const identify::rigs::Rig* departure, double severity, std::uint64_t seed) {
   constexpr int count = 21;
   Readings readings(rig, seed);
   for (int i = 0; i < count; ++i) {
@@ -91,13 +92,13 @@ Record response(const LawRig& rig, const bench::Rig* departure, double severity,
   return readings.record();
 }
 
-sim::Model released(const LawRig& rig, const bench::Rig* departure, double severity) {
-  bench::Truth truth = rig.truth;
+sim::Model released(const LawRig& rig, const identify::rigs::Rig* departure, double severity) {
+  identify::rigs::Truth truth = rig.truth;
   truth.model.initial.position = 2.0 * rig.reference.amplitude;
   return model_of(rig, truth, departure, severity);
 }
 
-Record extremes(const LawRig& rig, const bench::Rig* departure, double severity, std::uint64_t seed) {
+Record extremes(const LawRig& rig, const identify::rigs::Rig* departure, double severity, std::uint64_t seed) {
   constexpr int most = 24;
   const sim::FreeDecay decay = sim::free_decay(released(rig, departure, severity), most);
   Record record;
@@ -109,7 +110,7 @@ Record extremes(const LawRig& rig, const bench::Rig* departure, double severity,
   return record;
 }
 
-Record history(const LawRig& rig, const bench::Rig* departure, double severity, std::uint64_t seed) {
+Record history(const LawRig& rig, const identify::rigs::Rig* departure, double severity, std::uint64_t seed) {
   const double period = 2.0 * pi / rig.reference.frequency;
   constexpr double periods = 12.0;
   constexpr double samples = 100.0;  // in a period
@@ -159,7 +160,7 @@ LawRig law_rig(LawRecord kind, std::uint64_t seed) {
   return rig;
 }
 
-Record states_record(const LawRig& rig, const bench::Rig* departure, double severity,
+Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, double severity,
                      const std::vector<PlannedState>& states, bool phases, std::uint64_t seed) {
   Readings readings(rig, seed);
   for (const PlannedState& state : states)
@@ -167,7 +168,7 @@ Record states_record(const LawRig& rig, const bench::Rig* departure, double seve
   return readings.record();
 }
 
-Record law_record(LawRecord kind, const LawRig& rig, const bench::Rig* departure, double severity,
+Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Rig* departure, double severity,
                   std::uint64_t seed) {
   switch (kind) {
     case LawRecord::response:

@@ -25,8 +25,8 @@ enum class LawRecord {
 
 /// A rig with Coulomb and viscous friction and the motion in the middle of its tests.
 struct LawRig {
-  bench::Truth truth;
-  bench::ReferenceMotion reference;
+  identify::rigs::Truth truth;
+  identify::rigs::ReferenceMotion reference;
   double zeta = 0.0;
   double noise = 0.003;  ///< of an amplitude over the reference amplitude, of a phase in rad
   KnownConstants constants;
@@ -38,11 +38,11 @@ struct LawRig {
 
 /// What the rig reads under a departure of this severity; nullptr: under plain friction. The same seed gives the
 /// same noise under every law. Empty where a state was not found.
-[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const bench::Rig* departure, double severity,
-                                std::uint64_t seed);
+[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Rig* departure,
+                                double severity, std::uint64_t seed);
 
 /// The same of given states.
-[[nodiscard]] Record states_record(const LawRig& rig, const bench::Rig* departure, double severity,
+[[nodiscard]] Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, double severity,
                                    const std::vector<PlannedState>& states, bool phases, std::uint64_t seed);
 
 }  // namespace dualdamp::identify::testing

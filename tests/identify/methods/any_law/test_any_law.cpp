@@ -27,8 +27,8 @@ constexpr double X = 0.01;
 
 const KnownConstants known{mass, stiffness, natural};
 
-bench::Truth truth() {
-  bench::Truth truth;
+identify::rigs::Truth truth() {
+  identify::rigs::Truth truth;
   truth.model.oscillator.mass = mass;
   truth.model.oscillator.stiffness = stiffness;
   truth.model.oscillator.damping = 2.0 * zeta * std::sqrt(mass * stiffness);
@@ -36,11 +36,11 @@ bench::Truth truth() {
   return truth;
 }
 
-sim::Model departed(const bench::Truth& truth, const char* law, double severity) {
-  if (law == nullptr) return bench::undisturbed(truth);
-  const bench::ReferenceMotion reference{
+sim::Model departed(const identify::rigs::Truth& truth, const char* law, double severity) {
+  if (law == nullptr) return identify::rigs::undisturbed(truth);
+  const identify::rigs::ReferenceMotion reference{
       .amplitude = X, .frequency = natural, .Y = 2.0 * zeta * X + 4.0 / std::numbers::pi * F0 / stiffness};
-  return bench::departed(*bench::find_departure(law), truth, reference, severity);
+  return identify::rigs::departed(*identify::rigs::find_departure(law), truth, reference, severity);
 }
 
 /// Eight levels at resonance, with an error of 0.3 % of X and of a radian.
@@ -49,7 +49,7 @@ Record states(const char* law, double severity, bool phases, Normal& normal) {
   Record record;
   record.pairs.emplace();
   for (int i = 0; i < 8; ++i) {
-    bench::Truth rig = truth();
+    identify::rigs::Truth rig = truth();
     const double x = X * (0.5 + i / 7.0);
     rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
                             .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
@@ -132,13 +132,14 @@ TEST_CASE("any_law: amplitudes alone allow more laws than amplitudes and phases"
 
 TEST_CASE("any_law: extremes of a free vibration") {
   Normal normal(14);
-  bench::Truth rig = truth();
+  identify::rigs::Truth rig = truth();
   rig.F0 = 0.4;
   rig.model.oscillator.damping *= 0.25;
   rig.model.initial.position = 2.0 * X;
   constexpr double severity = 0.2;
-  const bench::ReferenceMotion reference{.amplitude = X, .frequency = natural, .Y = X};
-  sim::Model model = bench::departed(*bench::find_departure("viscous_power"), rig, reference, severity);
+  const identify::rigs::ReferenceMotion reference{.amplitude = X, .frequency = natural, .Y = X};
+  sim::Model model =
+      identify::rigs::departed(*identify::rigs::find_departure("viscous_power"), rig, reference, severity);
   const sim::FreeDecay motion = sim::free_decay(model, 14);
   Record record;
   record.decay.emplace();
