@@ -1,7 +1,6 @@
 #include "cli/report/comparison.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <ostream>
 #include <set>
 
+#include "bench/analyses.hpp"
 #include "cli/report/assets.hpp"
 #include "cli/report/main_chart.hpp"
 #include "cli/report/page.hpp"
@@ -17,7 +17,8 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/units.hpp"
-#include "friction_models/registry.hpp"
+#include "scenarios/format/si_units.hpp"
+#include "scenarios/scenario_format.hpp"
 
 namespace dualdamp::cli {
 
@@ -33,52 +34,31 @@ using Json = StoredRun::Json;
                                           {}});
 }
 
-/// The SI unit of a number of a law, or of the oscillator; empty: it has none, or is not known here.
-std::string si_unit(const Json& owner, const std::string& key) {
-  if (owner.contains("law") && owner.at("law").is_string()) {
-    const friction::LawEntry* law = friction::find_law(owner.at("law").get<std::string>());
-    if (law == nullptr) return {};
-    const auto found = std::ranges::find(law->parameters, key, &friction::Parameter::name);
-    return found == law->parameters.end() || found->unit == "1" ? std::string() : std::string(found->unit);
-  }
-  static const std::map<std::string, std::string, std::less<>> units = {
-      {"mass", "kg"},    {"stiffness", "N/m"}, {"damping", "N.s/m"}, {"cubic_stiffness", "N/m^3"},
-      {"position", "m"}, {"velocity", "m/s"},  {"duration", "s"}};
-  const auto found = units.find(key);
-  return found == units.end() ? std::string() : found->second;
-}
-
-std::string with_unit(double value, const std::string& unit) {
-  return core::format_number(value, 6) + (unit.empty() ? "" : " " + unit);
-}
-
-/// A number of a resolved scenario, which is SI, in the unit the user wrote.
-std::string in_written_unit(double value, const std::string& unit, const std::string& si) {
-  constexpr std::array dimensions = {"kg",    "m", "s",   "N",       "N/m",       "N.s/m", "m/s",   "rad",   "1",
-                                     "N/m^3", "J", "N.m", "N.m/rad", "N.m.s/rad", "N/s",   "m/s^2", "kg.m^2"};
-  for (const char* dimension : dimensions)
-    if (const auto factor = core::unit_factor(unit, dimension).value; !unit.empty() && factor && *factor > 0.0)
-      return with_unit(value / *factor, unit);
-  return with_unit(value, si);
+/// A number of a resolved scenario, which is SI, in the unit the user wrote; in its SI unit where there is none.
+std::string with_unit(double value, const std::string& written, const std::string& si) {
+  const std::optional<double> factor = written.empty() ? std::nullopt : core::unit_factor(written, si).value;
+  const bool has_factor = factor && *factor > 0.0;
+  const std::string unit = has_factor ? written : si == "1" ? "" : si;
+  return core::format_number(has_factor ? value / *factor : value, 6) + (unit.empty() ? "" : " " + unit);
 }
 
 /// What the values of a scenario look like, by path; a list of numbers is one value.
-/// `si`: the unit of a number; nothing: those of an angle, which go by other names.
-void flatten(const Json& json, const std::string& path, const Json& units, const std::optional<std::string>& si,
-             std::map<std::string, std::string>& values) {
+/// `written`: the units that the user wrote; `si`: those of the numbers here.
+void flatten(const Json& json, const std::string& path, const Json& written,
+             const std::map<std::string, std::string>& si, std::map<std::string, std::string>& values) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items())
       if (!path.empty() || (key != "title" && key != "expect" && key != "schema"))
-        flatten(value, path.empty() ? key : path + "." + key, units,
-                si ? std::optional(si_unit(json, key)) : std::nullopt, values);
+        flatten(value, path.empty() ? key : path + "." + key, written, si, values);
   } else if (json.is_array() && !json.empty() && json.front().is_structured()) {
     for (std::size_t i = 0; i < json.size(); ++i)
-      flatten(json[i], path + "[" + std::to_string(i) + "]", units, si, values);
+      flatten(json[i], path + "[" + std::to_string(i) + "]", written, si, values);
   } else if (json.is_number_float()) {
-    values[path] = in_written_unit(json.get<double>(), units.value(path, ""), si.value_or(""));
-  } else if (json.is_string() && json.get<std::string>().ends_with(" rad/s") && units.contains(path)) {
+    const auto unit = si.find(path);
+    values[path] = with_unit(json.get<double>(), written.value(path, ""), unit == si.end() ? "" : unit->second);
+  } else if (json.is_string() && json.get<std::string>().ends_with(" rad/s") && written.contains(path)) {
     const double value = core::read_number(json.get<std::string>()).value.value_or(0.0);
-    const auto unit = units.at(path).get<std::string>();
+    const auto unit = written.at(path).get<std::string>();
     const auto factor = core::unit_factor(unit, "rad/s").value;
     values[path] = factor ? core::format_number(value / *factor, 6) + " " + unit : json.get<std::string>();
   } else {
@@ -198,8 +178,8 @@ class Comparison {
                  .started = provenance.value("started", ""),
                  .sha256 = provenance.value("scenario_sha256", "")};
     const Json& scenario = run.document().at("scenario");
-    const bool is_angle = scenario.value("system", Json::object()).value("coordinate", "") == "angle";
-    flatten(scenario, "", units, is_angle ? std::nullopt : std::optional<std::string>(""), one.values);
+    const auto si = scenarios::si_units(scenario, scenarios::scenario_format(bench::analyses()));
+    flatten(scenario, "", units, si, one.values);
     for (const auto& [path, unit] : units.items()) one.written.insert(path);
     one.chart = std::move(*chart);
     compared_.push_back(std::move(one));

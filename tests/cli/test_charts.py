@@ -124,6 +124,9 @@ class Charts(Case):
         for text in ("kinetic = 1 N, static = 1 N", "kinetic = 3 N, static = 3 N"):
             self.assertIn(text, texts)
 
+        self.compare("system.mass=1", "system.mass=2")
+        self.assertIn("mass = 2 kg", self.drawing("both/compare.svg")[0])
+
     def test_compare(self):
         self.compare("system.friction.kinetic=1 N", "system.friction.kinetic=3 N")
         texts, series = self.drawing("both/compare.svg")

@@ -6,6 +6,8 @@
 
 #include "answers.hpp"
 #include "files.hpp"
+#include "scenarios/format/si_units.hpp"
+#include "scenarios/scenario_format.hpp"
 
 using namespace dualdamp;
 
@@ -50,6 +52,27 @@ TEST_CASE("rotation: the numbers are those of the twin in translation, to the bi
     const auto turned = scenarios::run(read(system_of_angle + turning_base + "analysis: " + analysis + "\n"));
     CHECK(testing::result_of(turned) == testing::result_of(twin));
   }
+}
+
+TEST_CASE("rotation: the SI unit of each number is that of its key", "[scenarios][rotation]") {
+  const auto units_of = [](const scenarios::Scenario& scenario) {
+    return scenarios::si_units(scenarios::Json::parse(scenario.resolved),
+                               scenarios::scenario_format(scenarios::analyses()));
+  };
+  const std::string moment = "excitation: {type: force_harmonic, amplitude: 9 N.m, frequency: 10 rad/s}\n";
+  auto units =
+      units_of(read(system_of_angle + moment + "analysis: {type: xy_curve, amplitudes: [8 N.m, 9 N.m]}\n"));
+  CHECK(units["system.mass"] == "kg.m^2");
+  CHECK(units["system.stiffness"] == "N.m/rad");
+  CHECK(units["system.friction.kinetic"] == "N.m");
+  CHECK(units["excitation.amplitude"] == "N.m");
+  CHECK(units["excitation.phase"] == "rad");
+  CHECK(units["analysis.amplitudes"] == "N.m");
+  CHECK_FALSE(units.contains("excitation.frequency"));
+  units = units_of(testing::scenario_of("{type: xy_curve, amplitudes: [0.1, 0.2]}"));
+  CHECK(units["system.mass"] == "kg");
+  CHECK(units["excitation.amplitude"] == "m");
+  CHECK(units["analysis.amplitudes"] == "m");
 }
 
 TEST_CASE("rotation: degrees are read, results are in rad and N.m", "[scenarios][rotation]") {
