@@ -107,7 +107,10 @@ double ColumnFactors::factor_of(const KnownColumn& known, const std::string& sta
     return 1.0;
   }
   const core::QuantityText factor = core::unit_factor(unit, known.unit, options_.coordinate);
-  if (factor.value) return *factor.value;
+  if (factor.value) {
+    stated_[name] = unit;
+    return *factor.value;
+  }
   core::Diagnostic fault = where;
   if (given != nullptr) fault.found = *given;
   return refuse(fault, "the unit of column " + name + ": " + factor.fault,
@@ -156,8 +159,8 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
   return gain * read->factor * per_signal;
 }
 
-std::vector<std::string> ColumnFactors::warn_of_assumptions() {
-  if (assumed_.empty()) return {};
+ColumnUnits ColumnFactors::take_units() {
+  if (assumed_.empty()) return {{}, std::move(stated_)};
   std::vector<std::string> names;
   std::vector<std::string> units;
   for (const Assumption& assumption : assumed_) {
@@ -166,7 +169,7 @@ std::vector<std::string> ColumnFactors::warn_of_assumptions() {
   }
   warnings_.push_back("no unit is stated for " + listed(names) + ": read " + listed(units) +
                       "; state another one as --unit " + names.back() + "=UNIT");
-  return names;
+  return {std::move(names), std::move(stated_)};
 }
 
 }  // namespace dualdamp::identify

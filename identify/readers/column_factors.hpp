@@ -38,8 +38,8 @@ class ColumnFactors {
   /// the problems with the place and the finding of `where`.
   double factor_of(const KnownColumn& known, const std::string& stated, const core::Diagnostic& where);
 
-  /// One warning for all columns without a unit; their names.
-  std::vector<std::string> warn_of_assumptions();
+  /// The units of all columns, with one warning for those without.
+  ColumnUnits take_units();
 
  private:
   double scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,
@@ -54,6 +54,7 @@ class ColumnFactors {
     std::string name, unit;
   };
   std::vector<Assumption> assumed_;
+  std::map<std::string, std::string> stated_;
 };
 
 }  // namespace dualdamp::identify

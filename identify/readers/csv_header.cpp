@@ -33,8 +33,7 @@ class HeaderReader {
     for (std::size_t i = 0; i < headings_.size() && line_.number > 0; ++i)
       if (fields_[i].known == nullptr) take_by_name(headings_[i], fields_[i]);
     report_missing();
-    std::vector<std::string> assumed = factors_.warn_of_assumptions();
-    return {std::move(fields_), std::move(assumed)};
+    return {std::move(fields_), factors_.take_units()};
   }
 
  private:

@@ -21,7 +21,7 @@ struct CsvField {
 
 struct CsvHeader {
   std::vector<CsvField> fields;
-  std::vector<std::string> assumed;  ///< columns for which no unit is stated
+  ColumnUnits units;
 };
 
 /// Faults go to `problems`.

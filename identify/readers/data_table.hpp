@@ -10,6 +10,7 @@
 #include "core/diagnostics.hpp"
 #include "identify/readers/columns.hpp"
 #include "identify/readers/problems.hpp"
+#include "identify/readers/record_reader.hpp"
 
 namespace dualdamp::identify {
 
@@ -26,8 +27,8 @@ struct LabelRun {
 
 struct DataTable {
   std::string file;
-  std::vector<DataColumn> columns;         ///< of equal length, each name at most once
-  std::vector<std::string> assumed;        ///< names of columns for which no unit was stated
+  std::vector<DataColumn> columns;  ///< of equal length, each name at most once
+  ColumnUnits units;
   std::vector<LabelRun> sweeps;            ///< empty: no labels
   std::vector<std::size_t> restarts = {};  ///< rows before which the header stood again
   /// Times are rounded to a multiple of `time_quantum` [s] or to so many significant digits, whichever is coarser.

@@ -117,7 +117,11 @@ MatContent content(Receiver& from) {
   if (content.tests.empty()) throw Nonsense{};
   if (from.number() != 0) content.row_labels = row_labels(from, content.tests);
   content.warnings = from.items([&from] { return from.text(); });
-  content.assumed = from.items([&from] { return from.text(); });
+  content.units.assumed = from.items([&from] { return from.text(); });
+  for (std::uint64_t count = from.number(); count > 0; --count) {
+    std::string column = from.text();
+    content.units.stated[std::move(column)] = from.text();
+  }
   from.expect_end();
   return content;
 }
@@ -153,8 +157,13 @@ void send(const MatContent& content, const ByteSink& sink) {
       to.put(run.label);
       to.put(std::uint64_t{run.first_row});
     });
-  for (const auto* texts : {&content.warnings, &content.assumed})
+  for (const auto* texts : {&content.warnings, &content.units.assumed})
     to.put(*texts, [&to](const std::string& text) { to.put(text); });
+  to.put(std::uint64_t{content.units.stated.size()});
+  for (const auto& [column, unit] : content.units.stated) {
+    to.put(column);
+    to.put(unit);
+  }
 }
 
 void send(const std::vector<core::Diagnostic>& problems, const ByteSink& sink) {

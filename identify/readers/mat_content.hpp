@@ -20,7 +20,7 @@ struct MatContent {
   std::vector<TestColumns> tests;
   std::optional<std::vector<LabelRun>> row_labels;  ///< instead of the labels of the tests
   std::vector<std::string> warnings;
-  std::vector<std::string> assumed;  ///< columns for which no unit was stated
+  ColumnUnits units;
 };
 
 void send(const MatContent& content, const ByteSink& sink);

@@ -73,7 +73,7 @@ class Reader {
     }
     report_missing(content);
     problems_.throw_if_any();
-    content.assumed = factors_.warn_of_assumptions();
+    content.units = factors_.take_units();
     content.row_labels = std::move(row_labels_);
     content.warnings = std::move(warnings_);
     return content;
@@ -407,7 +407,7 @@ DataTable read_mat(const std::string& path, const ReadOptions& options, Problems
   std::optional<MatContent> content = result.end == IsolatedEnd::done ? receive(result.bytes) : std::nullopt;
   if (!content) refuse_unread(options.name, result.end);
   DataTable table = join(options.name, content->tests);
-  table.assumed = std::move(content->assumed);
+  table.units = std::move(content->units);
   if (content->row_labels) table.sweeps = std::move(*content->row_labels);
   std::ranges::move(content->warnings, std::back_inserter(warnings));
   return table;

@@ -112,7 +112,7 @@ TableFile read_table(const std::string& path, const ReadOptions& options, Proble
 MeasuredRecord assemble(TableFile file, Problems& problems, std::vector<std::string> warnings) {
   MeasuredRecord result;
   result.warnings = std::move(warnings);
-  result.assumed = file.table.assumed;
+  result.units = file.table.units;
   result.record = record_of(std::move(file.table), problems, result.warnings);
   problems.throw_if_any();
   result.sha256 = std::move(file.sha256);

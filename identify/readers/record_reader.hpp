@@ -43,11 +43,17 @@ struct ReadOptions {
   std::string name = {};
 };
 
+/// Units of the columns that were read.
+struct ColumnUnits {
+  std::vector<std::string> assumed;           ///< columns for which nobody stated a unit: taken in SI
+  std::map<std::string, std::string> stated;  ///< column -> its unit, as the file or the caller states it
+};
+
 struct MeasuredRecord {
   Record record;
   std::vector<std::string> warnings;  ///< what was left out or taken for granted
   std::string sha256;                 ///< of the bytes of the file
-  std::vector<std::string> assumed;   ///< columns for which nobody stated a unit: taken in SI
+  ColumnUnits units;
 };
 
 [[nodiscard]] MeasuredRecord read_record(const std::string& path, const ReadOptions& options = {});

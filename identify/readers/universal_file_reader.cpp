@@ -324,7 +324,7 @@ class Mapping {
     }
     for (std::size_t i = 0; tests.size() > 1 && i < tests.size(); ++i) tests[i].label = std::to_string(i + 1);
     DataTable table = join(file_, tests);
-    table.assumed = factors_.warn_of_assumptions();
+    table.units = factors_.take_units();
     if (std::ranges::any_of(functions, [](const Function& f) { return !f.is_even; }))
       table.time_digits = 6;  // E13.5
     return table;

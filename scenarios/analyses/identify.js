@@ -90,7 +90,18 @@ function ledger({assumptions, family_level: level, tested, sensitivities}) {
   ].filter(Boolean);
 }
 
+/** Lengths of the estimates in the unit of the data's columns, where it is known. */
+function lengthUnit(values) {
+  const si = unitAt('estimates[].x_f', 'm');
+  return written(si, largest([values.filter((value) => typeof value === 'number')])) || {unit: si, factor: 1};
+}
+
+/** A cell with a length: what is shown is scaled, what it stands for is SI. */
+const lengthCell = (value, {factor}, path) =>
+    ({text: typeof value === 'number' ? value * factor : value, title: `${value}`, path, value});
+
 function estimateTable(estimates) {
+  const length = lengthUnit(estimates.map((e) => e.x_f));
   const both = (value, interval, path) => ({
     text: value === null ?
         '–' :
@@ -103,13 +114,13 @@ function estimateTable(estimates) {
     value
   });
   return grid(
-      ['method', '', 'ζ (95 %)', `c [${unitAt('estimates[].c', 'N.s/m')}] (95 %)`, `x_f [${unitAt('estimates[].x_f', 'm')}]`, `F0 [${unitAt('estimates[].F0', 'N')}] (95 %)`, 'because'],
+      ['method', '', 'ζ (95 %)', `c [${unitAt('estimates[].c', 'N.s/m')}] (95 %)`, `x_f [${length.unit}]`, `F0 [${unitAt('estimates[].F0', 'N')}] (95 %)`, 'because'],
       estimates.map(
           (e, i) =>
               [{text: e.method, class: 'text'},
                {text: e.usable ? '✓ usable' : '✗ not usable', class: `text ${e.usable ? 'good' : 'bad'}`},
                both(e.zeta, e.interval95?.zeta, `estimates[${i}].zeta`),
-               both(e.c, e.interval95?.c, `estimates[${i}].c`), both(e.x_f, null, `estimates[${i}].x_f`),
+               both(e.c, e.interval95?.c, `estimates[${i}].c`), lengthCell(e.x_f, length, `estimates[${i}].x_f`),
                both(e.F0, e.interval95?.F0, `estimates[${i}].F0`), {text: e.diagnostics.reason, class: 'long'}]),
       {caption: 'Estimates'});
 }
@@ -117,10 +128,12 @@ function estimateTable(estimates) {
 /** The straight lines x = a + b Y behind the estimates. */
 function lineTable(estimates) {
   const at = (i, key) => `estimates[${i}].diagnostics.line.${key}`;
+  const length = lengthUnit(estimates.map(({diagnostics: {line}}) => line?.intercept));
   const rows = estimates.flatMap(({method, diagnostics: {line}}, i) => (line ? [[
-    {text: method, class: 'text'}, ...['slope', 'intercept', 'G'].map((key) => ({text: line[key], path: at(i, key)}))
+    {text: method, class: 'text'}, {text: line.slope, path: at(i, 'slope')},
+    lengthCell(line.intercept, length, at(i, 'intercept')), {text: line.G, path: at(i, 'G')}
   ]] : []));
-  return rows.length ? [grid(['x = a + b Y by', 'slope b', `intercept a [${unitAt('estimates[].x_f', 'm')}]`, 'G'], rows, {caption: 'Lines'})] : [];
+  return rows.length ? [grid(['x = a + b Y by', 'slope b', `intercept a [${length.unit}]`, 'G'], rows, {caption: 'Lines'})] : [];
 }
 
 /** Curves that came with the estimates: METHOD_NAME.csv, the first column against each of the others. */

@@ -93,6 +93,10 @@ const Section& CheckedFile::keys_of(std::string_view section) const {
   return format_.find(section)->choice->variants.front().section;
 }
 
+void CheckedFile::note_units(const identify::ColumnUnits& units) {
+  for (const auto& [column, unit] : units.stated) reading_.written_units.emplace("data." + column, unit);
+}
+
 void CheckedFile::fill_in(const std::string& key, Json value) {
   Json& analysis = reading_.values["analysis"];
   analysis[key] = std::move(value);

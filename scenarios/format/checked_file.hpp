@@ -69,6 +69,9 @@ class CheckedFile {
   [[nodiscard]] const std::optional<CoordinateSource>& coordinate_source() const { return reading_.coordinate; }
   void tell_coordinate(CoordinateSource source) { reading_.coordinate = std::move(source); }
 
+  /// The units of a data file's columns are the user's, too: `data.x` among the written units.
+  void note_units(const identify::ColumnUnits& units);
+
   /// Type of the analysis; empty when the file is too faulty to know.
   [[nodiscard]] const std::string& analysis() const { return analysis_; }
 

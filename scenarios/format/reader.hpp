@@ -26,7 +26,7 @@ inline constexpr std::size_t max_reported = 200;
 struct Reading {
   Json values;                                       ///< what could be read; faulty values are left out
   std::map<std::string, Place> places;               ///< of each value by path: "system.friction[0].static"
-  std::map<std::string, std::string> written_units;  ///< of quantities, by path; of a list that of its first item
+  std::map<std::string, std::string> written_units;  ///< of quantities, by path; columns of data: `data.x`
   std::vector<core::Diagnostic> problems;
   /// By the key `coordinate`, or by the units; nothing where all numbers are bare.
   std::optional<CoordinateSource> coordinate;

@@ -76,7 +76,7 @@ void refuse_gross_faults(CheckedFile& file, const identify::MeasuredRecord& data
   const identify::KnownConstants constants{file.number_at("system", "mass").value_or(identify::unknown),
                                            file.number_at("system", "stiffness").value_or(identify::unknown),
                                            frequency, file.coordinate()};
-  file.take_over(identify::gross_faults(data.record, constants, data.assumed, name));
+  file.take_over(identify::gross_faults(data.record, constants, data.units.assumed, name));
 }
 
 /// The uncertainty that a scale states is that of a gain: "2.5 mm/V ± 1 %".
@@ -160,7 +160,9 @@ void read_data_list(CheckedFile& file, const std::string& name) {
     const auto path = path_of_data(file, key, data_name);
     if (!path) continue;
     try {
-      file.files.push_back({data_name, name, i, read_by_units(file, *path, data_name, list[i])});
+      identify::MeasuredRecord data = read_by_units(file, *path, data_name, list[i]);
+      file.note_units(data.units);
+      file.files.push_back({data_name, name, i, std::move(data)});
     } catch (const core::InputError& error) {
       file.take_over(error.diagnostics());
     }
@@ -181,6 +183,7 @@ void read_data(CheckedFile& file) {
   take_gain_uncertainties(file);
   try {
     identify::MeasuredRecord data = read_by_units(file, *path, name, file.values().at("analysis"));
+    file.note_units(data.units);
     const Json& analysis = file.values().at("analysis");
     for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
       data.warnings.push_back(std::move(sentence));

@@ -46,11 +46,23 @@ bool is_asked_for(std::string_view path) { return path.starts_with(asked); }
 
 ShownUnits shown_units(const std::map<std::string, std::string>& written) {
   constexpr std::array kinds = {"m", "rad", "rad/s", "m/s", "s", "N", "N.m"};
-  constexpr std::array quantities = {"analysis.amplitudes",  "analysis.frequencies",
-                                     "analysis.duration",    "analysis.measurement.amplitudes",
-                                     "excitation.amplitude", "analysis.measurement.frequencies",
-                                     "excitation.frequency", "initial.position",
-                                     "initial.velocity",     "system.friction.kinetic"};
+  constexpr std::array quantities = {"data.x",
+                                     "data.y",
+                                     "data.Y",
+                                     "data.v",
+                                     "data.force",
+                                     "data.omega",
+                                     "data.t",
+                                     "analysis.amplitudes",
+                                     "analysis.frequencies",
+                                     "analysis.duration",
+                                     "analysis.measurement.amplitudes",
+                                     "excitation.amplitude",
+                                     "analysis.measurement.frequencies",
+                                     "excitation.frequency",
+                                     "initial.position",
+                                     "initial.velocity",
+                                     "system.friction.kinetic"};
   ShownUnits units;
   for (const auto& [path, unit] : written)
     if (is_asked_for(path)) add(unit, all_kinds, true, units);

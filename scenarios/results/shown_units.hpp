@@ -17,7 +17,8 @@ struct ShownUnit {
 
 using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by SI unit
 
-/// `written`: `Scenario::written_units`. What is varied tells first, then the excitation, then the initial state.
+/// `written`: `Scenario::written_units`. What was measured tells first, then what is varied, the excitation, then
+/// the initial state.
 [[nodiscard]] ShownUnits shown_units(const std::map<std::string, std::string>& written);
 
 /// Notes units that the user asks results to be shown in, with commas ("mm, Hz, kN"), among the written ones, which

@@ -43,6 +43,15 @@ class Manners(Case):
         row = next(text for text in shown.splitlines() if text.split()[:1] == [estimate["method"]] and "(" not in text)
         self.assertAlmostEqual(float(row.split()[1]), line["slope"], delta=1e-8 * line["slope"])
 
+    def test_lengths_are_shown_in_the_unit_of_the_data(self):
+        for unit, size in (("mm", 1e3), ("in", 1 / 0.0254)):
+            with self.subTest(unit):
+                rows = "".join(f"{Y * size},{x * size}\n" for Y, x in ((0.0045, 0.0047), (0.005, 0.0072), (0.0055, 0.0098), (0.006, 0.0123)))
+                self.write("data.csv", f"Y [{unit}],x [{unit}]\n{rows}")
+                shown = self.run_program("identify", "data.csv", "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz", "--out", unit).stdout
+                self.assertRegex(shown, rf"intercept a \[{unit}\] +G\n")
+                self.assertIn(f'"m":{{"unit":"{unit}"', (self.folder / unit / "report.html").read_text().replace(" ", ""))
+
     def test_an_unknown_law_may_be_that_of_a_plugin(self):
         self.write("plugin.yaml", (ROOT / "scenarios/examples/xy_curve.yaml").read_text().replace("law: coulomb", "law: bliman_sorine"))
         self.assertIn("; or the law of a plugin, with --plugin LIB\n", self.run_program("check", "plugin.yaml", status=3).stderr)
