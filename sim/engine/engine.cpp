@@ -188,7 +188,8 @@ void Engine::act_on_schedule(double due) {
 bool Engine::comes_to_an_end(bool takes_no_time) {
   repeats_ = takes_no_time ? repeats_ + 1 : 0;
   if (repeats_ <= max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) return true;
-  outcome_ = {core::OutcomeKind::jump_cycle, "a friction law's mode changes did not come to an end"};
+  outcome_ = {core::OutcomeKind::jump_cycle,
+              "a friction law's mode changes did not come to an end at t = " + std::to_string(time()) + " s"};
   return false;
 }
 

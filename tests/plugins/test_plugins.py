@@ -71,7 +71,7 @@ FAILED = {
     "scale": "scales() gave a size that is not above 0",
     "limit": "static_limit() gave -1, which is below 0",
     "guard lies": "a guard of a friction law has another sign when it is asked again",
-    "endless": "a friction law's mode changes did not come to an end",
+    "endless": "a friction law's mode changes did not come to an end at t = ",
 }
 
 
