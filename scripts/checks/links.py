@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Fails when a page links a file of the tree, or a heading of a page, that does not exist.
+"""Fails when a page links a file of the tree, or a heading of a page, that does not exist, or when the site lacks a page.
 
 usage: links.py ROOT
 
 Read are all Markdown files but those of build trees; those of docs/site/ stand among the pages of docs/ on the site. Headings
-have the anchors that GitHub and MyST give them. Links to other sites are not followed.
+have the anchors that GitHub and MyST give them. Links to other sites are not followed. A page of docs/ stands in a table of
+contents (`toctree`) of docs/site/.
 """
 
 import re
@@ -12,6 +13,7 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote
 
+TOCTREE = re.compile(r"^```\{toctree\}$(.*?)^```$", re.MULTILINE | re.DOTALL)
 FENCE = re.compile(r"^(```+|~~~+).*?^\1\s*$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"(`+).*?\1", re.DOTALL)
 LINK = re.compile(r"\[[^\]]*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
@@ -58,11 +60,21 @@ def link_faults(root, page, text):
             yield f"{where}: no heading '#{anchor}' in {path.relative_to(root)}"
 
 
+def site_faults(root):
+    site = root / "docs/site"
+    listed = {line.strip() for page in site.glob("*.md") for tree in TOCTREE.findall(page.read_text(encoding="utf-8"))
+              for line in tree.splitlines()}
+    for page in sorted((root / "docs").glob("*.md")):
+        if page.stem not in listed:
+            yield f"{page.relative_to(root)}: no table of contents of docs/site/ holds this page"
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     root = Path(sys.argv[1]).resolve()
     found = [fault for page in pages(root) for fault in link_faults(root, page, page.read_text(encoding="utf-8"))]
+    found += site_faults(root)
     for fault in found:
         print(fault)
     sys.exit(1 if found else 0)
