@@ -203,7 +203,7 @@ class Page(unittest.TestCase):
         self.assertEqual(shown, ["1e+5", "1.2345e+5", "12350", "120", "0", "−0.5", "2.5e-7", "1.2e+6"])
         self.assertEqual(self.ask("formula", "[short(100000), short(320160)]"), ["100000", "320160"])
 
-    def test_an_angle_is_shown_as_the_user_wrote_it_and_in_radians_otherwise(self):
+    def test_an_angle_is_shown_as_the_user_or_the_data_have_it(self):
         dom, _ = self.check("torsional_pendulum", 1)
         self.assertIn("output amplitude x [deg]", dom)
         self.assertIn("input amplitude Y [deg]", dom)
@@ -213,7 +213,7 @@ class Page(unittest.TestCase):
         self.run_program("identify", data, "--mass", "0.3 kg.m^2", "--stiffness", "12 N.m/rad", "--out", out, "--quiet")
         dom, console = self.load(out / "report.html")
         self.assertEqual(console, [])
-        for text in ("c [N.m.s/rad] (95 %)", "x_f [rad]", "F0 [N.m] (95 %)", "extreme x [rad]"):
+        for text in ("c [N.m.s/rad] (95 %)", "f [deg]</th>", "F0 [N.m] (95 %)", "extreme x [deg]"):
             self.assertIn(text, dom)
         self.assertIn("x_f [rad],", (out / "estimates.csv").read_text())
         self.assertIn("F0 [N.m],", (out / "estimates.csv").read_text())
