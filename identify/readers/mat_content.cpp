@@ -120,6 +120,7 @@ MatContent content(Receiver& from) {
   content.units.assumed = from.items([&from] { return from.text(); });
   for (std::uint64_t count = from.number(); count > 0; --count) {
     std::string column = from.text();
+    if (known_column(column) == nullptr) throw Nonsense{};
     content.units.stated[std::move(column)] = from.text();
   }
   from.expect_end();
