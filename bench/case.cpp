@@ -63,22 +63,22 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
   for (const SensorSet& sensors : question.sensors) {
     Laboratory laboratory{{oscillator.mass, oscillator.stiffness, rig.truth.model.excitation.frequency},
                           sensors.sensors};
-    if (motion.law != nullptr && motion.law->mislead != nullptr) motion.law->mislead(laboratory, motion.severity);
+    motion.departure.mislead(laboratory, motion.severity);
     std::optional<DepartedMotions> sampled;
     std::optional<DepartedMotions>& motions = sensors.sensors.sample_rate > 0.0 ? sampled : unsampled;
     std::optional<Consequence> consequence;
     for (int seed = 0; seed < question.seeds; ++seed, ++place) {
       if (!wanted(place)) continue;
       if (!consequence) {
-        DepartedRig departed{motion.law, motion.severity};
-        if (motion.law != nullptr) departed.reference = maker.reference();
+        DepartedRig departed{motion.departure, motion.severity};
+        if (!motion.departure.is_truth()) departed.reference = maker.reference();
         if (!motions) motions = departed_motions(maker, departed, rig.truth, laboratory.sensors);
         consequence = consequence_of(maker, departed, rig, *motions, laboratory, sensors.sensors);
       }
       std::vector<std::string> warnings;
       const identify::Record record = motions->here.reading(laboratory.sensors, grid.seed(place), warnings);
       const std::string reason = motions->here.curve.warnings.empty() ? "" : motions->here.curve.warnings.front();
-      take({place, record, laboratory.constants, sensors, *consequence, reason});
+      take({place, record, laboratory.constants, sensors, *consequence, motions->unmeasured, reason});
     }
   }
 }
@@ -88,13 +88,14 @@ void run_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::s
   const Grid::Motion motion = grid.motion(number);
   measure_motion(grid, options, number, wanted, [&](const MeasuredCase& measured) {
     Json line = {{"case", measured.number},
-                 {"law", motion.name()},
+                 {"law", motion.departure.name()},
                  {"severity", motion.severity},
                  {"rig", motion.rig},
                  {"range", grid.question().ranges[motion.range].name},
                  {"sensors", measured.sensors.name},
                  {"seed", grid.at(measured.number).seed}};
     line.update(consequence_json(measured.consequence));
+    line["unmeasured"] = {number_json(measured.unmeasured[0]), number_json(measured.unmeasured[1])};
     if (!measured.reason.empty()) line["reason"] = measured.reason;
     line["estimates"] = Json::array();
     for (const identify::MethodEntry* method : grid.question().methods)

@@ -20,6 +20,7 @@ struct MeasuredCase {
   const identify::KnownConstants& constants;
   const SensorSet& sensors;
   const Consequence& consequence;
+  const UnmeasuredAmplitudes& unmeasured;
   const std::string& reason;  ///< why some of it could not be measured; empty
 };
 

@@ -183,8 +183,7 @@ std::optional<Eigen::Vector2d> cramer_rao(const Eigen::VectorXd& here, const Dep
 
 /// The model that a departure makes of a truth.
 sim::Model model_of(const DepartedRig& departed, const Truth& truth) {
-  if (departed.law == nullptr) return undisturbed(truth);
-  return bench::departed(*departed.law, truth, departed.reference, departed.severity);
+  return departed.departure.model(truth, departed.reference, departed.severity);
 }
 
 /// Of the normal distribution.
@@ -202,7 +201,9 @@ DepartedMotions departed_motions(const MotionMaker& maker, const DepartedRig& de
   const auto motions = [&](double c, double F0) {
     return maker.motions(model_of(departed, changed(truth, {c, F0})), sensors);
   };
-  return {motions(0.0, 0.0), {motions(step_of_slopes, 0.0), motions(0.0, step_of_slopes)}};
+  return {motions(0.0, 0.0),
+          {motions(step_of_slopes, 0.0), motions(0.0, step_of_slopes)},
+          maker.unmeasured(model_of(departed, truth))};
 }
 
 Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed, const TrueRig& rig,
@@ -221,12 +222,12 @@ Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed
   if (!data) return result;
   const double stretch = std::sqrt(rig.truth.model.oscillator.mass * rig.truth.model.oscillator.stiffness /
                                    (laboratory.constants.mass * laboratory.constants.stiffness));
-  if (departed.law == nullptr) {
+  if (departed.departure.is_truth()) {
     result = {.distance = 0.0, .harm_zeta = 0.0, .harm_F0 = 0.0};
   } else if (const std::optional<Nearest> found = nearest(simple, *data)) {
     // zeta of the nearest motion is over the constants that are believed.
-    if (departed.law->has_zeta) result.harm_zeta = std::exp(found->p[0]) * stretch - 1.0;
-    if (departed.law->has_F0) result.harm_F0 = std::exp(found->p[1]) - 1.0;
+    if (departed.departure.has_zeta()) result.harm_zeta = std::exp(found->p[0]) * stretch - 1.0;
+    if (departed.departure.has_F0()) result.harm_F0 = std::exp(found->p[1]) - 1.0;
     result.distance = found->distance;
   }
   if (!has_noise) result.distance = not_stated;
@@ -234,8 +235,8 @@ Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed
   if (!std::isnan(result.distance)) result.attainable_power = probability_below(result.distance - one_sided);
   if (!has_noise) return result;
   if (const std::optional<Eigen::Vector2d> bound = cramer_rao(*data, motions, laboratory.sensors, deviations)) {
-    if (departed.law == nullptr || departed.law->has_zeta) result.cramer_rao_zeta = (*bound)[0];
-    if (departed.law == nullptr || departed.law->has_F0) result.cramer_rao_F0 = (*bound)[1];
+    if (departed.departure.has_zeta()) result.cramer_rao_zeta = (*bound)[0];
+    if (departed.departure.has_F0()) result.cramer_rao_F0 = (*bound)[1];
   }
   return result;
 }

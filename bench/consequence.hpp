@@ -40,7 +40,7 @@ struct Consequence {
 
 /// A departure as it is made, and as the laboratory reads it.
 struct DepartedRig {
-  const Rig* law = nullptr;  ///< nullptr: the truth
+  Departure departure{};
   double severity = 0.0;
   ReferenceMotion reference{};
 };
@@ -50,6 +50,7 @@ struct DepartedRig {
 struct DepartedMotions {
   Motions here;
   std::array<Motions, 2> beside;
+  UnmeasuredAmplitudes unmeasured{};
 };
 
 [[nodiscard]] DepartedMotions departed_motions(const MotionMaker& maker, const DepartedRig& departed,

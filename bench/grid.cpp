@@ -16,7 +16,7 @@ std::uint64_t mixed(std::uint64_t z) {
 
 Grid::Grid(const StressTest& question)
     : question_(question),
-      motions_per_range_(1 + question.laws.size() * question.severities.size()),
+      motions_per_range_(1 + question.departures.size() * question.severities.size()),
       cases_per_motion_(question.sensors.size() * static_cast<std::size_t>(question.seeds)) {}
 
 Grid::Motion Grid::motion(std::size_t number) const {
@@ -25,7 +25,7 @@ Grid::Motion Grid::motion(std::size_t number) const {
                 .range = number / motions_per_range_ % ranges,
                 .place = number % motions_per_range_};
   if (motion.place == 0) return motion;
-  motion.law = question_.laws[(motion.place - 1) / question_.severities.size()];
+  motion.departure = question_.departures[(motion.place - 1) / question_.severities.size()];
   motion.severity = question_.severities[(motion.place - 1) % question_.severities.size()];
   return motion;
 }
@@ -38,8 +38,8 @@ Grid::Case Grid::at(std::size_t number) const {
 
 TrueParameters Grid::parameters(const Motion& motion) const {
   TrueParameters truth = question_.rigs[motion.rig].parameters();
-  if (motion.law != nullptr && !motion.law->has_F0) truth.F0 = not_stated;
-  if (motion.law != nullptr && !motion.law->has_zeta) truth.zeta = not_stated;
+  if (!motion.departure.has_F0()) truth.F0 = not_stated;
+  if (!motion.departure.has_zeta()) truth.zeta = not_stated;
   return truth;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 /// The grid of a stress test, expanded: cases by number, and what they share.
 ///
-/// A motion is one law at one severity on one rig over one range of excitation. It serves all sensors and seeds,
-/// which are the cases; a case serves all methods. Motion 0 of each rig and range is the truth itself, friction
-/// that is Coulomb + viscous: there a rejection is a false alarm.
+/// A motion is one departure at one severity on one rig over one range of excitation. It serves all sensors and
+/// seeds, which are the cases; a case serves all methods. Motion 0 of each rig and range is the truth itself,
+/// friction that is Coulomb + viscous: there a rejection is a false alarm.
 ///
-/// A cell is what cases differ in by rig and seed only: law, severity, range and sensors.
+/// A cell is what cases differ in by rig and seed only: departure, severity, range and sensors.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,9 +14,6 @@
 #include "bench/stress_test.hpp"
 
 namespace dualdamp::bench {
-
-/// Name of the truth in the place of a law.
-inline constexpr const char* truth_name = "coulomb_viscous";
 
 class Grid {
  public:
@@ -31,10 +28,9 @@ class Grid {
   struct Motion {
     std::size_t rig = 0;
     std::size_t range = 0;
-    std::size_t place = 0;     ///< among the motions of a rig and range
-    const Rig* law = nullptr;  ///< nullptr: the truth
+    std::size_t place = 0;  ///< among the motions of a rig and range
+    Departure departure{};
     double severity = 0.0;
-    [[nodiscard]] std::string name() const { return law == nullptr ? truth_name : std::string(law->name); }
   };
   [[nodiscard]] Motion motion(std::size_t number) const;
 

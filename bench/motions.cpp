@@ -1,5 +1,7 @@
 #include "bench/motions.hpp"
 
+#include <algorithm>
+
 #include "bench/rigs.hpp"
 
 namespace dualdamp::bench {
@@ -51,6 +53,22 @@ Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& s
   scenarios::Measurement decay{.kind = scenarios::MeasurementKind::free_decay};
   decay.peaks = question_.decay->peaks;
   result.decay = scenarios::motion_of(released, decay, sensors, options_);
+  return result;
+}
+
+UnmeasuredAmplitudes MotionMaker::unmeasured(const sim::Model& model) const {
+  sim::SteadyStateOptions amplitude_alone = options_;
+  amplitude_alone.full_account = false;
+  // A departure may drive at another frequency than the one that the laboratory sets.
+  const double detuning = model.excitation.frequency / rig_.truth.model.excitation.frequency;
+  UnmeasuredAmplitudes result{};
+  std::ranges::transform(unmeasured_tests(range_, rig_), result.begin(), [&](const UnmeasuredTest& test) {
+    sim::Model driven = model;
+    driven.excitation.amplitude = test.Y;
+    driven.excitation.frequency = test.frequency * detuning;
+    const sim::SteadyState state = sim::steady_state(driven, amplitude_alone);
+    return state.outcome.ok() && state.amplitude > 0.0 ? state.amplitude : not_stated;
+  });
   return result;
 }
 

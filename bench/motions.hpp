@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/prediction.hpp"
 #include "bench/stress_test.hpp"
 #include "identify/records/sensors.hpp"
 #include "scenarios/measurements/measure.hpp"
@@ -37,6 +38,9 @@ class MotionMaker {
   /// input amplitudes.
   [[nodiscard]] Motions motions(const sim::Model& model, const identify::Sensors& sensors,
                                 double stretch = 1.0) const;
+
+  /// What the model would do in the tests that are not made; NaN where it has no steady state or does not move.
+  [[nodiscard]] UnmeasuredAmplitudes unmeasured(const sim::Model& model) const;
 
  private:
   const StressTest& question_;

@@ -42,6 +42,14 @@ std::vector<std::string> departure_names() {
   return names;
 }
 
+/// Those that can stand beside another.
+std::vector<std::string> companion_names() {
+  std::vector<std::string> names;
+  for (const Rig& departure : departures())
+    if (leaves_friction_alone(departure)) names.emplace_back(departure.name);
+  return names;
+}
+
 /// {from, to}: between which the rigs lie, spaced by ratios.
 Field between(const std::string& name, const std::string& meaning) {
   return section(name,
@@ -69,11 +77,16 @@ Section keys() {
     if (field.name != "seed") set.push_back(std::move(field));
   const Section range = {
       {text("name", "its name in the results").required(), amplitudes(), optional(frequencies())}};
+  const Section pair = {
+      {words("law", departure_names(), "the first departure").required(),
+       words("beside", companion_names(), "a second one, in spring, sensors, constants or drive").required()}};
   const Section decay = {
       {quantity("displacement", {"m"}, "initial displacement of a release from rest").required().above(0),
        peaks()}};
   return {
       {word_list("laws", departure_names(), "departures from Coulomb + viscous friction; default: all"),
+       section_list("pairs", pair, "two departures together, both at each severity; default: none")
+           .items(1, max_sets),
        grid("severities", {"1"}, "severities; each departure defines its own")
            .required()
            .above(0)
@@ -94,18 +107,51 @@ Section keys() {
        methods_key("all that the measurements allow")}};
 }
 
+/// An item of `pairs`; nothing where the reader has refused a part of it.
+std::optional<Departure> pair_of(const Json& item) {
+  if (!item.contains("law") || !item.contains("beside")) return std::nullopt;
+  return Departure{find_departure(item.at("law").get<std::string>()),
+                   find_departure(item.at("beside").get<std::string>())};
+}
+
+/// In the order of the file: those alone, then the pairs.
+std::vector<Departure> departures_of(const Json& analysis) {
+  std::vector<Departure> list;
+  for (const Json& name : analysis.at("laws")) list.push_back({find_departure(name.get<std::string>())});
+  for (const Json& item : analysis.value("pairs", Json::array()))
+    if (const std::optional<Departure> pair = pair_of(item)) list.push_back(*pair);
+  return list;
+}
+
 /// Beyond its largest severity a departure has no meaning.
 void check_severities(CheckedFile& file, const Json& analysis) {
   const Json& grid = analysis.at("severities");
   double most = 0.0;
   for (const Json& value : grid.is_array() ? grid : Json::array({grid.at("from"), grid.at("to")}))
     most = std::max(most, number(value));
-  for (const Json& name : analysis.at("laws")) {
-    const Rig& law = *find_departure(name.get<std::string>());
-    if (most > law.largest)
-      file.complain("analysis.severities", "'" + std::string(law.name) + "' has no such severity",
-                    "at most " + core::format_number(law.largest, 3) + ": " + std::string(law.severity),
+  for (const Departure& departure : departures_of(analysis)) {
+    if (most > departure.largest())
+      file.complain("analysis.severities", "'" + departure.name() + "' has no such severity",
+                    "at most " + core::format_number(departure.largest(), 3) + ": " + departure.severity(),
                     core::format_number(most, 6));
+  }
+}
+
+/// Two of one family would undo or repeat each other.
+void check_pairs(CheckedFile& file, const Json& analysis) {
+  const Json pairs = analysis.value("pairs", Json::array());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::string place = "analysis.pairs[" + std::to_string(i) + "]";
+    const std::optional<Departure> both = pair_of(pairs.at(i));
+    if (!both) continue;
+    if (both->law->family == both->beside->family)
+      file.complain(place + ".beside", "both departures lie in one family",
+                    "a departure that is not of " + std::string(name_of(both->law->family)),
+                    std::string(both->beside->name));
+    names.push_back(both->name());
+    if (std::ranges::count(names, names.back()) > 1)
+      file.complain(place + ".law", "there are two pairs of these departures", "distinct pairs", names.back());
   }
 }
 
@@ -182,9 +228,11 @@ void check(CheckedFile& file) {
   }
   resolve_methods(file, outlines(analysis), scenarios::SlowMethods::only_where_named);
   if (!analysis.contains("laws")) return;
+  check_pairs(file, analysis);
   check_severities(file, analysis);
+  const std::size_t departures = departures_of(analysis).size();
   const std::size_t motions =
-      (1 + analysis.at("laws").size() * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
+      (1 + departures * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
   const std::size_t sets = analysis.contains("sensors") ? analysis.at("sensors").size() : 1;
   constexpr double most_cases = 1e7;
   const int rigs = analysis.contains("rigs") ? analysis.at("rigs").value("count", 1) : 1;
@@ -235,7 +283,7 @@ std::vector<TrueRig> rigs_of(const CheckedValues& values, double middle) {
 StressTest stress_test_of(const CheckedValues& values) {
   const Json& section = values.analysis;
   StressTest result;
-  for (const Json& name : section.at("laws")) result.laws.push_back(find_departure(name.get<std::string>()));
+  result.departures = departures_of(section);
   result.severities = grid_values(section.at("severities"));
   std::ranges::sort(result.severities);
   for (const Json& range : section.at("ranges"))

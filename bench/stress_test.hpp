@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rigs.hpp"
+#include "bench/departure.hpp"
 #include "bench/score/case_answer.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
@@ -47,7 +47,7 @@ struct TrueRig {
 
 struct StressTest {
   std::vector<TrueRig> rigs;
-  std::vector<const Rig*> laws;
+  std::vector<Departure> departures;
   std::vector<double> severities;  ///< ascending, > 0
   std::vector<ExcitationRange> ranges;
   std::vector<SensorSet> sensors;

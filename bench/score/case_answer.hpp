@@ -62,6 +62,7 @@ struct ParameterMark {
 struct Mark {
   ParameterMark zeta, F0;
   float loss = 1.0F;
+  float prediction_error = 1.0F;  ///< bench/prediction.hpp
   float confidence = 0.0F;
   bool rejected = true;
   bool given = false;

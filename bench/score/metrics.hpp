@@ -19,12 +19,13 @@ enum class Metric : std::size_t {
   power,                ///< share of cases with a departure that the method rejects
   attainable_power,     ///< that of the best test which knows the departure
   false_alarm,          ///< share of cases without a departure that the method rejects
+  prediction_error,     ///< mean relative error of amplitudes in tests that were not made
   selective_risk_area,  ///< mean loss over the coverage, the cases in the order of the method's own confidence
 };
-inline constexpr std::size_t metric_count = 8;
+inline constexpr std::size_t metric_count = 9;
 inline constexpr std::array<std::string_view, metric_count> metric_names = {
-    "coverage_zeta", "coverage_F0",      "interval_score_zeta", "interval_score_F0",
-    "power",         "attainable_power", "false_alarm",         "selective_risk_area"};
+    "coverage_zeta",    "coverage_F0", "interval_score_zeta", "interval_score_F0",  "power",
+    "attainable_power", "false_alarm", "prediction_error",    "selective_risk_area"};
 
 /// NaN: does not exist.
 struct Metrics {

@@ -26,14 +26,11 @@ Table cell_table(const Scores& scores, const Grid& grid) {
   const std::vector<CellScore>& list = scores.cells;
   const auto place = [&](const CellScore& score) { return grid.first_of_cell(score.cell); };
   const auto motion = [&](const CellScore& score) { return grid.motion(place(score).motion); };
-  const auto family = [&](const CellScore& score) {
-    const Rig* law = motion(score).law;
-    return name_of(law == nullptr ? Family::none : law->family);
-  };
+  const auto family = [&](const CellScore& score) { return name_of(motion(score).departure.family()); };
   Table table{
       "scores",
       {text_column("family", list, family),
-       text_column("law", list, [&](const CellScore& s) { return motion(s).name(); }),
+       text_column("law", list, [&](const CellScore& s) { return motion(s).departure.name(); }),
        column("severity", "", list, [&](const CellScore& s) { return motion(s).severity; }),
        text_column("range", list, [&](const CellScore& s) { return question.ranges[motion(s).range].name; }),
        text_column("sensors", list, [&](const CellScore& s) { return question.sensors[place(s).sensors].name; }),
@@ -97,7 +94,7 @@ Table consequence_table(const MarkedCases& cases, const Grid& grid) {
   };
   const auto rig = [&](std::size_t row) -> const TrueRig& { return question.rigs[motion(row).rig]; };
   Table table{"consequences",
-              {text_column("law", rows, [&](std::size_t r) { return motion(r).name(); }),
+              {text_column("law", rows, [&](std::size_t r) { return motion(r).departure.name(); }),
                column("severity", "", rows, [&](std::size_t r) { return motion(r).severity; }),
                column("rig", "", rows, [&](std::size_t r) { return static_cast<double>(motion(r).rig); }),
                text_column("range", rows, [&](std::size_t r) { return question.ranges[motion(r).range].name; }),
@@ -118,11 +115,11 @@ Table consequence_table(const MarkedCases& cases, const Grid& grid) {
 }
 
 Table departure_table(const Grid& grid) {
-  const std::vector<const Rig*>& list = grid.question().laws;
+  const std::vector<Departure>& list = grid.question().departures;
   Table table{"departures",
-              {text_column("departure", list, [](const Rig* law) { return law->name; }),
-               text_column("family", list, [](const Rig* law) { return name_of(law->family); }),
-               text_column("severity", list, [](const Rig* law) { return law->severity; })},
+              {text_column("departure", list, [](const Departure& d) { return d.name(); }),
+               text_column("family", list, [](const Departure& d) { return name_of(d.family()); }),
+               text_column("severity", list, [](const Departure& d) { return d.severity(); })},
               true};
   table.key = "departures";
   return table;
@@ -136,8 +133,8 @@ Table short_ranking(const Scores& scores, const Grid& grid) {
                column("rank_from", "", list, &Rank::from), column("rank_to", "", list, &Rank::to),
                column("interval_score", "", list, &Rank::interval_score),
                column("interval_score_se", "", list, &Rank::interval_score_se)}};
-  for (const Metric metric :
-       {Metric::coverage_zeta, Metric::coverage_F0, Metric::power, Metric::attainable_power, Metric::false_alarm})
+  for (const Metric metric : {Metric::coverage_zeta, Metric::coverage_F0, Metric::power, Metric::attainable_power,
+                              Metric::false_alarm, Metric::prediction_error})
     table.columns.push_back(column(std::string(metric_names.at(static_cast<std::size_t>(metric))), "", list,
                                    [metric](const Rank& r) { return r.value[metric]; }));
   table.is_file = false;
@@ -167,6 +164,7 @@ void add_metric_fields(std::vector<scenarios::ResultField>& fields, const std::s
       "share of cases with a departure that the method rejects",
       "that of the best test which knows the departure",
       "share of cases without a departure that the method rejects",
+      "mean relative error of the amplitudes that the estimate predicts for tests that were not made",
       "mean loss over coverage, the cases in the order of the method's confidence"};
   for (std::size_t i = 0; i < metric_count; ++i) {
     const std::string path = list + "[]." + std::string(metric_names.at(i));

@@ -77,11 +77,9 @@ class Plan {
     }
     for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
       const Grid::Motion motion = grid.motion(grid.first_of_cell(cell).motion);
-      law_of_.push_back(
-          motion.law == nullptr
-              ? question.laws.size()
-              : static_cast<std::size_t>(std::ranges::find(question.laws, motion.law) - question.laws.begin()));
-      family_of_.push_back(motion.law == nullptr ? Family::none : motion.law->family);
+      law_of_.push_back(static_cast<std::size_t>(std::ranges::find(question.departures, motion.departure) -
+                                                 question.departures.begin()));
+      family_of_.push_back(motion.departure.family());
     }
     order_.resize(question.entrants());
     for (std::size_t entrant = 0; entrant < order_.size(); ++entrant) {
@@ -140,6 +138,7 @@ Metrics cell_metrics(const Plan& plan, const Resample& resample, std::size_t cel
     add_parameter(mark.zeta, weight, mean(Metric::coverage_zeta), mean(Metric::interval_score_zeta));
     add_parameter(mark.F0, weight, mean(Metric::coverage_F0), mean(Metric::interval_score_F0));
     mean(is_truth ? Metric::false_alarm : Metric::power).add(weight, mark.rejected ? 1.0 : 0.0);
+    mean(Metric::prediction_error).add(weight, static_cast<double>(mark.prediction_error));
     if (!is_truth) mean(Metric::attainable_power).add(weight, plan.consequence(number).attainable_power);
   }
   Metrics metrics;
@@ -225,7 +224,7 @@ struct CellWeights {
 };
 
 CellWeights weights_of(const Plan& plan, const Resample& resample) {
-  const std::size_t laws = plan.grid().question().laws.size();
+  const std::size_t laws = plan.grid().question().departures.size();
   CellWeights weights;
   std::map<Family, double> sums;
   for (std::size_t cell = 0; cell < plan.grid().cells(); ++cell) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/grid.hpp"
+#include "bench/prediction.hpp"
 #include "bench/score/metrics.hpp"
 
 namespace dualdamp::bench {
@@ -67,9 +68,10 @@ struct CaseConsequence {
   double distance = not_stated, harm = not_stated, harm_zeta = not_stated, harm_F0 = not_stated;
   double attainable_power = not_stated;
   double cramer_rao_zeta = not_stated, cramer_rao_F0 = not_stated;
+  UnmeasuredAmplitudes unmeasured = {not_stated, not_stated};
 };
 
-/// All answers to a stress test, marked. Memory is 36 bytes an estimate.
+/// All answers to a stress test, marked. Memory is 40 bytes an estimate.
 struct MarkedCases {
   std::vector<std::vector<Mark>> marks;       ///< by entrant, case
   std::vector<CaseConsequence> consequences;  ///< by motion, sensors

@@ -41,8 +41,8 @@ RigBase base_of(const Apparatus& apparatus, const RigFriction& friction, double 
 }  // namespace
 
 std::string_view name_of(Family family) {
-  static constexpr std::array<std::string_view, 9> names = {
-      "none", "presliding", "velocity", "position", "memory", "spring", "sensors", "constants", "drive"};
+  static constexpr std::array<std::string_view, 10> names = {
+      "none", "presliding", "velocity", "position", "memory", "spring", "sensors", "constants", "drive", "pairs"};
   return names.at(static_cast<std::size_t>(family));
 }
 

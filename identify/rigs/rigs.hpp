@@ -60,6 +60,7 @@ enum class Family {
   sensors,     ///< readings that are off
   constants,   ///< mass or stiffness that are not as stated
   drive,       ///< a drive that is not as stated
+  pairs,       ///< two of these together
 };
 
 /// "presliding"

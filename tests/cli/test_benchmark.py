@@ -18,12 +18,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from resonance import F0, MASS, STIFFNESS, ZETA, amplitude, line, nearest, steady_state
+
 PROGRAM = str(Path(sys.argv[1]).resolve())
 ROOT = Path(sys.argv[2]).resolve()
 SCENARIO = ROOT / "scenarios/stress/small.yaml"
 METRICS = ("coverage_zeta", "coverage_F0", "interval_score_zeta", "interval_score_F0", "power", "attainable_power", "false_alarm",
-           "selective_risk_area")
-MASS, STIFFNESS, ZETA, F0 = 1.042, 1568.0, 0.0987, 4.39  # of small.yaml
+           "prediction_error", "selective_risk_area")
 SEEDS = 4
 
 
@@ -225,8 +226,31 @@ class Benchmark(unittest.TestCase):
                 else:
                     self.assertAlmostEqual(float(row[metric]), value, delta=1e-5 * max(1, value), msg=f"{cell} {metric}")
                 checked += 1
-        self.assertGreaterEqual(checked, 12 * 5)
+        self.assertGreaterEqual(checked, 10 * 7)
         self.check_families(out, rows)
+
+    def test_prediction_errors_recomputed_from_den_hartogs_law(self):
+        """Of answers that are drawn: amplitudes in two tests that no record holds, half as far again and 10 % below in frequency."""
+        drawn = self.drawn()
+        answers = self.write("drawn.csv", drawn, ["case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value", "usable"])
+        out, _ = self.score(f"drawn={answers}")
+        wn, by_case = math.sqrt(STIFFNESS / MASS), {row["case"]: row for row in drawn}
+        tests = [(1.5 * 7.5e-3, wn), (6e-3, 0.9 * wn)]
+        cells = {}
+        for i, (law, severity, _) in enumerate(self.cases()):
+            if law == "contact_compliance":
+                continue
+            faster = 1 + severity if law == "detuning" else 1
+            error = 0
+            for Y, omega in tests:
+                row = by_case.get(i + 1)
+                truth = steady_state(ZETA, F0, Y, omega * faster)[0]
+                error += min(1, abs(steady_state(row["zeta"], row["F0"], Y, omega)[0] / truth - 1)) / 2 if row else 0.5
+            cells.setdefault((law, severity), []).append(error)
+        rows = {(row["law"], float(row["severity"])): row for row in table(out / "scores.csv") if row["method"] == "drawn"}
+        self.assertEqual(len(cells), 7)
+        for cell, errors in cells.items():
+            self.assertAlmostEqual(float(rows[cell]["prediction_error"]), sum(errors) / len(errors), delta=1e-5, msg=cell)
 
     def check_families(self, out, rows):
         """Departures first, then families."""
@@ -247,58 +271,36 @@ class Benchmark(unittest.TestCase):
             self.assertAlmostEqual(float(overall[metric]), sum(values) / len(values), delta=1e-9)
         self.assertAlmostEqual(float(overall["interval_score"]), (float(overall["interval_score_zeta"]) + float(overall["interval_score_F0"])) / 2, delta=1e-9)
 
-    @staticmethod
-    def steady_state(zeta, friction, Y, omega):
-        """Amplitude and phase lag of the fundamental, from Den Hartog's half period between two turning points."""
-        wn = math.sqrt(STIFFNESS / MASS)
-        r = omega / wn
-        s, beta = math.sqrt(1 - zeta**2), wn / omega
-        a, b = math.pi * zeta * beta, math.pi * s * beta
-        G = (math.sinh(a) - zeta / s * math.sin(b)) / (math.cosh(a) + math.cos(b))
-        H = beta / s * math.sin(b) / (math.cosh(a) + math.cos(b))
-        forced = Y / math.sqrt((1 - r**2) ** 2 + (2 * zeta * r) ** 2)
-        x_f = friction / STIFFNESS
-        x = math.sqrt(forced**2 - (H * x_f) ** 2) - G * x_f
-        best = None
-        for sign in (1, -1):  # the one that reaches the other turning point
-            angle = math.atan2(sign * H * x_f, x + G * x_f)
-            A = x - x_f - forced * math.cos(angle)
-            B = (zeta * wn * A + omega * forced * math.sin(angle)) / (s * wn)
-
-            def position(t, A=A, B=B, angle=angle):
-                return x_f + forced * math.cos(omega * t + angle) + math.exp(-zeta * wn * t) * (A * math.cos(s * wn * t) + B * math.sin(s * wn * t))
-
-            miss = abs(position(math.pi / omega) + x)
-            if best is None or miss < best[0]:
-                best = miss, angle, position
-        miss, angle, position = best
-        assert miss < 1e-9 * x, miss
-        n = 400  # Simpson's rule over the half period
-        cosine = sine = 0.0
-        for i in range(n + 1):
-            weight = (1 if i in (0, n) else 4 if i % 2 else 2) / (3 * n) * 2
-            value = position(i / n * math.pi / omega)
-            cosine += weight * value * math.cos(math.pi * i / n)
-            sine += weight * value * math.sin(math.pi * i / n)
-        drive = angle + math.atan2(2 * zeta * r, 1 - r**2)
-        return x, (drive + math.atan2(sine, cosine)) % (2 * math.pi)
-
-    def nearest(self, data, deviations, levels, omega):
-        """Distance and the (zeta, F0) of the least-squares Coulomb + viscous motion, over the truth less 1."""
-
-        def residuals(p):
-            readings = [value for Y in levels for value in self.steady_state(ZETA * math.exp(p[0]), F0 * math.exp(p[1]), Y, omega)]
-            return [(d - f) / s for d, f, s in zip(data, readings, deviations)]
-
-        p = [0.0, 0.0]
-        for _ in range(30):
-            here, h = residuals(p), 1e-6
-            J = [[(t - r) / h for t, r in zip(residuals([p[0] + h * (j == 0), p[1] + h * (j == 1)]), here)] for j in (0, 1)]
-            (aa, ab), bb = [sum(u * v for u, v in zip(J[0], J[k])) for k in (0, 1)], sum(v * v for v in J[1])
-            ga, gb = (-sum(u * r for u, r in zip(J[k], here)) for k in (0, 1))
-            determinant = aa * bb - ab * ab
-            p = [p[0] + (bb * ga - ab * gb) / determinant, p[1] + (aa * gb - ab * ga) / determinant]
-        return math.sqrt(sum(r * r for r in residuals(p))), math.exp(p[0]) - 1, math.exp(p[1]) - 1
+    def test_estimates_of_twenty_cells_recomputed_by_another_integrator(self):
+        """Without noise: the errors of the line through motions that are integrated here, for departures of every kind."""
+        s, wn = 0.04, math.sqrt(STIFFNESS / MASS)
+        levels = [4.5e-3 + i * 0.75e-3 for i in range(5)]
+        X, c = amplitude(levels[2], wn), 2 * ZETA * math.sqrt(MASS * STIFFNESS)
+        V = wn * X
+        motions = {  # law: arguments of the motion, frequency ratio, gains of y and x, mass and stiffness as stated
+            "coulomb_viscous": {}, "asymmetry": {"forward": s}, "base_distortion": {"third": s * levels[2]},
+            "base_gain": {"y": 1 + s}, "cubic_spring": {"cubic": s * STIFFNESS / X**2}, "dahl": {"bristle": F0 / (s * X)},
+            "detuned_below": {"r": 1 - s}, "detuning": {"r": 1 + s}, "displacement_gain": {"x": 1 + s}, "late_displacement": {},
+            "mass_overstated": {"m": 1 + s}, "quadratic_drag": {"damper": lambda v: c * v * (1 + s * abs(v) / V)}, "softening_spring": {"cubic": -s * STIFFNESS / X**2}, "static_friction": {},
+            "stiffness_overstated": {"k": 1 + s}, "stiffness_understated": {"k": 1 - s / 2},
+            "viscous_saturating": {"damper": lambda v: c * v / (1 + abs(v) * s / V)},
+        }
+        laws = sorted(set(motions) - {"coulomb_viscous"})
+        pairs = [("dahl", "stiffness_overstated"), ("asymmetry", "detuning"), ("cubic_spring", "displacement_gain")]
+        motions |= {f"{law} + {beside}": motions[law] | motions[beside] for law, beside in pairs}
+        out = self.folder / "exact"
+        self.call("run", SCENARIO, "--set", f"analysis.laws=[{', '.join(laws)}]", "--set", f"analysis.severities=[{s}]", "--set",
+                  f"analysis.pairs=[{', '.join(f'{{law: {law}, beside: {beside}}}' for law, beside in pairs)}]", "--set",
+                  "analysis.sensors=[{name: perfect}]", "--set", "analysis.seeds=1", "--set", "analysis.methods=[resonance_least_squares]", "--set",
+                  "expect=[{value: cases.failed, equals: 0}]", "--out", out, "--quiet")
+        rows = {row["law"]: row for row in table(out / "scores.csv")}
+        self.assertEqual(set(rows), set(motions))
+        for law, change in motions.items():
+            r, y, x, m, k = (change.pop(key, 1) for key in ("r", "y", "x", "m", "k"))
+            amplitudes = [x * amplitude(Y, wn * r, **change) for Y in levels]
+            zeta, friction = line([y * Y for Y in levels], amplitudes, MASS * m, STIFFNESS * k)
+            self.assertAlmostEqual(number(rows[law]["zeta_bias"]), zeta / ZETA - 1, delta=2e-5, msg=law)
+            self.assertAlmostEqual(number(rows[law]["F0_bias"]), friction / F0 - 1, delta=2e-5, msg=law)
 
     def test_distance_and_harm_of_a_detuned_drive_are_those_of_den_hartogs_law(self):
         wn = math.sqrt(STIFFNESS / MASS)
@@ -311,11 +313,11 @@ class Benchmark(unittest.TestCase):
         for severity in (0.003, 0.01, 0.03):  # none of these motions rests
             data, deviations = [], []
             for Y in levels:
-                x, phase = self.steady_state(ZETA, F0, Y, wn * (1 + severity))
-                slope = (self.steady_state(ZETA, F0, Y * 1.001, wn)[0] - self.steady_state(ZETA, F0, Y, wn)[0]) / (0.001 * Y)
+                x, phase = steady_state(ZETA, F0, Y, wn * (1 + severity))
+                slope = (steady_state(ZETA, F0, Y * 1.001, wn)[0] - steady_state(ZETA, F0, Y, wn)[0]) / (0.001 * Y)
                 data += [x, phase]
                 deviations += [math.hypot(x_noise, slope * y_noise) / math.sqrt(2 * periods), math.hypot(x_noise / x, y_noise / Y) / math.sqrt(periods)]
-            distance, zeta, friction = self.nearest(data, deviations, levels, wn)
+            distance, zeta, friction = nearest(data, deviations, levels, wn)
             row = rows["detuning", severity]
             self.assertAlmostEqual(number(row["distance"]) / distance, 1, delta=1e-3)
             self.assertAlmostEqual(number(row["harm_zeta"]), zeta, delta=1e-3 * max(abs(zeta), 0.01))

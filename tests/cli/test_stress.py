@@ -195,6 +195,9 @@ class Stress(unittest.TestCase):
                 (response, "analysis.methods=[resonance_least_squares]", "the pairs were measured at several frequencies"),
                 (response, "analysis.methods=[output_error]", "method 'output_error' cannot be used"),
                 (response, "analysis.severities=[2]", "'bouc_wen' has no such severity"),
+                (SCENARIO, "analysis.pairs=[{law: base_gain, beside: displacement_gain}]", "both departures lie in one family"),
+                (SCENARIO, "analysis.pairs=[{law: lugre, beside: dahl}]", "cannot be 'dahl'"),
+                (SCENARIO, "analysis.pairs=[{law: iwan, beside: detuning}, {law: iwan, beside: detuning}]", "two pairs of these departures"),
                 (histories, "analysis.sensors[0].average_cycles=9000", "the history has too many rows")]:
             result = self.run_program("run", file, "--out", self.folder / "none", "--set", assignment, status=3)
             self.assertIn(message, result.stderr)

@@ -54,7 +54,7 @@ std::vector<rigs::Rig> all_laws() {
 }
 constexpr std::array no_laws = {"rough_way", "warming"};
 /// The other sign of a law that is two-sided here.
-constexpr std::array twins = {"detuned_below", "softening_spring", "viscous_power_below", "position_slope_up"};
+constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
 
 template <typename List>
 bool names(const List& list, std::string_view name) {

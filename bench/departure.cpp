@@ -1,0 +1,59 @@
+#include "bench/departure.hpp"
+
+#include <algorithm>
+
+namespace dualdamp::bench {
+
+std::string Departure::name() const {
+  if (is_truth()) return truth_name;
+  return std::string(law->name) + (beside == nullptr ? "" : " + " + std::string(beside->name));
+}
+
+Family Departure::family() const {
+  if (is_truth()) return Family::none;
+  return beside == nullptr ? law->family : Family::pairs;
+}
+
+std::string Departure::severity() const {
+  if (is_truth()) return "";
+  return std::string(law->severity) + (beside == nullptr ? "" : "; " + std::string(beside->severity));
+}
+
+double Departure::largest() const {
+  return beside == nullptr ? law->largest : std::min(law->largest, beside->largest);
+}
+
+bool Departure::has_zeta() const {
+  return is_truth() || (law->has_zeta && (beside == nullptr || beside->has_zeta));
+}
+
+bool Departure::has_F0() const { return is_truth() || (law->has_F0 && (beside == nullptr || beside->has_F0)); }
+
+sim::Model Departure::model(const Truth& truth, const ReferenceMotion& reference, double s) const {
+  if (is_truth()) return undisturbed(truth);
+  if (beside == nullptr) return departed(*law, truth, reference, s);
+  // The second rig changes oscillator and drive; friction is that of the first.
+  Truth changed = truth;
+  changed.model = departed(*beside, truth, reference, s);
+  changed.model.friction.clear();
+  return departed(*law, changed, reference, s);
+}
+
+void Departure::mislead(Laboratory& laboratory, double s) const {
+  for (const Rig* rig : {law, beside})
+    if (rig != nullptr && rig->mislead != nullptr) rig->mislead(laboratory, s);
+}
+
+bool leaves_friction_alone(const Rig& rig) {
+  switch (rig.family) {
+    case Family::spring:
+    case Family::sensors:
+    case Family::constants:
+    case Family::drive:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace dualdamp::bench
