@@ -6,6 +6,7 @@
 
 #include "bench/motions.hpp"
 #include "identify/estimate.hpp"
+#include "identify/methods/any_law/any_law.hpp"
 
 namespace dualdamp::bench {
 
@@ -46,6 +47,18 @@ Json consequence_json(const Consequence& consequence) {
           {"attainable_power", number_json(consequence.attainable_power)},
           {"cramer_rao_zeta", number_json(consequence.cramer_rao_zeta)},
           {"cramer_rao_F0", number_json(consequence.cramer_rao_F0)}};
+}
+
+/// A law that makes a record stays out of the library of a method that seeks laws: such a method is judged by laws
+/// that it does not know.
+identify::OptionValues options_for(const identify::MethodEntry& method, const Departure& departure) {
+  if (!method.has(identify::without_option)) return {};
+  std::vector<std::string> unknown;
+  for (const std::string& name : identify::library_names())
+    for (const Rig* rig : {departure.law, departure.beside})
+      if (rig != nullptr && rig->name == name) unknown.push_back(name);
+  if (unknown.empty()) return {};
+  return {{std::string(identify::without_option.name), unknown}};
 }
 
 }  // namespace
@@ -99,7 +112,8 @@ void run_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::s
     if (!measured.reason.empty()) line["reason"] = measured.reason;
     line["estimates"] = Json::array();
     for (const identify::MethodEntry* method : grid.question().methods)
-      line["estimates"].push_back(estimate_json(method->run(measured.record, measured.constants, {})));
+      line["estimates"].push_back(
+          estimate_json(method->run(measured.record, measured.constants, options_for(*method, motion.departure))));
     take(line.dump());
   });
 }

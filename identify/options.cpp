@@ -13,6 +13,12 @@ constexpr int digits = 15;
 
 bool is_list(OptionKind kind) { return kind == OptionKind::numbers || kind == OptionKind::counts; }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 /// The numbers of a value; a flag has none.
 std::vector<double> numbers_in(const OptionValue& value) {
   if (const auto* count = std::get_if<int>(&value)) return {static_cast<double>(*count)};
@@ -22,11 +28,25 @@ std::vector<double> numbers_in(const OptionValue& value) {
   return {};
 }
 
+/// Of a list of words.
+core::Diagnostic complaint_about_words(const Option& option, const std::vector<std::string>& given) {
+  const std::string name = "option '" + std::string(option.name) + "' ";
+  if (given.size() < option.least_items || given.size() > option.most_items)
+    return {{}, name + "has the wrong number of items", option.describe(), std::to_string(given.size()), {}};
+  const std::vector<std::string> allowed = option.words();
+  for (const std::string& word : given)
+    if (std::ranges::find(allowed, word) == allowed.end())
+      return {{}, name + "cannot hold '" + word + "'", option.describe(), word, {}};
+  return {};
+}
+
 /// One complaint about a value of this option; the message is empty when there is none.
 core::Diagnostic complaint_about(const Option& option, const OptionValue& value) {
   const std::string name = "option '" + std::string(option.name) + "' ";
   if (value.index() != static_cast<std::size_t>(option.kind))
     return {{}, name + "is of the wrong kind", option.describe(), {}, {}};
+  if (const auto* words = std::get_if<std::vector<std::string>>(&value))
+    return complaint_about_words(option, *words);
   const std::vector<double> numbers = numbers_in(value);
   if (is_list(option.kind) && (numbers.size() < option.least_items || numbers.size() > option.most_items))
     return {{}, name + "has the wrong number of items", option.describe(), std::to_string(numbers.size()), {}};
@@ -40,6 +60,7 @@ core::Diagnostic complaint_about(const Option& option, const OptionValue& value)
 
 std::string Option::describe() const {
   if (kind == OptionKind::flag) return "true, false";
+  if (kind == OptionKind::names) return "a list of " + joined(words());
   const std::string one = range.describe(kind == OptionKind::count || kind == OptionKind::counts ? "" : unit);
   const std::string what = kind == OptionKind::count || kind == OptionKind::counts ? "whole number" : "number";
   if (!is_list(kind)) return "a " + what + " " + one;
@@ -54,10 +75,10 @@ std::vector<core::Diagnostic> faults_of(const OptionValues& values, std::span<co
   for (const auto& [name, value] : values) {
     const auto declared = std::ranges::find(options, name, &Option::name);
     if (declared == options.end()) {
-      std::string names;
-      for (const Option* option : options) names += (names.empty() ? "" : ", ") + std::string(option->name);
+      std::vector<std::string> names;
+      for (const Option* option : options) names.emplace_back(option->name);
       faults.push_back(
-          {{}, "the method has no option '" + name + "'", names.empty() ? "no option" : names, {}, {}});
+          {{}, "the method has no option '" + name + "'", names.empty() ? "no option" : joined(names), {}, {}});
     } else if (core::Diagnostic fault = complaint_about(**declared, value); !fault.message.empty()) {
       faults.push_back(std::move(fault));
     }

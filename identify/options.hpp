@@ -36,21 +36,24 @@ enum class OptionKind {
   number,   ///< a number with a unit
   numbers,  ///< a list of them
   counts,   ///< a list of whole numbers
+  names,    ///< a list of words
 };
 
 /// In the order of `OptionKind`.
-using OptionValue = std::variant<bool, int, double, std::vector<double>, std::vector<int>>;
+using OptionValue =
+    std::variant<bool, int, double, std::vector<double>, std::vector<int>, std::vector<std::string>>;
 
 struct Option {
   std::string_view name;  ///< key under `analysis`
   OptionKind kind = OptionKind::flag;
-  std::string_view unit{};       ///< of a number: SI, in udunits2 spelling
-  friction::Range range{};       ///< of a number, or of each of a list
-  std::size_t least_items = 1;   ///< of a list
-  std::size_t most_items = 1;    ///< of a list
-  double per_unit = 1.0;         ///< methods take the number divided by this: Hz for rad/s
-  std::string_view otherwise{};  ///< what holds without it, in words
-  std::string_view meaning{};    ///< one line
+  std::string_view unit{};                        ///< of a number: SI, in udunits2 spelling
+  friction::Range range{};                        ///< of a number, or of each of a list
+  std::size_t least_items = 1;                    ///< of a list
+  std::size_t most_items = 1;                     ///< of a list
+  double per_unit = 1.0;                          ///< methods take the number divided by this: Hz for rad/s
+  std::string_view otherwise{};                   ///< what holds without it, in words
+  std::string_view meaning{};                     ///< one line
+  std::vector<std::string> (*words)() = nullptr;  ///< that a list of words may hold
 
   /// For messages: "> 0 and <= 1", "1 to 16 numbers > 0 rad/s".
   [[nodiscard]] std::string describe() const;

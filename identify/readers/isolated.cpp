@@ -65,7 +65,7 @@ void limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   ::setrlimit(resource, &both);
 }
 
-void set_limits(const IsolationLimits& limits, std::size_t used) {
+void set_limits(const IsolationLimits& limits, [[maybe_unused]] std::size_t used) {
   limit(RLIMIT_CORE, 0, 0);
   // At the soft limit the signal that tells of it, at the hard one the end.
   const auto seconds = static_cast<rlim_t>(limits.processor_time.count());

@@ -591,6 +591,7 @@ def identify(
     sigma_Y: Quantity | None = None,
     sigma_x: Quantity | None = None,
     sign_width: Quantity | None = None,
+    without: Sequence[str] | None = None,
     zero_offset: bool | None = None,
     gain_uncertainty: Mapping[str, Any] | None = None,
     least_change: Quantity | None = None,

@@ -1,5 +1,6 @@
 """What tests of the program share: it runs in a folder of its own. The first argument of the test is the program."""
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -7,6 +8,7 @@ import unittest
 from pathlib import Path
 
 PROGRAM = str(Path(sys.argv[1]).resolve())
+PATIENCE = float(os.environ.get("DUALDAMP_PATIENCE", "1"))  # factor on all limits of time: sanitizers make programs slow
 
 
 class Case(unittest.TestCase):
@@ -26,6 +28,6 @@ class Case(unittest.TestCase):
     def run_program(self, *arguments, status=0, timeout=None, **options):
         """Names of files may be bytes that are no text."""
         command = [PROGRAM, *(a if isinstance(a, bytes) else str(a) for a in arguments)]
-        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=timeout or self.timeout, **options)
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=PATIENCE * (timeout or self.timeout), **options)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result

@@ -18,6 +18,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from case import PATIENCE
 from resonance import F0, MASS, STIFFNESS, ZETA, amplitude, line, nearest, steady_state
 
 PROGRAM = str(Path(sys.argv[1]).resolve())
@@ -70,7 +71,7 @@ class Benchmark(unittest.TestCase):
 
     @classmethod
     def call(cls, *arguments, status=0, command=None):
-        result = subprocess.run(command or [PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+        result = subprocess.run(command or [PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE * 300)
         assert result.returncode == status, (result.returncode, result.stdout + result.stderr)
         return result
 
@@ -136,7 +137,7 @@ class Benchmark(unittest.TestCase):
             result = subprocess.run([PROGRAM, "identify", str(data), "--mass", known["mass [kg]"] + " kg", "--stiffness",
                                      known["stiffness [N/m]"] + " N/m", "--frequency", known["frequency [rad/s]"] + " rad/s", "--method",
                                      "resonance_least_squares", "--json", "--out", str(self.folder / "identified")],
-                                    capture_output=True, text=True, timeout=60)
+                                    capture_output=True, text=True, timeout=PATIENCE * 60)
             estimates = json.loads(result.stdout)["result"]["estimates"]
             if not estimates or estimates[0].get("zeta") is None:
                 continue
@@ -322,6 +323,32 @@ class Benchmark(unittest.TestCase):
             self.assertAlmostEqual(number(row["distance"]) / distance, 1, delta=1e-3)
             self.assertAlmostEqual(number(row["harm_zeta"]), zeta, delta=1e-3 * max(abs(zeta), 0.01))
             self.assertAlmostEqual(number(row["harm_F0"]), friction, delta=1e-3 * max(abs(friction), 0.01))
+
+    def test_a_law_that_made_a_record_is_not_in_the_library_of_any_law(self):
+        record = """
+        schema: dualdamp/1
+        system: {mass: 1.042 kg, stiffness: 1568 N/m}
+        excitation: {type: base_harmonic, frequency: natural}
+        analysis: {type: identify, data: %s, methods: [any_law]%s}
+        """
+        pair = "analysis.pairs=[{law: lugre, beside: displacement_gain}]"
+        settings = ["--set", "analysis.laws=[lugre]", "--set", "analysis.severities=[0.1]", "--set", "analysis.rigs.count=1", "--set", pair]
+        scenario = ROOT / "scenarios/stress/any_law.yaml"
+        self.call("run", scenario, *settings, "--set", "analysis.seed=5", "--set", "analysis.methods=[any_law]", "--out", self.folder / "run", "--quiet")
+        self.call("stress", "export", scenario, *settings, "--seed", 5, "--out", self.folder / "export")
+        numbers = json.loads((self.folder / "export/key.json").read_text())["numbers"]
+        lines = [json.loads(line) for line in (self.folder / "run/cases.jsonl").read_text().splitlines()[1:]]
+        self.assertEqual([line["law"] for line in lines], ["coulomb_viscous", "lugre", "lugre + displacement_gain"])
+        for place, option in ((0, ""), (1, ", without: [lugre]"), (2, ", without: [lugre]")):
+            path = self.folder / f"{place}.yaml"
+            path.write_text(record % (f"export/cases/{numbers.index(place) + 1:06d}.csv", option))
+            # 4: the record contradicts what single laws assume, and there may be no answer.
+            self.call("run", path, "--out", self.folder / str(place), "--quiet", status=0 if place == 0 else 4)
+            estimate = next(e for e in json.loads((self.folder / str(place) / "result.json").read_text())["result"]["estimates"] if e["method"] == "any_law")
+            for name, key in (("zeta", "zeta95"), ("F0", "F095")):
+                found = lines[place]["estimates"][0][key]
+                for value, expected in zip(found, estimate["interval95"][name]):
+                    self.assertAlmostEqual(value / expected, 1, delta=1e-6)
 
     def test_consequences(self):
         out, _ = self.score()

@@ -16,7 +16,7 @@ import unittest
 from pathlib import Path
 
 import case
-from case import PROGRAM
+from case import PATIENCE, PROGRAM
 
 ROOT = Path(sys.argv[2]).resolve()
 
@@ -224,7 +224,7 @@ class Refusals(Case):
         if not Path("/dev/full").exists():
             self.skipTest("no /dev/full")
         with open("/dev/full", "w") as full:
-            result = subprocess.run([PROGRAM, "laws"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            result = subprocess.run([PROGRAM, "laws"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=PATIENCE * 60)
         self.assertEqual(result.returncode, 2)
         self.assertIn("standard output", result.stderr)
 
@@ -262,7 +262,7 @@ class Refusals(Case):
                 self.assertIsNone(process.poll(), "it ended before it could be interrupted")
                 process.send_signal(signal.SIGINT)
                 begin = time.monotonic()
-                _, errors = process.communicate(timeout=60)
+                _, errors = process.communicate(timeout=PATIENCE * 60)
                 self.assertLess(time.monotonic() - begin, 10.0)
                 self.assertEqual(process.returncode, 130)
                 self.assertEqual(errors, b"interrupted\n")
@@ -278,7 +278,7 @@ class Refusals(Case):
             time.sleep(0.01)
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
+        process.communicate(timeout=PATIENCE * 60)
         self.assertEqual(process.returncode, 130)
         self.assertEqual(list(tree(self.folder / "results")), [f"base/{name}" for name in FILES])
 

@@ -16,6 +16,8 @@ import threading
 import unittest
 from pathlib import Path
 
+from case import PATIENCE
+
 PROGRAM = str(Path(sys.argv[1]).resolve())
 
 # Coulomb and viscous friction at resonance: laboratory_records.py.
@@ -123,7 +125,7 @@ class DataFiles(unittest.TestCase):
 
     def identify(self, data, *more, constants=CONSTANTS):
         return subprocess.run(
-            [PROGRAM, "identify", str(data), *constants, *more], cwd=self.folder, capture_output=True, text=True, timeout=60
+            [PROGRAM, "identify", str(data), *constants, *more], cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE * 60
         )
 
     def write(self, name, content):

@@ -12,6 +12,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from case import PATIENCE
 from laboratory_formats import ACCEPTED, PAIRS, PLAIN, REFUSED, SI
 from laboratory_records import FREQUENCY, FRICTION, MASS, SLOW, STIFFNESS, ZETA
 
@@ -29,7 +30,7 @@ class LaboratoryFormats(unittest.TestCase):
     def identify(self, name, content, *more):
         path = self.folder / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return subprocess.run([PROGRAM, "identify", name, *more], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        return subprocess.run([PROGRAM, "identify", name, *more], cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE * 60)
 
     def estimate(self, name, content, options, expected):
         """zeta and F0, and the truth."""

@@ -15,6 +15,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from case import PATIENCE
+
 PROGRAM = str(Path(sys.argv[1]).resolve())
 ROOT = Path(sys.argv[2]).resolve()
 BROWSER = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
@@ -74,7 +76,7 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(cls.temporary.cleanup)
 
     def run_program(self, *arguments, status=0):
-        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE * 120)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result
 
@@ -87,7 +89,7 @@ class Page(unittest.TestCase):
         result = subprocess.run(
             [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--window-size={size}",
              f"--user-data-dir={self.folder / 'browser'}", "--virtual-time-budget=2000", "--dump-dom", copy.as_uri()],
-            capture_output=True, text=True, timeout=120,
+            capture_output=True, text=True, timeout=PATIENCE * 120,
         )
         copy.unlink()
         return result.stdout, [line for line in result.stderr.splitlines() if "CONSOLE" in line]

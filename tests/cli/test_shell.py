@@ -15,6 +15,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from case import PATIENCE
+
 PROGRAM = str(Path(sys.argv[1]).resolve())
 LAWS = ["iwan", "iwan_four_parameter"]
 
@@ -37,7 +39,7 @@ LINES = [
 
 
 def call(*command, **options):
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=True, **options).stdout
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE * 60, check=True, **options).stdout
 
 
 def commands(name=()):

@@ -16,6 +16,8 @@ import time
 import unittest
 from pathlib import Path
 
+from case import PATIENCE
+
 PROGRAM = str(Path(sys.argv[1]).resolve())
 ROOT = Path(sys.argv[2]).resolve()
 SCENARIO = ROOT / "scenarios/stress/small.yaml"
@@ -39,7 +41,7 @@ class Stress(unittest.TestCase):
         self.folder = Path(temporary.name)
 
     def run_program(self, *arguments, status=0, launcher=(), **options):
-        result = subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+        result = subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE * 300, **options)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result
 
@@ -109,7 +111,7 @@ class Stress(unittest.TestCase):
             wrapper = f'if [ "$OMPI_COMM_WORLD_RANK" = {rank} ]; then cd /proc; fi; exec "$0" "$@"'
             command = ["mpirun", "-n", "3", "bash", "-c", wrapper, PROGRAM, "run", str(SCENARIO), "--jobs", "1", "--quiet",
                        "--out", f"failing{rank}"]
-            result = subprocess.run(command, capture_output=True, text=True, timeout=60, env=MPI, cwd=self.folder)
+            result = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE * 60, env=MPI, cwd=self.folder)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertRegex(result.stderr, rf"cannot (write|create the directory) failing{rank}")
 
@@ -130,7 +132,7 @@ class Stress(unittest.TestCase):
         out = self.folder / "shared"
         command = [PROGRAM, "run", str(SCENARIO), "--set", "analysis.seeds=300", "--quiet", "--set", "expect=[{value: cases.failed, equals: 0}]", "--out", str(out)]
         runs = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(3)]
-        errors = [run.communicate(timeout=120)[1] for run in runs]
+        errors = [run.communicate(timeout=PATIENCE * 120)[1] for run in runs]
         self.assertEqual(sorted(run.returncode for run in runs), [0, 2, 2], errors)
         for run, error in zip(runs, errors):
             self.assertEqual("another process is writing it" in error, run.returncode == 2, error)

@@ -55,4 +55,8 @@ TEST_CASE("Values of options are checked against their declaration") {
   CHECK(faults("cutoffs", std::vector<double>(17, 1.0)) == 1);
   CHECK(faults("bootstrap", 2'000'000) == 1);
   CHECK(faults("sigma_z", 1.0) == 1);
+  CHECK(faults("without", std::vector<std::string>{"lugre", "dahl"}) == 0);
+  CHECK(faults("without", std::vector<std::string>{"base_gain"}) == 1);  // no law
+  CHECK(faults("without", std::vector<std::string>{}) == 1);
+  CHECK(faults("without", 1.0) == 1);
 }

@@ -78,9 +78,10 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
     return estimate;
   }
   const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
-  std::variant<LawStudy, std::string> found =
-      study_laws(model, constants,
-                 {.largest_severity = options.largest_severity, .severity_deviation = options.severity_deviation});
+  std::variant<LawStudy, std::string> found = study_laws(model, constants,
+                                                         {.largest_severity = options.largest_severity,
+                                                          .severity_deviation = options.severity_deviation,
+                                                          .without = options.without});
   if (const auto* why = std::get_if<std::string>(&found)) {
     refuse(estimate, *why);
     return estimate;

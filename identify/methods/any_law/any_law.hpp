@@ -8,6 +8,9 @@
 /// are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty: estimated from what a
 /// smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`. Cost: seconds.
 
+#include <string>
+#include <vector>
+
 #include "identify/method.hpp"
 
 namespace dualdamp::identify {
@@ -27,14 +30,26 @@ inline constexpr Option severity_deviation_option{
     .otherwise = "0.1",
     .meaning = "standard deviation of the prior of the severity in any_law's average over laws"};
 
+/// Names of the laws that the library can hold.
+[[nodiscard]] std::vector<std::string> library_names();
+
+inline constexpr Option without_option{.name = "without",
+                                       .kind = OptionKind::names,
+                                       .most_items = 64,
+                                       .otherwise = "all laws",
+                                       .meaning = "laws that stay out of the library of any_law",
+                                       .words = library_names};
+
 struct AnyLawOptions : KnownDeviations {
   double largest_severity = 0.3;
   double severity_deviation = 0.1;
+  std::vector<std::string> without{};
 
   static constexpr auto declared() {
     return std::tuple_cat(KnownDeviations::declared(),
                           std::tuple{Use{&largest_severity_option, &AnyLawOptions::largest_severity},
-                                     Use{&severity_deviation_option, &AnyLawOptions::severity_deviation}});
+                                     Use{&severity_deviation_option, &AnyLawOptions::severity_deviation},
+                                     Use{&without_option, &AnyLawOptions::without}});
   }
 };
 

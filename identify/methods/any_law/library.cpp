@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "identify/methods/any_law/any_law.hpp"
 #include "identify/rigs/groups.hpp"
 #include "sim/parallel.hpp"
 
@@ -46,12 +47,6 @@ const std::vector<rigs::Rig>& further_laws() {
   return list;
 }
 
-std::vector<rigs::Rig> all_laws() {
-  std::vector<rigs::Rig> all = rigs::departures();
-  all.insert(all.end(), further_laws().begin(), further_laws().end());
-  std::ranges::sort(all, {}, &rigs::Rig::name);
-  return all;
-}
 constexpr std::array no_laws = {"rough_way", "warming"};
 /// The other sign of a law that is two-sided here.
 constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
@@ -59,6 +54,20 @@ constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spri
 template <typename List>
 bool names(const List& list, std::string_view name) {
   return std::ranges::find(list, name) != std::end(list);
+}
+
+/// All that the library can hold. What a laboratory does not know of itself is no law.
+const std::vector<rigs::Rig>& all_laws() {
+  static const std::vector<rigs::Rig> list = [] {
+    std::vector<rigs::Rig> all = rigs::departures();
+    all.insert(all.end(), further_laws().begin(), further_laws().end());
+    std::erase_if(all, [](const rigs::Rig& rig) {
+      return names(no_laws, rig.name) || names(twins, rig.name) || rig.mislead != nullptr;
+    });
+    std::ranges::sort(all, {}, &rigs::Rig::name);
+    return all;
+  }();
+  return list;
 }
 
 LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
@@ -73,13 +82,16 @@ LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit
 
 }  // namespace
 
+std::vector<std::string> library_names() {
+  std::vector<std::string> list;
+  for (const rigs::Rig& rig : all_laws()) list.emplace_back(rig.name);
+  return list;
+}
+
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
-  static const std::vector<rigs::Rig> all = all_laws();
-  for (const rigs::Rig& departure : all) {
-    if (names(no_laws, departure.name) || names(twins, departure.name)) continue;
-    // What a laboratory does not know of itself is no law.
-    if (departure.mislead != nullptr || names(options.without, departure.name)) continue;
+  for (const rigs::Rig& departure : all_laws()) {
+    if (names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
     LibraryLaw law{&departure, std::min(options.largest_severity, departure.largest), options.severity_deviation,
                    names(two_sided, departure.name)};

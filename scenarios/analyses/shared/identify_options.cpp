@@ -16,7 +16,8 @@ Field field_of(const identify::Option& option) {
                 : option.kind == OptionKind::count   ? integer(name, meaning)
                 : option.kind == OptionKind::number  ? quantity(name, units, meaning)
                 : option.kind == OptionKind::numbers ? quantities(name, units, meaning)
-                                                     : integers(name, meaning);
+                : option.kind == OptionKind::counts  ? integers(name, meaning)
+                                                     : word_list(name, option.words(), meaning);
   field.range = option.range;
   field.min_items = option.least_items;
   field.max_items = option.most_items;
@@ -35,6 +36,8 @@ identify::OptionValue value_of(OptionKind kind, const Json& value) {
       return value.get<std::vector<double>>();
     case OptionKind::counts:
       return value.get<std::vector<int>>();
+    case OptionKind::names:
+      return value.get<std::vector<std::string>>();
   }
   return false;
 }

@@ -118,6 +118,17 @@ TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull hol
   CHECK(std::abs(law_of(bounded, "contact_compliance").severity) <= 0.02);
 }
 
+TEST_CASE("any_law: a law that the user leaves out is not in the library") {
+  Normal normal(12);
+  const Record record = states("contact_compliance", 0.2, true, normal);
+  const Estimate estimate = any_law(record, known, {.without = {"contact_compliance", "dahl"}});
+  REQUIRE(estimate.outcome.ok());
+  for (const LawAnswer& law : estimate.laws->laws) CHECK((law.name != "contact_compliance" && law.name != "dahl"));
+  // Others yield before they slip too.
+  CHECK(law_of(estimate, "coulomb_viscous").rejected);
+  CHECK(holds(estimate.laws->F0_hull, F0));
+}
+
 TEST_CASE("any_law: amplitudes alone allow more laws than amplitudes and phases") {
   const auto allowed = [](bool phases) {
     Normal normal(13);
