@@ -18,11 +18,17 @@ function rowsOf(name) {
   return columns[0].values.map((_, i) => Object.fromEntries(columns.map((column) => [column.name, column.isText ? column.texts[i] : column.values[i]])));
 }
 
+/** In percent: whole ones, but small errors of predictions with a digit more. */
+function percent(share, name) {
+  const digits = name === "prediction_error" && share < 0.1 ? 1 : 0;
+  return (100 * share).toFixed(digits);
+}
+
 /** A metric and its standard error: "94 % ± 2". */
 function metricText(row, name) {
   const [value, se] = [row[name], row[`${name}_se`]];
   if (value === null || value === undefined) return "–";
-  if (isShare(name)) return `${Math.round(100 * value)} %${se ? ` ± ${(100 * se).toFixed(100 * se < 1 ? 1 : 0)}` : ""}`;
+  if (isShare(name)) return `${percent(value, name)} %${se ? ` ± ${(100 * se).toFixed(100 * se < 1 ? 1 : 0)}` : ""}`;
   return `${short(value, 3)}${se ? ` ± ${short(se, 1)}` : ""}`;
 }
 
@@ -74,7 +80,8 @@ function departureTable() {
 
 /** What a departure comes to: harm over distance, one point a motion. */
 function consequenceChart() {
-  const rows = rowsOf("consequences").filter((row) => row.distance > 0 && row.harm > 0);
+  // Far below the noise a distance is rounding.
+  const rows = rowsOf("consequences").filter((row) => row.distance > 1e-3 && row.harm > 1e-6);
   if (!rows.length) return [];
   const familyOf = Object.fromEntries(rowsOf("departures").map((row) => [row.departure, row.family]));
   const families = [...new Set(rows.map((row) => familyOf[row.law]))];

@@ -6,7 +6,9 @@
 ///
 /// The speed of slip is u = sign(direction) v, which is >= 0 throughout an interval. For u < 0 the formula is
 /// continued analytically, so that a step may go beyond the reversal that ends its interval. An exponent below 1
-/// gives an infinite slope at v = 0, which costs the integrator small steps.
+/// gives an infinite slope at v = 0, which costs the integrator small steps, and which nothing continues: there the
+/// level of |u| holds. A mass is then released at the static level, whatever rounding makes of the net force: a
+/// level that rose for u < 0 would hold it as soon as its velocity is rounded below zero.
 ///
 /// Source: armstrong1994, bo1982 in `docs/refs.bib`. Shared by all laws with such a level.
 
@@ -63,7 +65,7 @@ class StribeckCurve {
       case Form::gaussian:
         break;
     }
-    return std::exp(-continued_power(r, exponent_));
+    return std::exp(-(exponent_ < 1.0 ? std::pow(std::abs(r), exponent_) : continued_power(r, exponent_)));
   }
 
   double kinetic_;

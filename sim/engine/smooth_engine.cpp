@@ -284,6 +284,10 @@ bool SmoothEngine::move(double left, Hit& hit, bool& found) {
     const double whole = taken_;
     grazings_.clear();
     found = find_hit(hit);
+    if (found && may_be_swing_of_output(hit)) {
+      h_ = 0.25 * whole;
+      continue;
+    }
     if (!found || land(hit)) {
       // Beyond the event nothing grazed.
       std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });

@@ -297,6 +297,14 @@ double SmoothEngine::crossing(std::size_t watch, double before, double negative)
   return 0.5 * (left + right);
 }
 
+/// A slip that ends and begins again within one step may be the dense output alone: it swings below zero where the
+/// velocity begins with a high power of time, as under a level that falls steeply at v = 0. A shorter step swings
+/// less; a true reversal is met by a step that ends in it.
+bool SmoothEngine::may_be_swing_of_output(const Hit& hit) const {
+  const Watch& watch = watches_[hit.watch];
+  return is<SlipEnd>(watch.ending) && watch.values.back() > 0.0 && taken_ > shortest_part * longest_step();
+}
+
 /// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
 /// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
 bool SmoothEngine::land(const Hit& hit) {

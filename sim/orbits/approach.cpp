@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "sim/orbits/orbit_account.hpp"
 
 namespace dualdamp::sim {
 
@@ -159,12 +162,24 @@ void Approach::try_candidate(const State& state) {
   streak_[static_cast<std::size_t>(periods)] = 0;
   std::optional<Orbit> orbit = solver_.near(state, periods);
   if (!orbit) return;
+  if (periods > 1 && is_at_rest(*orbit))
+    orbit = Orbit{solver_.patient_map_over(1).from(orbit->period.begin, Monodromy::with), 1};
   if (candidate_ && solver_.same(candidate_->orbit, *orbit)) return;
   if (candidate_) others_.push_back(std::move(candidate_->orbit));
   const double resolution = std::max(arrived, 100.0 * map_.engine().accuracy());
   Attraction attraction(orbit->period, omega_, resolution);
   attraction.observe(state);
   candidate_.emplace(Candidate{std::move(*orbit), std::move(attraction), passed_});
+}
+
+/// Slips that rounding hides are no subharmonic (orbit_account.hpp).
+bool Approach::is_at_rest(const Orbit& orbit) {
+  SteadyState seen{.period = 2.0 * std::numbers::pi / omega_ * orbit.period_ratio,
+                   .period_ratio = orbit.period_ratio,
+                   .start = orbit.period.begin};
+  PeriodMap map(model_, orbit.period_ratio);
+  account_for_orbit(model_, map, false, seen);
+  return seen.peak == seen.trough;
 }
 
 /// The orbit of a candidate from the first of its periods on that begins with the motion at t = 0.

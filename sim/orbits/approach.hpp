@@ -43,6 +43,7 @@ class Approach {
   [[nodiscard]] bool has_arrived(const State& state);
   [[nodiscard]] int worth_trying();
   void try_candidate(const State& state);
+  [[nodiscard]] bool is_at_rest(const Orbit& orbit);
   [[nodiscard]] Orbit at_start(const Candidate& candidate);
   [[nodiscard]] std::optional<Orbit> nearly_there(SteadyState& result);
   [[nodiscard]] double divergence(const State& state);

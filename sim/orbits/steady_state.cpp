@@ -150,6 +150,9 @@ void OrbitFinder::describe(SteadyState& result) {
     result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
   add_mirror_image(result);
+  // Beside a mass that never moves other rests are no news.
+  if (result.peak == result.trough)
+    std::erase_if(result.others, [](const OtherState& other) { return other.peak == other.trough; });
   if (!result.others.empty())
     result.warnings.emplace_back(
         "not the only steady state: the one that the motion approaches; others attract other motions");
@@ -157,7 +160,9 @@ void OrbitFinder::describe(SteadyState& result) {
 
 void OrbitFinder::list_others(const std::vector<Orbit>& others, SteadyState& result) {
   for (const Orbit& other : others) {
-    SteadyState state{.period_ratio = other.period_ratio, .start = other.period.begin};
+    SteadyState state{.period = 2.0 * std::numbers::pi / model_.excitation.frequency * other.period_ratio,
+                      .period_ratio = other.period_ratio,
+                      .start = other.period.begin};
     PeriodMap map(model_, other.period_ratio);
     account_for_orbit(model_, map, false, state);
     searched_ += map.engine().count();
@@ -240,6 +245,8 @@ std::vector<Sample> one_period(const Model& model, const SteadyState& state, int
     final = interval->at(interval->duration);
   }
   sampler.finish(final);
+  if (state.peak == state.trough)  // slips that rounding hides are no motion
+    for (Sample& sample : sampler.samples()) sample.x = state.peak, sample.v = sample.a = 0.0;
   return std::move(sampler.samples());
 }
 

@@ -8,6 +8,7 @@
 
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
+#include "sim/motion/simulate.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
@@ -78,6 +79,55 @@ TEST_CASE("stribeck: a vanishing Stribeck velocity leaves coulomb with static ab
     CHECK(law.force({}, {.v = -v}, Direction::backward) == -2.0);
   }
   CHECK(law.static_limit({}, {}) == 3.0);
+}
+
+TEST_CASE("stribeck: a level that falls with an infinite slope at v = 0 lets the mass go at once",
+          "[friction][stribeck]") {
+  // Just after the release m dv/dt = (static - kinetic) (v/vs)^n, so v = vs ((1 - n) t (static - kinetic)/(m
+  // vs))^p, p = 1/(1 - n): from there Runge and Kutta's method with steps that grow in proportion to the time.
+  const double kinetic = 0.3, level = 1.0, vs = 0.02, mass = 0.5, stiffness = 100.0, slope = 1e-3;
+  const double release = 0.1, slip = 0.05;
+  const double from = slope * release - level / stiffness;
+  for (const double n : {0.11, 0.2, 0.35, 0.6}) {
+    const auto rate = [&](double t, double x, double v) {
+      const double friction = kinetic + (level - kinetic) * std::exp(-std::pow(v / vs, n));
+      return (stiffness * (slope * (release + t) - x) - friction) / mass;
+    };
+    double t = 1e-11;
+    double v = vs * std::pow((1.0 - n) * t * (level - kinetic) / (mass * vs), 1.0 / (1.0 - n));
+    double x = from;
+    constexpr int steps = 20'000;
+    const double growth = std::pow(slip / t, 1.0 / steps);
+    for (int i = 0; i < steps; ++i) {
+      const double h = (growth - 1.0) * t;
+      const double a1 = rate(t, x, v);
+      const double v2 = v + 0.5 * h * a1;
+      const double a2 = rate(t + 0.5 * h, x + 0.5 * h * v, v2);
+      const double v3 = v + 0.5 * h * a2;
+      const double a3 = rate(t + 0.5 * h, x + 0.5 * h * v2, v3);
+      const double v4 = v + h * a3;
+      const double a4 = rate(t + h, x + h * v3, v4);
+      x += h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
+      v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+      t += h;
+    }
+    for (const sim::SolverKind kind : {sim::SolverKind::explicit_steps, sim::SolverKind::implicit_steps}) {
+      CAPTURE(n, static_cast<int>(kind));
+      sim::Model model;
+      model.oscillator = {.mass = mass, .stiffness = stiffness};
+      model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = slope};
+      model.initial.position = from;
+      model.friction = {Law(Stribeck(StribeckCurve(kinetic, level, vs, StribeckCurve::Form::gaussian, n)))};
+      model.solver = {kind, 1e-12};
+      const sim::History history = sim::simulate(model, {.duration = release + slip});
+      REQUIRE(history.outcome.ok());
+      REQUIRE(history.events.size() == 1);
+      CHECK(history.events.front().t == Approx(release).epsilon(1e-9));
+      // A velocity within the tolerance of zero is a time lost: here the motion forgets nothing.
+      CHECK(history.final.v == Approx(v).epsilon(1e-4));
+      CHECK(history.final.x == Approx(x).epsilon(1e-4));
+    }
+  }
 }
 
 TEST_CASE("stribeck: an exponent belongs to the form gaussian", "[friction][stribeck]") {

@@ -325,3 +325,32 @@ TEST_CASE("a search whose panels are split thousands of times each ends too") {
   CHECK_THAT(state.outcome.reason, Catch::Contains("followed no longer"));
   CHECK(state.certificate.splits < 10'000'000);
 }
+
+TEST_CASE("a mass that creeps to where friction holds it rests, and is no subharmonic") {
+  // A drive below the friction force that begins with a stretched spring: each period ends nearer to the place
+  // where spring and drive together just do not move the mass, k x + k3 x^3 = -(F0 - A), and none reaches it.
+  for (const double cubic : {0.0, 3.598}) {
+    CAPTURE(cubic);
+    sim::Model model;
+    model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.8722, .cubic_stiffness = cubic};
+    model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.07669, .frequency = 3.4493};
+    model.initial = {.position = -23.06, .velocity = -4.5719};
+    model.friction.emplace_back(friction::Coulomb(0.12394, 0.12394));
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.amplitude == 0.0);
+    CHECK(state.period_ratio == 1);
+    CHECK(state.stops_per_cycle == 0);
+    CHECK(state.max_speed == 0.0);
+    CHECK(state.energy.friction == 0.0);
+    REQUIRE(state.sticks.size() == 1);
+    CHECK(state.sticks.front().duration == state.period);
+    CHECK(state.others.empty());
+    const double x = state.peak;
+    CHECK(x + cubic * x * x * x == Approx(-(0.12394 - 0.07669)).epsilon(1e-5));
+    for (const sim::Sample& sample : sim::one_period(model, state, 10)) {
+      CHECK(sample.x == x);
+      CHECK(sample.v == 0.0);
+    }
+  }
+}
