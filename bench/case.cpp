@@ -85,7 +85,7 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
       if (!consequence) {
         DepartedRig departed{motion.departure, motion.severity};
         if (!motion.departure.is_truth()) departed.reference = maker.reference();
-        if (!motions) motions = departed_motions(maker, departed, rig.truth, laboratory.sensors);
+        if (!motions) motions = departed_motions(maker, departed, rig.truth, laboratory);
         consequence = consequence_of(maker, departed, rig, *motions, laboratory, sensors.sensors);
       }
       std::vector<std::string> warnings;

@@ -75,7 +75,7 @@ Readings deviations_of(const Motions& motions, const identify::Sensors& sensors,
 Readings slopes_of(const MotionMaker& maker, const sim::Model& model, const identify::Sensors& sensors) {
   constexpr double step = 1e-3;
   const Motions here = maker.motions(model, sensors);
-  const Motions there = maker.motions(model, sensors, 1.0 + step);
+  const Motions there = maker.motions(model, sensors, 0.0, 1.0 + step);
   Readings slopes;
   if (!here.curve.exact.pairs || !there.curve.exact.pairs) return slopes;
   const auto& [low, high] = std::pair(here.curve.exact.pairs->pairs, there.curve.exact.pairs->pairs);
@@ -197,9 +197,10 @@ double Consequence::harm() const {
 }
 
 DepartedMotions departed_motions(const MotionMaker& maker, const DepartedRig& departed, const Truth& truth,
-                                 const identify::Sensors& sensors) {
+                                 const Laboratory& laboratory) {
   const auto motions = [&](double c, double F0) {
-    return maker.motions(model_of(departed, changed(truth, {c, F0})), sensors);
+    return maker.motions(model_of(departed, changed(truth, {c, F0})), laboratory.sensors,
+                         laboratory.friction_growth);
   };
   return {motions(0.0, 0.0),
           {motions(step_of_slopes, 0.0), motions(0.0, step_of_slopes)},

@@ -54,7 +54,7 @@ struct DepartedMotions {
 };
 
 [[nodiscard]] DepartedMotions departed_motions(const MotionMaker& maker, const DepartedRig& departed,
-                                               const Truth& truth, const identify::Sensors& sensors);
+                                               const Truth& truth, const Laboratory& laboratory);
 
 /// `laboratory`: what it believes, and its sensors as they are; `nominal`: as it believes them to be.
 [[nodiscard]] Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed, const TrueRig& rig,

@@ -29,6 +29,10 @@ bool Departure::has_zeta() const {
 
 bool Departure::has_F0() const { return is_truth() || (law->has_F0 && (beside == nullptr || beside->has_F0)); }
 
+bool Departure::needs_sweeps() const {
+  return (law != nullptr && law->needs_sweeps) || (beside != nullptr && beside->needs_sweeps);
+}
+
 sim::Model Departure::model(const Truth& truth, const ReferenceMotion& reference, double s) const {
   if (is_truth()) return undisturbed(truth);
   if (beside == nullptr) return departed(*law, truth, reference, s);

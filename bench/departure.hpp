@@ -25,6 +25,8 @@ struct Departure {
   /// Whether one zeta, one F0 is still there to be found.
   [[nodiscard]] bool has_zeta() const;
   [[nodiscard]] bool has_F0() const;
+  /// It shows in records of several sweeps alone.
+  [[nodiscard]] bool needs_sweeps() const;
 
   /// The truth with the departure of severity s.
   [[nodiscard]] sim::Model model(const Truth& truth, const ReferenceMotion& reference, double s) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <ostream>
 #include <utility>
 #include <vector>
@@ -31,15 +32,17 @@ struct Columns {
     values.push_back(std::move(column));
   }
 
-  void write_header(std::ostream& out) const {
+  void write_header(std::ostream& out, bool has_sweeps) const {
     for (std::size_t i = 0; i < names.size(); ++i) out << (i == 0 ? "" : ",") << names[i];
-    out << "\n";
+    out << (has_sweeps ? ",sweep\n" : "\n");
   }
-  void write_rows(std::ostream& out, const std::string& label = {}) const {
+  /// `sweep_of`: label of a row; empty: there is no such column.
+  void write_rows(std::ostream& out, const std::function<std::string(std::size_t row)>& sweep_of) const {
     for (std::size_t row = 0; !values.empty() && row < values.front().size(); ++row) {
       for (std::size_t i = 0; i < values.size(); ++i)
         out << (i == 0 ? "" : ",") << core::format_number(values[i][row]);
-      out << label << "\n";
+      const std::string sweep = sweep_of(row);
+      out << (sweep.empty() ? "" : ",") << sweep << "\n";
     }
   }
 };
@@ -54,8 +57,8 @@ void write_pairs(std::ostream& out, const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs) column.push_back(pair.*member);
     columns.add(name, std::move(column));
   }
-  columns.write_header(out);
-  columns.write_rows(out);
+  columns.write_header(out, !pairs.empty() && !pairs.front().sweep.empty());
+  columns.write_rows(out, [&](std::size_t row) { return pairs[row].sweep; });
 }
 
 Columns columns_of(const identify::History& history) {
@@ -73,13 +76,9 @@ Columns columns_of(const identify::History& history) {
 
 void write_histories(std::ostream& out, const std::vector<identify::History>& histories) {
   for (std::size_t i = 0; i < histories.size(); ++i) {
-    Columns columns = columns_of(histories[i]);
-    if (i == 0) {
-      Columns heading = columns;
-      heading.names.emplace_back("sweep");
-      heading.write_header(out);
-    }
-    columns.write_rows(out, "," + std::to_string(i + 1));
+    const Columns columns = columns_of(histories[i]);
+    if (i == 0) columns.write_header(out, true);
+    columns.write_rows(out, [&](std::size_t) { return std::to_string(i + 1); });
   }
 }
 
@@ -87,8 +86,8 @@ void write_decay(std::ostream& out, const identify::DecayRecord& decay) {
   Columns columns;
   columns.add("t [s]", decay.times);
   columns.add("x [m]", decay.extremes);
-  columns.write_header(out);
-  columns.write_rows(out);
+  columns.write_header(out, false);
+  columns.write_rows(out, [](std::size_t) { return std::string(); });
 }
 
 std::string six_digits(std::size_t number) {

@@ -37,12 +37,15 @@ ReferenceMotion MotionMaker::reference() const {
   return {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude};
 }
 
-Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& sensors, double stretch) const {
+Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& sensors, double growth,
+                             double stretch) const {
   Motions result;
   scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
   curve.amplitudes = range_.amplitudes;
   for (double& amplitude : curve.amplitudes) amplitude *= stretch;
   curve.frequencies = frequencies_of(range_, rig_);
+  curve.sweeps = range_.sweeps;
+  if (range_.sweeps > 1) curve.drift.rate = growth / (range_.sweeps - 1);
   result.stated = rig_.truth.model.excitation.frequency / model.excitation.frequency;
   for (double& frequency : curve.frequencies) frequency /= result.stated;
   result.curve = scenarios::motion_of(model, curve, sensors, options_);

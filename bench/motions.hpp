@@ -34,9 +34,9 @@ class MotionMaker {
   /// The motion in the middle of the range, of the truth.
   [[nodiscard]] ReferenceMotion reference() const;
 
-  /// `model`: at its own frequency, where the laboratory believes in that of the rig. `stretch` multiplies all
-  /// input amplitudes.
-  [[nodiscard]] Motions motions(const sim::Model& model, const identify::Sensors& sensors,
+  /// `model`: at its own frequency, where the laboratory believes in that of the rig. All its friction grows by
+  /// `growth`, relative, from the first sweep to the last. `stretch` multiplies all input amplitudes.
+  [[nodiscard]] Motions motions(const sim::Model& model, const identify::Sensors& sensors, double growth = 0.0,
                                 double stretch = 1.0) const;
 
   /// What the model would do in the tests that are not made; NaN where it has no steady state or does not move.

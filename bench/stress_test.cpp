@@ -75,8 +75,12 @@ Section keys() {
   std::vector<Field> set = {text("name", "its name in the results").required()};
   for (Field& field : sensor_fields())
     if (field.name != "seed") set.push_back(std::move(field));
-  const Section range = {
-      {text("name", "its name in the results").required(), amplitudes(), optional(frequencies())}};
+  constexpr int max_sweeps = 100;
+  const Section range = {{text("name", "its name in the results").required(), amplitudes(), optional(frequencies()),
+                          integer("sweeps", "how often all its states are measured, sweep after sweep")
+                              .with_fallback(1)
+                              .at_least(1)
+                              .at_most(max_sweeps)}};
   const Section pair = {
       {words("law", departure_names(), "the first departure").required(),
        words("beside", companion_names(), "a second one, in spring, sensors, constants or drive").required()}};
@@ -137,6 +141,18 @@ void check_severities(CheckedFile& file, const Json& analysis) {
   }
 }
 
+/// Whether some range is measured more than once.
+bool has_sweeps(const Json& analysis) {
+  return std::ranges::any_of(analysis.at("ranges"), [](const Json& range) { return range.value("sweeps", 1) > 1; });
+}
+
+void check_sweeps(CheckedFile& file, const Json& analysis) {
+  for (const Departure& departure : departures_of(analysis))
+    if (departure.needs_sweeps() && !has_sweeps(analysis))
+      file.complain("analysis.ranges", "'" + departure.name() + "' shows in records of several sweeps alone",
+                    "a range with 'sweeps' above 1");
+}
+
 /// Two of one family would undo or repeat each other.
 void check_pairs(CheckedFile& file, const Json& analysis) {
   const Json pairs = analysis.value("pairs", Json::array());
@@ -171,7 +187,8 @@ void check_names(CheckedFile& file, const std::string& key) {
 /// Number of steady states of a range.
 std::size_t states_of(const Json& range) {
   return grid_size(range.at("amplitudes")) *
-         (range.contains("frequencies") ? grid_size(range.at("frequencies")) : 1);
+         (range.contains("frequencies") ? grid_size(range.at("frequencies")) : 1) *
+         static_cast<std::size_t>(range.value("sweeps", 1));
 }
 
 /// A record of the kind that each range gives with each set of sensors.
@@ -184,10 +201,13 @@ std::vector<identify::Record> outlines(const Json& analysis) {
       identify::Record& record = records.emplace_back();
       std::vector<identify::Pair>& pairs = record.pairs.emplace().pairs;
       const std::size_t amplitudes = grid_size(range.at("amplitudes"));
+      const int sweeps = range.value("sweeps", 1);
+      const std::size_t in_sweep = states_of(range) / static_cast<std::size_t>(sweeps);
       for (std::size_t i = 0; i < states_of(range); ++i) {
-        const std::size_t frequency = 1 + i / amplitudes;
+        const std::size_t frequency = 1 + i % in_sweep / amplitudes;
         pairs.push_back({.Y = 1.0,
                          .x = 1.0,
+                         .sweep = sweeps > 1 ? std::to_string(1 + i / in_sweep) : "",
                          .omega = static_cast<double>(frequency),
                          .phase = 0.0,
                          .fundamental = 1.0,
@@ -223,13 +243,15 @@ void check(CheckedFile& file) {
   check_samples(file, analysis);
   if (!file.stands_in_file("analysis", "laws")) {
     Json all = Json::array();
-    for (const Rig& departure : departures()) all.push_back(departure.name);
+    for (const Rig& departure : departures())
+      if (!departure.needs_sweeps || has_sweeps(analysis)) all.push_back(departure.name);
     file.fill_in("laws", std::move(all));
   }
   resolve_methods(file, outlines(analysis), scenarios::SlowMethods::only_where_named);
   if (!analysis.contains("laws")) return;
   check_pairs(file, analysis);
   check_severities(file, analysis);
+  check_sweeps(file, analysis);
   const std::size_t departures = departures_of(analysis).size();
   const std::size_t motions =
       (1 + departures * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
@@ -289,7 +311,8 @@ StressTest stress_test_of(const CheckedValues& values) {
   for (const Json& range : section.at("ranges"))
     result.ranges.push_back(
         {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
-         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{}});
+         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{},
+         range.at("sweeps").get<int>()});
   const std::vector<double>& levels = result.ranges.front().amplitudes;
   result.rigs = rigs_of(values, levels[levels.size() / 2]);
   if (section.contains("sensors"))

@@ -24,6 +24,7 @@ struct ExcitationRange {
   std::string name;
   std::vector<double> amplitudes;   ///< m
   std::vector<double> frequencies;  ///< rad/s; empty: that of the rig
+  int sweeps = 1;                   ///< how often all of them are measured, one after the other
 };
 
 struct SensorSet {

@@ -18,10 +18,32 @@ Rig misled(std::string_view name, std::string_view meaning, std::string_view sev
   return rig;
 }
 
+/// Friction that grows from (1 - s/2) F0 to (1 + s/2) F0.
+sim::Model grown_by_half(const RigBase& base, RigValues p) {
+  RigBase first = base;
+  first.F0 *= 1.0 - 0.5 * p[0];
+  return with_coulomb(first);
+}
+
+Rig drifting_friction() {
+  Rig rig = misled("drifting_friction", "friction grows from sweep to sweep",
+                   "growth of friction from the first sweep to the last, over F0, the mean of both", Family::memory,
+                   [](Laboratory& laboratory, double s) { laboratory.friction_growth = s / (1.0 - 0.5 * s); });
+  rig.parameters = {{.name = "growth",
+                     .unit = "1",
+                     .meaning = "growth of friction over the record, over its mean",
+                     .range = {.low = 0.0, .high = 1.0}}};
+  rig.build = grown_by_half;
+  rig.values_at = [](const RigBase&, double s) { return std::vector{s}; };
+  rig.needs_sweeps = true;
+  return rig;
+}
+
 }  // namespace
 
 std::vector<Rig> laboratory_rigs() {
-  return {misled("base_gain", "the sensor of the base reads too much", "gain of the sensor of y, less 1",
+  return {drifting_friction(),
+          misled("base_gain", "the sensor of the base reads too much", "gain of the sensor of y, less 1",
                  Family::sensors, [](Laboratory& laboratory, double s) { laboratory.sensors.y.gain_error = s; }),
           misled("displacement_gain", "the sensor of the mass reads too much", "gain of the sensor of x, less 1",
                  Family::sensors, [](Laboratory& laboratory, double s) { laboratory.sensors.x.gain_error = s; }),

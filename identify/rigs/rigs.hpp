@@ -66,10 +66,12 @@ enum class Family {
 /// "presliding"
 [[nodiscard]] std::string_view name_of(Family family);
 
-/// What a laboratory believes and how it reads.
+/// What a laboratory believes, how it reads, and what goes on while it measures.
 struct Laboratory {
   identify::KnownConstants constants;
   identify::Sensors sensors;
+  /// By how much all friction grows from the first sweep of the record to the last, over that of the model.
+  double friction_growth = 0.0;
 };
 
 struct RigParameter {
@@ -113,7 +115,9 @@ struct Rig {
   /// Whether one F0, one zeta is still there to be found; a score of it needs that.
   bool has_F0 = true;
   bool has_zeta = true;
-  /// Changes what the laboratory believes or reads; may be absent.
+  /// It shows in records of several sweeps alone.
+  bool needs_sweeps = false;
+  /// Changes what the laboratory believes or reads, or what goes on meanwhile; may be absent.
   void (*mislead)(Laboratory& laboratory, double s) = nullptr;
 };
 

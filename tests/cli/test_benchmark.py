@@ -324,6 +324,23 @@ class Benchmark(unittest.TestCase):
             self.assertAlmostEqual(number(row["harm_zeta"]), zeta, delta=1e-3 * max(abs(zeta), 0.01))
             self.assertAlmostEqual(number(row["harm_F0"]), friction, delta=1e-3 * max(abs(friction), 0.01))
 
+    def test_friction_that_drifts_between_sweeps(self):
+        """Three sweeps of exact readings, friction 0.95, 1 and 1.05 F0: one line through all of them, and one slope for three lines."""
+        scenario, wn = ROOT / "scenarios/stress/sweeps.yaml", math.sqrt(STIFFNESS / MASS)
+        settings = ["--set", "analysis.laws=[drifting_friction]", "--set", "analysis.severities=[0.1]", "--set", "analysis.sensors=[{name: perfect}]",
+                    "--set", "analysis.seeds=1", "--set", "analysis.methods=[resonance_least_squares, resonance_within_sweep]"]
+        self.call("run", scenario, *settings, "--out", self.folder / "run", "--quiet")
+        rows = {row["method"]: row for row in table(self.folder / "run/scores.csv") if row["law"] == "drifting_friction"}
+        levels = [4.5e-3 + i * 3e-3 / 7 for i in range(8)]
+        readings = [steady_state(ZETA, share * F0, Y, wn)[0] for share in (0.95, 1, 1.05) for Y in levels]
+        zeta, friction = line(3 * levels, readings, MASS, STIFFNESS)
+        self.assertAlmostEqual(number(rows["resonance_least_squares"]["zeta_bias"]), zeta / ZETA - 1, delta=1e-6)
+        self.assertAlmostEqual(number(rows["resonance_least_squares"]["F0_bias"]), friction / F0 - 1, delta=1e-6)
+        self.assertLess(abs(number(rows["resonance_within_sweep"]["zeta_bias"])), 0.002)
+        self.call("stress", "export", scenario, *settings, "--out", self.folder / "export")
+        sweeps = [[row["sweep"] for row in table(path)] for path in sorted((self.folder / "export/cases").iterdir())]
+        self.assertEqual(sweeps, 3 * [8 * ["1"] + 8 * ["2"] + 8 * ["3"]])
+
     def test_a_law_that_made_a_record_is_not_in_the_library_of_any_law(self):
         record = """
         schema: dualdamp/1

@@ -199,6 +199,7 @@ class Stress(unittest.TestCase):
                 (response, "analysis.severities=[2]", "'bouc_wen' has no such severity"),
                 (SCENARIO, "analysis.pairs=[{law: base_gain, beside: displacement_gain}]", "both departures lie in one family"),
                 (SCENARIO, "analysis.pairs=[{law: lugre, beside: dahl}]", "cannot be 'dahl'"),
+                (SCENARIO, "analysis.laws=[drifting_friction]", "shows in records of several sweeps alone"),
                 (SCENARIO, "analysis.pairs=[{law: iwan, beside: detuning}, {law: iwan, beside: detuning}]", "two pairs of these departures"),
                 (histories, "analysis.sensors[0].average_cycles=9000", "the history has too many rows")]:
             result = self.run_program("run", file, "--out", self.folder / "none", "--set", assignment, status=3)
