@@ -33,6 +33,14 @@ sim::Model film_beside_damper(const rigs::RigBase& base, rigs::RigValues p) {
                         {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
 }
 
+/// Half of the friction acts at once, the other half behind free play.
+sim::Model partial_play(const rigs::RigBase& base, rigs::RigValues p) {
+  constexpr double share = 0.5;
+  rigs::RigBase rigid = base;
+  rigid.F0 *= 1.0 - share;
+  return rigs::with_law(rigs::with_coulomb(rigid), "free_play", {{"kinetic", share * base.F0}, {"play", p[0]}});
+}
+
 /// Laws that a record may have and that the stress test does not play.
 const std::vector<rigs::Rig>& further_laws() {
   static const std::vector<rigs::Rig> list = {
@@ -43,7 +51,16 @@ const std::vector<rigs::Rig>& further_laws() {
        .severity = "fall of the viscous force at the peak speed, of the first order",
        .largest = 1.0,
        .values_at = [](const rigs::RigBase&, double s) { return std::vector{s}; },
-       .family = rigs::Family::velocity}};
+       .family = rigs::Family::velocity},
+      {.name = "partial_play",
+       .meaning = "half of the friction lies behind free play",
+       .parameters = {},
+       .build = partial_play,
+       .severity = "half of the free play over the amplitude X",
+       .largest = 0.5,
+       .values_at = [](const rigs::RigBase& base,
+                       double s) { return std::vector{2.0 * s * base.reference.amplitude}; },
+       .family = rigs::Family::presliding}};
   return list;
 }
 
