@@ -35,7 +35,9 @@ void limit_this_process(const Limits& limits) {
     ::setrlimit(resource, &limit);
   };
   set(RLIMIT_CPU, static_cast<rlim_t>(limits.processor_seconds));
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses
   set(RLIMIT_AS, static_cast<rlim_t>(limits.memory));
+#endif
   const rlimit none = {0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
   ::alarm(static_cast<unsigned>(limits.wall_seconds));

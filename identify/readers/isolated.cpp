@@ -70,7 +70,7 @@ void set_limits(const IsolationLimits& limits, [[maybe_unused]] std::size_t used
   // At the soft limit the signal that tells of it, at the hard one the end.
   const auto seconds = static_cast<rlim_t>(limits.processor_time.count());
   limit(RLIMIT_CPU, seconds, seconds + 1);
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses
   if (used > 0) limit(RLIMIT_AS, used + limits.memory, used + limits.memory);
 #endif
 }

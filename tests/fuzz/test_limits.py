@@ -114,6 +114,7 @@ class Limits(unittest.TestCase):
             self.check_whole()
             subprocess.run(["rm", "-rf", "out"], cwd=self.folder, check=True)
 
+    @unittest.skipIf("DUALDAMP_SANITIZED" in os.environ, "a sanitizer reserves terabytes of addresses")
     def test_little_memory(self):
         """From the least with which the program can be loaded upwards."""
         for name in ("xy_curve", "identify"):
@@ -127,6 +128,7 @@ class Limits(unittest.TestCase):
                     self.assertIsNone(BUG.search(result.stderr), result.stderr)
                     self.check_whole()
 
+    @unittest.skipIf("DUALDAMP_SANITIZED" in os.environ, "a sanitizer reserves terabytes of addresses")
     def test_no_thread_to_be_had(self):
         """A stack for each thread that is larger than all memory: the loops run on the first thread."""
 

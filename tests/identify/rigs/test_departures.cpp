@@ -32,7 +32,7 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
       const identify::Sensors& sensors = laboratory.sensors;
       CHECK((laboratory.constants.mass != 1.0 || laboratory.constants.stiffness != 100.0 ||
              sensors.x.gain_error != 0.0 || sensors.y.gain_error != 0.0 || sensors.x.phase_lag != 0.0 ||
-             sensors.x.gain_drift != 0.0 || sensors.x.outlier_size != 0.0));
+             sensors.x.gain_drift != 0.0 || sensors.x.outlier_size != 0.0 || laboratory.friction_growth != 0.0));
       continue;
     }
     const auto distance = [&](double s) {
