@@ -8,6 +8,7 @@
 // The built-in laws, one line each, sorted by name. The source of each law defines its entry, NAME_entry().
 #define DUALDAMP_LAWS(LAW)      \
   LAW(asymmetric_coulomb)       \
+  LAW(attached_mass)            \
   LAW(bouc_wen)                 \
   LAW(bristle)                  \
   LAW(contact_compliance)       \

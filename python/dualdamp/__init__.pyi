@@ -184,6 +184,14 @@ def law(
 ) -> Law: ...
 @overload
 def law(
+    name: Literal["attached_mass"],
+    *,
+    mass: Quantity,
+    stiffness: Quantity,
+    damping: Quantity | None = None,
+) -> Law: ...
+@overload
+def law(
     name: Literal["bouc_wen"],
     *,
     limit: Quantity,
@@ -844,6 +852,13 @@ class _Laws:
         load_modulation: Mapping[str, Any] | None = None,
         fluctuation: Mapping[str, Any] | None = None,
         warming: Mapping[str, Any] | None = None,
+    ) -> Law: ...
+    def attached_mass(
+        self,
+        *,
+        mass: Quantity,
+        stiffness: Quantity,
+        damping: Quantity | None = None,
     ) -> Law: ...
     def bouc_wen(
         self,
