@@ -36,7 +36,8 @@ struct Departure {
   friend bool operator==(const Departure&, const Departure&) = default;
 };
 
-/// Whether a rig has the Coulomb friction of the truth: its departure lies in spring, sensors, constants or drive.
+/// Whether a rig has the Coulomb friction of the truth, as the last of its laws: its departure lies in spring,
+/// sensors, constants or drive.
 [[nodiscard]] bool leaves_friction_alone(const Rig& rig);
 
 }  // namespace dualdamp::bench

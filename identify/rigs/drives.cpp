@@ -61,6 +61,22 @@ sim::Model detuning(const RigBase& base, RigValues p) {
   return spring_and_drive(base, base.model.oscillator.cubic_stiffness, p[0]);
 }
 
+/// Part of the mass rides on a spring and a damper of its own. The second mode lies at about four times the
+/// natural frequency, between the odd harmonics that friction has: near one of them rigs would differ by chance.
+sim::Model second_mode(const RigBase& base, RigValues p) {
+  constexpr double frequency = 4.0;       // over the natural one
+  constexpr double damping_ratio = 0.02;  // of the rider on a base that is held
+  const double whole = base.model.oscillator.mass;
+  const double rider = p[0] * whole;
+  const double held = frequency * sim::natural_frequency(base.model.oscillator) * std::sqrt(1.0 - p[0]);
+  RigBase parted = base;
+  parted.model.oscillator.mass = whole - rider;
+  parted.model = with_law(
+      parted.model, "attached_mass",
+      {{"mass", rider}, {"stiffness", rider * held * held}, {"damping", 2.0 * damping_ratio * rider * held}});
+  return with_coulomb(parted);
+}
+
 constexpr RigParameter cubic_parameter = {.name = "cubic_stiffness",
                                           .unit = "N/m^3",
                                           .meaning = "k3 of the spring, as a positive number",
@@ -152,6 +168,19 @@ std::vector<Rig> springs() {
                       {8.3e5, 0.1},
                       "5 % stiffer at 10 mm, driven 10 % above the resonance of small amplitudes"}},
        .forced_only = true},
+      {.name = "second_mode",
+       .meaning =
+           "the structure has a second mode, four times as fast: part of the mass rides on a spring of its own",
+       .parameters = {{.name = "share",
+                       .unit = "1",
+                       .meaning = "of the mass that rides on a spring and damper of its own",
+                       .range = {.low = 0.0, .high = 1.0, .low_open = true, .high_open = true}}},
+       .build = second_mode,
+       .severity =
+           "share of the mass that rides on a spring of its own, with 2 % of critical damping, the second mode at "
+           "about four times the natural frequency",
+       .largest = 0.5,
+       .values_at = [](const RigBase&, double s) { return std::vector{s}; }},
       {.name = "softening_spring",
        .meaning = "the spring softens with its elongation",
        .parameters = {cubic_parameter},

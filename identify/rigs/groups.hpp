@@ -16,7 +16,7 @@ namespace dualdamp::identify::rigs {
 [[nodiscard]] std::vector<Rig> sliding_rigs();
 /// Viscous friction that is not proportional to speed.
 [[nodiscard]] std::vector<Rig> film_rigs();
-/// Drives and springs that differ from what the laboratory states.
+/// Drives, springs and structures that differ from what the laboratory states.
 [[nodiscard]] std::vector<Rig> drive_rigs();
 
 /// Laboratories that do not know their constants or their sensors.

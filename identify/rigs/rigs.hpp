@@ -56,7 +56,7 @@ enum class Family {
   velocity,    ///< friction that depends on speed in another way
   position,    ///< friction that depends on the place
   memory,      ///< friction that depends on what was before: warmth, a lag
-  spring,      ///< a spring that is not linear
+  spring,      ///< spring and structure that are not one linear spring
   sensors,     ///< readings that are off
   constants,   ///< mass or stiffness that are not as stated
   drive,       ///< a drive that is not as stated

@@ -5,21 +5,26 @@ import math
 MASS, STIFFNESS, ZETA, F0 = 1.042, 1568.0, 0.0987, 4.39  # of scenarios/stress/small.yaml
 
 
-def amplitude(Y, omega, damper=None, bristle=None, forward=0.0, cubic=0.0, third=0.0):
+def amplitude(Y, omega, damper=None, bristle=None, forward=0.0, cubic=0.0, third=0.0, rider=None):
     """Amplitude of a motion that reverses without rest: Runge and Kutta from reversal to reversal, 60 periods.
 
     damper: force over velocity; bristle: stiffness of Dahl's law in place of Coulomb friction; forward: what friction and damping
-    are more by in this direction, relative; cubic: k3; third: third harmonic of the base.
+    are more by in this direction, relative; cubic: k3; third: third harmonic of the base; rider: share of the mass that rides on a
+    spring of its own, with the frequency and the damping ratio that it has where the rest is held.
     """
     c = 2 * ZETA * math.sqrt(MASS * STIFFNESS)
     damper = damper or (lambda v: c * v)
 
+    share, own, ratio = rider or (0.0, 0.0, 0.0)
+
     def slope(t, state, direction):
-        x, v, z = state
+        x, v, z, stretched, stretching = state
         stretch = Y * math.cos(omega * t) + third * math.cos(3 * omega * t) - x
         friction = F0 * (z if bristle else direction) + damper(v)
         force = STIFFNESS * stretch + cubic * stretch**3 - friction * (1 + forward * direction)
-        return v, force / MASS, bristle / F0 * v * (1 - direction * z) if bristle else 0.0
+        pulled = own**2 * stretched + 2 * ratio * own * stretching  # acceleration of the rider
+        a = (force / MASS - share * pulled) / (1 - share)
+        return v, a, bristle / F0 * v * (1 - direction * z) if bristle else 0.0, stretching, a - pulled
 
     def step(t, state, h, direction):
         k1 = slope(t, state, direction)
@@ -28,8 +33,8 @@ def amplitude(Y, omega, damper=None, bristle=None, forward=0.0, cubic=0.0, third
         k4 = slope(t + h, [s + h * k for s, k in zip(state, k3)], direction)
         return [s + h / 6 * (a + 2 * b + 2 * c + d) for s, a, b, c, d in zip(state, k1, k2, k3, k4)]
 
-    period, h = 2 * math.pi / omega, 2 * math.pi / omega / 100
-    t, state, direction, turns = 0.0, [0.0, omega * Y, 0.0], 1, []
+    period, h = 2 * math.pi / omega, 2 * math.pi / omega / (400 if rider else 100)
+    t, state, direction, turns = 0.0, [0.0, omega * Y, 0.0, 0.0, 0.0], 1, []
     while t < 60 * period:
         new = step(t, state, h, direction)
         if new[1] * direction > 0:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 
 #include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
@@ -49,5 +50,52 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
     CHECK(small < 0.02);
     CHECK(small > 1e-8);
     CHECK(distance(0.1) > 3.0 * small);
+  }
+}
+
+TEST_CASE("departures: where friction is left alone it is the last law, that of the truth") {
+  // Pairs of the stress test take it away and put the friction of another departure in its place.
+  using identify::rigs::Family;
+  identify::rigs::Truth truth;
+  truth.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
+  truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
+  truth.F0 = 2.0;
+  const friction::Instant now{.x = 0.03, .v = 0.4};
+  for (const identify::rigs::Rig& departure : identify::rigs::departures()) {
+    const bool leaves_it_alone = departure.family == Family::spring || departure.family == Family::sensors ||
+                                 departure.family == Family::constants || departure.family == Family::drive;
+    if (!leaves_it_alone) continue;
+    CAPTURE(departure.name);
+    const sim::Model model =
+        identify::rigs::departed(departure, truth, {.amplitude = 0.12, .frequency = 10.0, .Y = 0.1}, 0.1);
+    REQUIRE_FALSE(model.friction.empty());
+    const friction::Law& last = model.friction.back();
+    CHECK_FALSE(last.is_modal());
+    CHECK(last.static_limit({}, now) == 2.0);
+    CHECK(last.force({}, now, friction::Direction::forward) == 2.0);
+    CHECK(last.force({}, now, friction::Direction::backward) == -2.0);
+  }
+}
+
+TEST_CASE("departures: second_mode without friction is two linear masses that weigh what one did") {
+  // x = k Y/(k + i w c - w^2 (m1 + m2 a/(a - w^2))), a = p^2 + 2 i 0.02 p w; p^2 = 16 (k/m) (1 - s).
+  using Complex = std::complex<double>;
+  identify::rigs::Truth truth;
+  truth.model.oscillator = {.mass = 2.0, .stiffness = 200.0, .damping = 3.0};
+  truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
+  const identify::rigs::Rig& departure = *identify::rigs::find_departure("second_mode");
+  for (const double s : {0.01, 0.1, 0.3}) {
+    for (const double w : {8.5, 10.0, 39.0}) {
+      CAPTURE(s, w);
+      truth.model.excitation.frequency = w;
+      const sim::SteadyState state =
+          sim::steady_state(identify::rigs::departed(departure, truth, {0.3, w, 0.1}, s));
+      REQUIRE(state.outcome.ok());
+      const double p = 40.0 * std::sqrt(1.0 - s);
+      const Complex a(p * p, 0.04 * p * w);
+      const Complex mass = 2.0 * (1.0 - s) + 2.0 * s * a / (a - w * w);
+      const Complex x = 20.0 / (Complex(200.0, 3.0 * w) - w * w * mass);
+      CHECK(state.amplitude == Approx(std::abs(x)).epsilon(1e-9));
+    }
   }
 }
