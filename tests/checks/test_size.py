@@ -49,7 +49,8 @@ class Size(unittest.TestCase):
             result = subprocess.run([sys.executable, str(CHECK), folder], capture_output=True, text=True)
         self.assertEqual(result.stderr, "")
         self.assertEqual(result.returncode, 1 if result.stdout else 0)
-        return result.stdout
+        # Exceptions are for the tree of the project, and planted ones have no need of them.
+        return "".join(line for line in result.stdout.splitlines(keepends=True) if not line.endswith("that nothing needs\n"))
 
     def test_functions_and_files(self):
         said = self.check({f"{i}/{path}": text for i, (path, text, _) in enumerate(CASES.values())}).splitlines()
