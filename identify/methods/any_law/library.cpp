@@ -64,8 +64,8 @@ const std::vector<rigs::Rig>& further_laws() {
   return list;
 }
 
-/// A second mode is left out for its cost; at one frequency its inertia acts on the readings as another stiffness
-/// does, and detuning stands for it.
+/// A second mode takes as long as a bristle law, and at one frequency its inertia acts on
+/// the readings as another stiffness does, for which `detuning` stands.
 constexpr std::array no_laws = {"rough_way", "second_mode", "warming"};
 /// The other sign of a law that is two-sided here.
 constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
