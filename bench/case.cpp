@@ -72,19 +72,19 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
   const MotionMaker maker(question, rig, question.ranges[motion.range], options);
   const sim::Oscillator& oscillator = rig.truth.model.oscillator;
   std::size_t place = number * grid.cases_per_motion();
+  DepartedRig departed{motion.departure, motion.severity};
+  if (!motion.departure.is_truth()) departed.reference = maker.reference();
   std::optional<DepartedMotions> unsampled;  // serves all sensors that sample nothing
   for (const SensorSet& sensors : question.sensors) {
     Laboratory laboratory{{oscillator.mass, oscillator.stiffness, rig.truth.model.excitation.frequency},
                           sensors.sensors};
-    motion.departure.mislead(laboratory, motion.severity);
+    motion.departure.mislead(laboratory, departed.reference, motion.severity);
     std::optional<DepartedMotions> sampled;
     std::optional<DepartedMotions>& motions = sensors.sensors.sample_rate > 0.0 ? sampled : unsampled;
     std::optional<Consequence> consequence;
     for (int seed = 0; seed < question.seeds; ++seed, ++place) {
       if (!wanted(place)) continue;
       if (!consequence) {
-        DepartedRig departed{motion.departure, motion.severity};
-        if (!motion.departure.is_truth()) departed.reference = maker.reference();
         if (!motions) motions = departed_motions(maker, departed, rig.truth, laboratory);
         consequence = consequence_of(maker, departed, rig, *motions, laboratory, sensors.sensors);
       }

@@ -25,6 +25,14 @@ double deviation(const identify::Sensor& sensor) {
   return std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
 }
 
+/// Extremes of a decay that has come to rest: the further ones lie where the mass sticks. So readings of motions
+/// with different numbers of swings can be compared, and change steadily as a swing vanishes.
+Readings with_rest(Readings extremes, int peaks) {
+  if (!extremes.empty())
+    extremes.resize(std::max(extremes.size(), static_cast<std::size_t>(peaks)), extremes.back());
+  return extremes;
+}
+
 /// Appends numbers in the order of `readings_of` and `deviations_of`.
 void append(Readings& list, const Readings& more) { list.insert(list.end(), more.begin(), more.end()); }
 
@@ -45,7 +53,7 @@ Readings readings_of(const Motions& motions, const identify::Sensors& sensors) {
       list.push_back(pair.phase);
     }
   }
-  if (record.decay) append(list, record.decay->extremes);
+  if (record.decay) append(list, with_rest(record.decay->extremes, motions.peaks));
   return list;
 }
 
@@ -68,7 +76,8 @@ Readings deviations_of(const Motions& motions, const identify::Sensors& sensors,
       list.push_back(std::hypot(x / pair.x, y / pair.Y) / std::sqrt(periods));
     }
   }
-  if (motions.decay) list.insert(list.end(), motions.decay->exact.decay->extremes.size(), x);
+  if (motions.decay)
+    list.insert(list.end(), with_rest(motions.decay->exact.decay->extremes, motions.peaks).size(), x);
   return list;
 }
 

@@ -44,9 +44,9 @@ sim::Model Departure::model(const Truth& truth, const ReferenceMotion& reference
   return departed(*law, changed, reference, s);
 }
 
-void Departure::mislead(Laboratory& laboratory, double s) const {
+void Departure::mislead(Laboratory& laboratory, const ReferenceMotion& reference, double s) const {
   for (const Rig* rig : {law, beside})
-    if (rig != nullptr && rig->mislead != nullptr) rig->mislead(laboratory, s);
+    if (rig != nullptr && rig->mislead != nullptr) rig->mislead(laboratory, reference, s);
 }
 
 bool leaves_friction_alone(const Rig& rig) {

@@ -31,7 +31,7 @@ struct Departure {
   /// The truth with the departure of severity s.
   [[nodiscard]] sim::Model model(const Truth& truth, const ReferenceMotion& reference, double s) const;
   /// Changes what the laboratory believes or reads.
-  void mislead(Laboratory& laboratory, double s) const;
+  void mislead(Laboratory& laboratory, const ReferenceMotion& reference, double s) const;
 
   friend bool operator==(const Departure&, const Departure&) = default;
 };

@@ -54,7 +54,7 @@ Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& s
   released.excitation = {};
   released.initial = {.position = question_.decay->displacement};
   scenarios::Measurement decay{.kind = scenarios::MeasurementKind::free_decay};
-  decay.peaks = question_.decay->peaks;
+  decay.peaks = result.peaks = question_.decay->peaks;
   result.decay = scenarios::motion_of(released, decay, sensors, options_);
   return result;
 }

@@ -18,6 +18,7 @@ namespace dualdamp::bench {
 struct Motions {
   scenarios::MotionRecord curve;
   std::optional<scenarios::MotionRecord> decay;
+  int peaks = 0;        ///< extremes of the decay that were asked for; a mass that comes to rest has fewer
   double stated = 1.0;  ///< frequency that the laboratory believes in, over the one it drives at
 
   /// What the sensors make of them. `warnings` are appended.

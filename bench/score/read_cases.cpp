@@ -116,7 +116,7 @@ class CaseMarker {
   static Truth believed(Truth truth, const Grid::Motion& motion) {
     sim::Oscillator& oscillator = truth.model.oscillator;
     Laboratory laboratory{{oscillator.mass, oscillator.stiffness, truth.model.excitation.frequency}, {}};
-    motion.departure.mislead(laboratory, motion.severity);
+    motion.departure.mislead(laboratory, {}, motion.severity);  // constants do not depend on the motion
     oscillator.mass = laboratory.constants.mass;
     oscillator.stiffness = laboratory.constants.stiffness;
     return truth;

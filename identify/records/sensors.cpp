@@ -47,7 +47,9 @@ class Reader {
   }
 
  private:
-  double reading(double value, Place place) { return quantise((1.0 + gain_error(place)) * value + noise()); }
+  double reading(double value, Place place) {
+    return quantise((1.0 + gain_error(place)) * value + sensor_.offset + noise());
+  }
 
   [[nodiscard]] double gain_error(Place place) const {
     const double way =

@@ -3,7 +3,7 @@
 ///
 /// One reading of a true value q:
 ///
-///   reading = clip(round((1 + gain_error + e) q + noise n)),   n normal with variance 1,
+///   reading = clip(round((1 + gain_error + e) q + offset + noise n)),   n normal with variance 1,
 ///
 /// rounded to multiples of `resolution`, cut off at +-`clipping`. e is what changes within a record: a drift of the
 /// gain from 0 at the first reading to `gain_drift` at the last, and `outlier_size` at one reading of each
@@ -12,9 +12,9 @@
 /// done here.
 ///
 /// An amplitude is half the difference of a peak and a trough, each read once a period, averaged over
-/// `average_cycles`: a standard deviation of noise/sqrt(2 periods). A phase is read at zero crossings of x and y,
-/// so that the noise of a period is noise/amplitude. Extremes of a free vibration are read once, their times
-/// exactly.
+/// `average_cycles`: a standard deviation of noise/sqrt(2 periods), and no offset. A phase is read at zero
+/// crossings of x and y, rising and falling, so that the noise of a period is noise/amplitude. Extremes of a free
+/// vibration are read once, their times exactly.
 ///
 /// The draws of each signal are a stream of their own (core/random.hpp): a reading depends on the seed, the signal
 /// and its number in the record. Cost: about 40 ns a noisy reading. Errors: a
@@ -32,6 +32,7 @@ namespace dualdamp::identify {
 struct Sensor {
   double noise = 0.0;         ///< standard deviation of a reading
   double resolution = 0.0;    ///< step between readings; 0: none
+  double offset = 0.0;        ///< reading of zero
   double gain_error = 0.0;    ///< relative
   double gain_drift = 0.0;    ///< relative, over the record
   int outlier_every = 0;      ///< readings of which one is off; 0: none

@@ -118,7 +118,7 @@ struct Rig {
   /// It shows in records of several sweeps alone.
   bool needs_sweeps = false;
   /// Changes what the laboratory believes or reads, or what goes on meanwhile; may be absent.
-  void (*mislead)(Laboratory& laboratory, double s) = nullptr;
+  void (*mislead)(Laboratory& laboratory, const ReferenceMotion& reference, double s) = nullptr;
 };
 
 /// All rigs, sorted by name.

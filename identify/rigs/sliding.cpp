@@ -50,6 +50,21 @@ sim::Model position_dependence(const RigBase& base, RigValues p) { return on_slo
 
 sim::Model position_slope(const RigBase& base, RigValues p) { return on_slope(base, p[0]); }
 
+/// A share of the friction follows rate and state, with F0 in steady sliding at the reference motion's peak speed:
+/// the share, not a, tends to 0, since the smooth engine needs mu0/a of some 40 at most.
+sim::Model rate_state(const RigBase& base, RigValues p) {
+  constexpr double mu0 = 0.2;
+  RigBase rest = base;
+  rest.F0 *= 1.0 - p[0];
+  return with_law(with_coulomb(rest), "rate_state",
+                  {{"normal_force", p[0] * base.F0 / mu0},
+                   {"mu0", mu0},
+                   {"a", 0.05 * mu0},
+                   {"b", 0.1 * mu0},
+                   {"slip_distance", 0.05 * base.reference.amplitude},
+                   {"reference_velocity", base.reference.speed()}});
+}
+
 /// Friction that varies along the way, the same each time the mass comes by.
 sim::Model rough_way(const RigBase& base, RigValues p) {
   const ParameterValues roughness{{"ratio", p[0]}, {"correlation_length", p[1]}, {"seed", 1.0}};
@@ -121,6 +136,15 @@ std::vector<Rig> by_speed() {
        .largest = 1.0,
        .values_at = [](const RigBase& base,
                        double s) { return std::vector{s * weight_of(base) / base.reference.speed()}; }},
+      {.name = "rate_state",
+       .meaning = "a share of the friction follows rate and state",
+       .parameters =
+           {{.name = "share", .unit = "1", .meaning = "share of the friction", .range = {.low = 0.0, .high = 1.0}}},
+       .build = rate_state,
+       .severity = "share of F0 that follows rate and state",
+       .largest = 1.0,
+       .values_at = [](const RigBase&, double s) { return std::vector{s}; },
+       .family = Family::memory},
       {.name = "static_friction",
        .meaning = "friction holds the mass at rest with more than F0",
        .parameters = {excess_parameter},

@@ -12,6 +12,7 @@ Field sensor(const std::string& name, const std::string& unit, const std::string
       name,
       {{quantity("noise", {unit}, "noise level: standard deviation of a reading").with_fallback(0.0).at_least(0),
         quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
+        quantity("offset", {unit}, "reading where there is none").with_fallback(0.0),
         quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
         quantity("gain_drift", {"1"}, "change of the gain from the first reading of a record to the last, relative")
             .with_fallback(0.0)
@@ -53,6 +54,7 @@ identify::Sensors sensors_of(const Json& section) {
     const Json& values = section.at(name);
     sensor = {.noise = number(values.at("noise")),
               .resolution = number(values.at("resolution")),
+              .offset = number(values.at("offset")),
               .gain_error = number(values.at("gain_error")),
               .gain_drift = number(values.at("gain_drift")),
               .outlier_every = values.at("outlier_every").get<int>(),

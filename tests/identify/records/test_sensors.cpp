@@ -103,6 +103,11 @@ TEST_CASE("resolution, gain and clipping act on a reading") {
   sensors.y.gain_error = 0.02;
   CHECK(read(one_pair(), sensors, 0).pairs->pairs[0].Y == Approx(5.1e-3).epsilon(1e-14));
   sensors = {};
+  sensors.x.offset = 1e-3;
+  CHECK(read(one_pair(), sensors, 0).pairs->pairs[0].x == Approx(8e-3).epsilon(1e-14));
+  CHECK(read(one_history(200), sensors, 0).histories[0].x[7] ==
+        Approx(one_history(200).histories[0].x[7] + 1e-3).epsilon(1e-14));
+  sensors = {};
   sensors.x.clipping = 6e-3;
   CHECK(read(one_pair(), sensors, 0).pairs->pairs[0].x == 6e-3);
   const Record clipped = read(one_history(200), sensors, 0);

@@ -29,11 +29,12 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
     if (departure.mislead != nullptr) {  // the motion is the truth's, and the laboratory is wrong about it
       identify::rigs::Laboratory laboratory{.constants = {.mass = 1.0, .stiffness = 100.0, .frequency = 10.0},
                                             .sensors = {}};
-      departure.mislead(laboratory, 0.1);
+      departure.mislead(laboratory, motion, 0.1);
       const identify::Sensors& sensors = laboratory.sensors;
       CHECK((laboratory.constants.mass != 1.0 || laboratory.constants.stiffness != 100.0 ||
              sensors.x.gain_error != 0.0 || sensors.y.gain_error != 0.0 || sensors.x.phase_lag != 0.0 ||
-             sensors.x.gain_drift != 0.0 || sensors.x.outlier_size != 0.0 || laboratory.friction_growth != 0.0));
+             sensors.x.gain_drift != 0.0 || sensors.x.offset != 0.0 || sensors.x.outlier_size != 0.0 ||
+             laboratory.friction_growth != 0.0));
       continue;
     }
     const auto distance = [&](double s) {
