@@ -44,6 +44,19 @@ Resample::Resample(const Grid& grid, std::size_t number)
   for (const auto& [family, members] : families) draw_with_replacement(members, laws_, draw);
 }
 
+std::vector<double> Resample::case_weights(const Grid& grid) const {
+  std::vector<double> weights(grid.cases(), 1.0);
+  if (number_ == 0) return weights;
+  for (std::size_t motion = 0; motion < grid.motions(); ++motion) {
+    const double of_rig = rigs_[grid.motion(motion).rig];
+    for (std::size_t i = 0; i < grid.cases_per_motion(); ++i) {
+      const std::size_t number = motion * grid.cases_per_motion() + i;
+      weights[number] = of_rig * times(number);
+    }
+  }
+  return weights;
+}
+
 double Resample::times(std::size_t number) const {
   // Cumulated Poisson probabilities of 0, 1, 2, ...
   static constexpr std::array<double, 7> below = {0.36787944117144233, 0.73575888234288467, 0.91969860292860584,

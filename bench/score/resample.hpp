@@ -20,10 +20,8 @@ class Resample {
  public:
   Resample(const Grid& grid, std::size_t number);
 
-  /// Of a case of this rig; that of its departure is not in it.
-  [[nodiscard]] double weight(std::size_t rig, std::size_t number) const {
-    return number_ == 0 ? 1.0 : rigs_[rig] * times(number);
-  }
+  /// Of all cases, by number; those of their departures are not in them.
+  [[nodiscard]] std::vector<double> case_weights(const Grid& grid) const;
   /// Of the departures, in the order of the question; the truth counts once.
   [[nodiscard]] double law_weight(std::size_t law) const { return laws_[law]; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -59,21 +60,19 @@ class Spreads {
   Spread interval_score_;
 };
 
-/// What does not depend on the resample: the cells, their cases in the order of each method's confidence.
+/// What does not depend on the resample: the cells, and the cases in the order of each method's confidence.
 class Plan {
  public:
   Plan(const MarkedCases& cases, const Grid& grid) : cases_(cases), grid_(grid) {
     const StressTest& question = grid.question();
     cases_of_.resize(grid.cells());
     cell_of_.resize(grid.cases());
-    rig_of_.resize(grid.cases());
     for (std::size_t number = 0; number < grid.cases(); ++number) {
       const Grid::Case place = grid.at(number);
       const Grid::Motion motion = grid.motion(place.motion);
       const std::size_t cell = grid.cell_of(motion, place.sensors);
       cases_of_[cell].push_back(static_cast<std::uint32_t>(number));
       cell_of_[number] = static_cast<std::uint32_t>(cell);
-      rig_of_[number] = static_cast<std::uint32_t>(motion.rig);
     }
     for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
       const Grid::Motion motion = grid.motion(grid.first_of_cell(cell).motion);
@@ -83,18 +82,11 @@ class Plan {
     }
     order_.resize(question.entrants());
     for (std::size_t entrant = 0; entrant < order_.size(); ++entrant) {
-      std::vector<std::uint32_t> all(grid.cases());
-      std::iota(all.begin(), all.end(), 0U);
-      order_[entrant] = sorted(entrant, std::move(all));
+      order_[entrant].resize(grid.cases());
+      std::iota(order_[entrant].begin(), order_[entrant].end(), 0U);
+      std::ranges::stable_sort(order_[entrant], std::ranges::greater{},
+                               [&](std::uint32_t number) { return cases.marks[entrant][number].confidence; });
     }
-  }
-
-  /// Cases in the order of falling confidence.
-  [[nodiscard]] std::vector<std::uint32_t> sorted(std::size_t entrant, std::vector<std::uint32_t> numbers) const {
-    const std::vector<Mark>& marks = cases_.marks[entrant];
-    std::ranges::stable_sort(numbers, std::ranges::greater{},
-                             [&](std::uint32_t number) { return marks[number].confidence; });
-    return numbers;
   }
 
   [[nodiscard]] const Mark& mark(std::size_t entrant, std::size_t number) const {
@@ -105,9 +97,9 @@ class Plan {
   }
   [[nodiscard]] const Grid& grid() const { return grid_; }
   [[nodiscard]] const std::vector<std::uint32_t>& cases_of(std::size_t cell) const { return cases_of_[cell]; }
+  /// All cases by falling confidence.
   [[nodiscard]] const std::vector<std::uint32_t>& order(std::size_t entrant) const { return order_[entrant]; }
   [[nodiscard]] std::size_t cell_of(std::size_t number) const { return cell_of_[number]; }
-  [[nodiscard]] std::size_t rig_of(std::size_t number) const { return rig_of_[number]; }
   [[nodiscard]] std::size_t law_of(std::size_t cell) const { return law_of_[cell]; }
   [[nodiscard]] Family family_of(std::size_t cell) const { return family_of_[cell]; }
 
@@ -116,7 +108,7 @@ class Plan {
   const Grid& grid_;
   std::vector<std::vector<std::uint32_t>> cases_of_;
   std::vector<std::vector<std::uint32_t>> order_;
-  std::vector<std::uint32_t> cell_of_, rig_of_;
+  std::vector<std::uint32_t> cell_of_;
   std::vector<std::size_t> law_of_;
   std::vector<Family> family_of_;
 };
@@ -127,12 +119,12 @@ void add_parameter(const ParameterMark& mark, double weight, Mean& coverage, Mea
 }
 
 /// All but the area of risk, of one method in one cell.
-Metrics cell_metrics(const Plan& plan, const Resample& resample, std::size_t cell, std::size_t entrant) {
+Metrics cell_metrics(const Plan& plan, const std::vector<double>& weights, std::size_t cell, std::size_t entrant) {
   std::array<Mean, metric_count> means;
   const auto mean = [&](Metric metric) -> Mean& { return means[static_cast<std::size_t>(metric)]; };
   const bool is_truth = plan.family_of(cell) == Family::none;
   for (const std::uint32_t number : plan.cases_of(cell)) {
-    const double weight = resample.weight(plan.rig_of(number), number);
+    const double weight = weights[number];
     if (weight == 0.0) continue;
     const Mark& mark = plan.mark(entrant, number);
     add_parameter(mark.zeta, weight, mean(Metric::coverage_zeta), mean(Metric::interval_score_zeta));
@@ -144,20 +136,6 @@ Metrics cell_metrics(const Plan& plan, const Resample& resample, std::size_t cel
   Metrics metrics;
   for (std::size_t i = 0; i < metric_count; ++i) metrics.values[i] = means[i].value();
   return metrics;
-}
-
-double cell_area(const Plan& plan, const Resample& resample, const std::vector<std::uint32_t>& order,
-                 std::size_t entrant) {
-  RiskArea area;
-  float last = 0.0F;
-  for (const std::uint32_t number : order) {
-    const Mark& mark = plan.mark(entrant, number);
-    if (mark.confidence != last) area.end_group();
-    last = mark.confidence;
-    area.add(resample.weight(plan.rig_of(number), number), static_cast<double>(mark.loss));
-  }
-  area.end_group();
-  return area.area();
 }
 
 /// Error statistics of one method in one cell.
@@ -185,101 +163,89 @@ void describe_errors(const Plan& plan, CellScore& score) {
   score.harm = harm.value();
 }
 
-std::vector<CellScore> cell_scores(const Plan& plan, const std::vector<Resample>& draws) {
-  const std::size_t entrants = plan.grid().question().entrants();
-  std::vector<CellScore> result(plan.grid().cells() * entrants);
-  sim::in_parts(result.size(), 1, 0, [&](std::size_t first, std::size_t) {
-    CellScore& score = result[first];
-    score.cell = first / entrants;
-    score.entrant = first % entrants;
-    describe_errors(plan, score);
-    const std::vector<std::uint32_t> order = plan.sorted(score.entrant, plan.cases_of(score.cell));
-    Spreads spreads;
-    for (std::size_t i = 0; i < draws.size(); ++i) {
-      Metrics metrics = cell_metrics(plan, draws[i], score.cell, score.entrant);
-      metrics[Metric::selective_risk_area] = cell_area(plan, draws[i], order, score.entrant);
-      if (i == 0)
-        score.value = metrics;
-      else
-        spreads.add(metrics);
-    }
-    score.se = spreads.se();
-  });
-  return result;
-}
-
 using FamilyMetrics = std::map<Family, Metrics>;
 
-/// One resample of one method: its families, and all of them.
+/// One resample of one method: its cells, its families, and all of them.
 struct Aggregate {
+  std::vector<Metrics> cells;
   FamilyMetrics families;
   Metrics all;
 };
 
-/// Weights of the cells within their families: departures alike, and cells of a departure alike.
-struct CellWeights {
+/// Weights of the cases, and of the cells within their families: departures alike, and cells of a departure alike.
+struct Weights {
+  std::vector<double> cases;
+  std::vector<double> cells;  ///< sums of the weights of their cases
   std::vector<double> in_family;
-  std::vector<double> cases;  ///< sum of the weights of the cases
-  std::size_t families = 0;
 };
 
-CellWeights weights_of(const Plan& plan, const Resample& resample) {
+Weights weights_of(const Plan& plan, const Resample& resample) {
   const std::size_t laws = plan.grid().question().departures.size();
-  CellWeights weights;
+  Weights weights;
+  weights.cases = resample.case_weights(plan.grid());
   std::map<Family, double> sums;
   for (std::size_t cell = 0; cell < plan.grid().cells(); ++cell) {
     const std::size_t law = plan.law_of(cell);
     weights.in_family.push_back(law == laws ? 1.0 : resample.law_weight(law));
     double sum = 0.0;
-    for (const std::uint32_t number : plan.cases_of(cell)) sum += resample.weight(plan.rig_of(number), number);
-    weights.cases.push_back(sum);
+    for (const std::uint32_t number : plan.cases_of(cell)) sum += weights.cases[number];
+    weights.cells.push_back(sum);
     if (sum > 0.0) sums[plan.family_of(cell)] += weights.in_family.back();
   }
   for (std::size_t cell = 0; cell < plan.grid().cells(); ++cell)
     weights.in_family[cell] /= std::max(sums[plan.family_of(cell)], 1e-300);
-  weights.families = sums.size();
   return weights;
 }
 
-/// Areas of risk of families and of all, in one walk over all cases.
-void add_areas(const Plan& plan, const Resample& resample, const CellWeights& weights, std::size_t entrant,
-               Aggregate& aggregate) {
-  std::map<Family, RiskArea> families;
-  for (const auto& [family, metrics] : aggregate.families) families[family] = {};
-  std::vector<RiskArea*> of_cell;
-  for (std::size_t cell = 0; cell < plan.grid().cells(); ++cell) of_cell.push_back(&families[plan.family_of(cell)]);
-  RiskArea all;
-  const auto end_group = [&] {
-    all.end_group();
-    for (auto& [family, area] : families) area.end_group();
-  };
-  float last = 0.0F;
-  for (const std::uint32_t number : plan.order(entrant)) {
-    const Mark& mark = plan.mark(entrant, number);
-    if (mark.confidence != last) end_group();
-    last = mark.confidence;
-    const std::size_t cell = plan.cell_of(number);
-    const double weight = resample.weight(plan.rig_of(number), number);
-    if (weight == 0.0 || weights.in_family[cell] == 0.0) continue;
-    const double share = weight * weights.in_family[cell] / weights.cases[cell];
-    of_cell[cell]->add(share, static_cast<double>(mark.loss));
-    all.add(share, static_cast<double>(mark.loss));
+/// An area of risk, and the confidence of its last case.
+struct OpenArea {
+  RiskArea area;
+  float confidence = std::numeric_limits<float>::quiet_NaN();
+
+  void add(const Mark& mark, double weight) {
+    if (mark.confidence != confidence) area.end_group();
+    confidence = mark.confidence;
+    area.add(weight, static_cast<double>(mark.loss));
   }
-  end_group();
-  for (auto& [family, metrics] : aggregate.families) metrics[Metric::selective_risk_area] = families[family].area();
-  aggregate.all[Metric::selective_risk_area] = all.area();
+  [[nodiscard]] double close() {
+    area.end_group();
+    return area.area();
+  }
+};
+
+/// Areas of risk of cells, families and all, in one walk over all cases.
+void add_areas(const Plan& plan, const Weights& weights, std::size_t entrant, Aggregate& aggregate) {
+  std::map<Family, OpenArea> families;
+  std::vector<OpenArea> cells(plan.grid().cells());
+  std::vector<OpenArea*> family_of;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) family_of.push_back(&families[plan.family_of(cell)]);
+  OpenArea all;
+  for (const std::uint32_t number : plan.order(entrant)) {
+    const double weight = weights.cases[number];
+    if (weight == 0.0) continue;
+    const Mark& mark = plan.mark(entrant, number);
+    const std::size_t cell = plan.cell_of(number);
+    cells[cell].add(mark, weight);
+    if (weights.in_family[cell] == 0.0) continue;
+    const double share = weight * weights.in_family[cell] / weights.cells[cell];
+    family_of[cell]->add(mark, share);
+    all.add(mark, share);
+  }
+  constexpr Metric metric = Metric::selective_risk_area;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) aggregate.cells[cell][metric] = cells[cell].close();
+  for (auto& [family, metrics] : aggregate.families) metrics[metric] = families[family].close();
+  aggregate.all[metric] = all.close();
 }
 
-Aggregate aggregate_of(const Plan& plan, const Resample& resample, const CellWeights& weights,
-                       std::size_t entrant) {
+Aggregate aggregate_of(const Plan& plan, const Weights& weights, std::size_t entrant) {
+  Aggregate result;
   std::map<Family, std::array<Mean, metric_count>> means;
   for (std::size_t cell = 0; cell < plan.grid().cells(); ++cell) {
-    if (weights.in_family[cell] == 0.0 || weights.cases[cell] == 0.0) continue;
-    const Metrics metrics = cell_metrics(plan, resample, cell, entrant);
+    const Metrics& metrics = result.cells.emplace_back(cell_metrics(plan, weights.cases, cell, entrant));
+    if (weights.in_family[cell] == 0.0 || weights.cells[cell] == 0.0) continue;
     std::array<Mean, metric_count>& family = means[plan.family_of(cell)];
     for (std::size_t i = 0; i < metric_count; ++i) family[i].add(weights.in_family[cell], metrics.values[i]);
   }
-  Aggregate result;
   std::array<Mean, metric_count> all;
   for (const auto& [family, list] : means) {
     Metrics& metrics = result.families[family];
@@ -289,7 +255,7 @@ Aggregate aggregate_of(const Plan& plan, const Resample& resample, const CellWei
     }
   }
   for (std::size_t i = 0; i < metric_count; ++i) result.all.values[i] = all[i].value();
-  add_areas(plan, resample, weights, entrant, result);
+  add_areas(plan, weights, entrant, result);
   return result;
 }
 
@@ -300,9 +266,25 @@ Aggregates aggregates_of(const Plan& plan, const std::vector<Resample>& draws) {
   const std::size_t entrants = plan.grid().question().entrants();
   Aggregates result(draws.size());
   sim::in_parts(draws.size(), 1, 0, [&](std::size_t i, std::size_t) {
-    const CellWeights weights = weights_of(plan, draws[i]);
+    const Weights weights = weights_of(plan, draws[i]);
     for (std::size_t entrant = 0; entrant < entrants; ++entrant)
-      result[i].push_back(aggregate_of(plan, draws[i], weights, entrant));
+      result[i].push_back(aggregate_of(plan, weights, entrant));
+  });
+  return result;
+}
+
+std::vector<CellScore> cell_scores(const Plan& plan, const Aggregates& aggregates) {
+  const std::size_t entrants = aggregates.front().size();
+  std::vector<CellScore> result(plan.grid().cells() * entrants);
+  sim::in_parts(result.size(), 1, 0, [&](std::size_t number, std::size_t) {
+    CellScore& score = result[number];
+    score.cell = number / entrants;
+    score.entrant = number % entrants;
+    describe_errors(plan, score);
+    score.value = aggregates.front()[score.entrant].cells[score.cell];
+    Spreads spreads;
+    for (std::size_t i = 1; i < aggregates.size(); ++i) spreads.add(aggregates[i][score.entrant].cells[score.cell]);
+    score.se = spreads.se();
   });
   return result;
 }
@@ -383,8 +365,8 @@ Scores score(const MarkedCases& cases, const Grid& grid) {
   for (std::size_t i = 0; i <= resamples; ++i) draws.emplace_back(grid, i);
   Scores result;
   result.failed_cases = cases.failed_cases;
-  result.cells = cell_scores(plan, draws);
   const Aggregates aggregates = aggregates_of(plan, draws);
+  result.cells = cell_scores(plan, aggregates);
   result.families = family_scores(aggregates);
   result.differences = differences_of(aggregates);
   result.ranking = ranking_of(aggregates, result.differences);

@@ -27,13 +27,13 @@ namespace {
 constexpr std::string_view number_key = "{\"case\":";
 constexpr const char* way_out = "--resume goes on with them, --overwrite begins anew, --out DIR keeps them apart";
 
-/// The number of the case a line holds; nothing for a line that is not whole.
+/// The number of the case a line holds; nothing for a line that holds none.
 std::optional<std::size_t> number_of(std::string_view line) {
   if (!line.starts_with(number_key) || !line.ends_with('}')) return std::nullopt;
   std::size_t number = 0;
   const char* begin = line.data() + number_key.size();
   const auto [end, fault] = std::from_chars(begin, line.data() + line.size(), number);
-  if (fault != std::errc() || end == begin || *end != ',' || !nlohmann::json::accept(line)) return std::nullopt;
+  if (fault != std::errc() || end == begin || *end != ',') return std::nullopt;
   return number;
 }
 
@@ -124,7 +124,7 @@ std::vector<int> CaseFile::parts() const {
 
 std::size_t CaseFile::finished() const { return static_cast<std::size_t>(std::ranges::count(finished_, true)); }
 
-std::uintmax_t CaseFile::scan(int part, Lengths& lengths) const {
+std::uintmax_t CaseFile::scan(int part, Lengths& lengths, Origin origin) const {
   const std::string path = part_path(part);
   Lines lines(path);
   std::string line;
@@ -137,6 +137,7 @@ std::uintmax_t CaseFile::scan(int part, Lengths& lengths) const {
   while (lines.next(line)) {
     const std::optional<std::size_t> number = number_of(line);
     if (!number || *number >= lengths.size()) break;
+    if (origin == Origin::earlier_run && !nlohmann::json::accept(line)) break;
     lengths[*number] = static_cast<std::uint32_t>(line.size() + 1);
     end = lines.end();
   }
@@ -192,7 +193,7 @@ void CaseFile::open() {
   Lengths lengths(finished_.size(), 0);
   std::uintmax_t end = 0;
   for (const int part : parts()) {
-    const std::uintmax_t whole = scan(part, lengths);
+    const std::uintmax_t whole = scan(part, lengths, Origin::earlier_run);
     if (part == part_) end = whole;
   }
   const std::string path = part_path(part_);
@@ -253,7 +254,7 @@ void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int d
 void CaseFile::finish() {
   Lengths lengths(finished_.size(), 0);
   const std::vector<int> all = parts();
-  for (const int part : all) scan(part, lengths);
+  for (const int part : all) scan(part, lengths, Origin::this_run);
   if (const auto missing = std::ranges::count(lengths, 0U); missing > 0) {
     const auto first = std::ranges::find(lengths, 0U) - lengths.begin();
     fail_to_write(path(), std::to_string(missing) + " cases are missing, first " + std::to_string(first));

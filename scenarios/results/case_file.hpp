@@ -51,6 +51,8 @@ class CaseFile {
   [[nodiscard]] std::string path() const { return part_path(0); }
 
  private:
+  /// An earlier run may have been killed as it wrote: its lines are read whole. This run's are known to be whole.
+  enum class Origin { earlier_run, this_run };
   using Lengths = std::vector<std::uint32_t>;  ///< of the lines, by case number; 0: not there
 
   [[nodiscard]] std::string part_path(int part) const;
@@ -58,7 +60,7 @@ class CaseFile {
   void open_part();
   void write_line(const std::string& text);
   /// Notes the whole lines of a part; returns how many bytes they take.
-  std::uintmax_t scan(int part, Lengths& lengths) const;
+  std::uintmax_t scan(int part, Lengths& lengths, Origin origin) const;
   void gather(const std::vector<int>& all, const Lengths& lengths, int descriptor) const;
 
   std::string directory_;
