@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 
 namespace dualdamp::bench {
 
@@ -155,13 +156,6 @@ Table amplitude_table(std::string name, const std::vector<std::pair<std::string,
   return table;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
-  return text;
-}
-
 /// Whether a decay bends as the measured one does, by a tenth of it at least.
 bool bends_alike(const Explanation& explanation, const DecayReading& measured) {
   return explanation.decay && explanation.decay->bend() / measured.bend() > 0.1;
@@ -179,7 +173,7 @@ std::string verdict(const StudyAnswer& answer, const MechanismStudy& study) {
       " with " + std::to_string(best.unknowns) + " unknowns for " + std::to_string(2 * study.estimates.size()) +
       " numbers, none of them off by more than " + core::format_number(100.0 * best.misfit, digits) + " %. ";
   if (!best.aliases.empty())
-    text += "Within the standard errors it cannot be told from " + joined(best.aliases) +
+    text += "Within the standard errors it cannot be told from " + core::joined(best.aliases, " and ") +
             ": amplitudes at one frequency do not tell mechanisms apart. ";
   std::vector<std::string> likely;
   std::vector<std::string> alike;
@@ -191,10 +185,11 @@ std::string verdict(const StudyAnswer& answer, const MechanismStudy& study) {
       alike.emplace_back(one.mechanism->name);
   }
   if (likely.empty()) return text + "None of these is within a factor of 10 of plausible values.";
-  text += "Within a factor of 10 of plausible values: " + joined(likely) + ". ";
+  text += "Within a factor of 10 of plausible values: " + core::joined(likely, " and ") + ". ";
   if (!study.decay) return text;
-  return text + (alike.empty() ? "None of those makes the free decay bend as measured."
-                               : "Of those the free decay bends as measured with " + joined(alike) + ".");
+  return text + (alike.empty()
+                     ? "None of those makes the free decay bend as measured."
+                     : "Of those the free decay bends as measured with " + core::joined(alike, " and ") + ".");
 }
 
 std::vector<PartReading> measured_readings(const MechanismStudy& study) {

@@ -19,6 +19,7 @@
 #include "cli/guarded.hpp"
 #include "cli/interrupt.hpp"
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 
 namespace dualdamp::cli {
 
@@ -66,9 +67,7 @@ std::optional<int> wait_for(pid_t child, const sigset_t& signals, Clock::time_po
 }
 
 std::string names(const std::vector<std::string>& plugins) {
-  std::string result;
-  for (const std::string& plugin : plugins) result += (result.empty() ? "" : ", ") + plugin;
-  return result.empty() ? "none" : result;
+  return plugins.empty() ? "none" : core::joined(plugins);
 }
 
 std::string crash(int signal, const Call& call) {

@@ -4,6 +4,7 @@
 
 #include "bench/analyses.hpp"
 #include "cli/print.hpp"
+#include "core/text.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
 
@@ -86,7 +87,7 @@ std::string needs_of(const scenarios::Analysis& analysis) {
   for (const scenarios::Needs& needs : analysis.needs) {
     const std::string source = needs.source.empty() ? "" : " with " + needs.source;
     const std::string what =
-        needs.excitations.empty() ? "no system" : "a system, excitation " + scenarios::joined(needs.excitations);
+        needs.excitations.empty() ? "no system" : "a system, excitation " + core::joined(needs.excitations);
     text += "  needs" + source + ": " + what + "\n";
   }
   return text;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 
 namespace dualdamp::identify {
 
@@ -12,12 +13,6 @@ namespace {
 constexpr int digits = 15;
 
 bool is_list(OptionKind kind) { return kind == OptionKind::numbers || kind == OptionKind::counts; }
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 /// The numbers of a value; a flag has none.
 std::vector<double> numbers_in(const OptionValue& value) {
@@ -60,7 +55,7 @@ core::Diagnostic complaint_about(const Option& option, const OptionValue& value)
 
 std::string Option::describe() const {
   if (kind == OptionKind::flag) return "true, false";
-  if (kind == OptionKind::names) return "a list of " + joined(words());
+  if (kind == OptionKind::names) return "a list of " + core::joined(words());
   const std::string one = range.describe(kind == OptionKind::count || kind == OptionKind::counts ? "" : unit);
   const std::string what = kind == OptionKind::count || kind == OptionKind::counts ? "whole number" : "number";
   if (!is_list(kind)) return "a " + what + " " + one;
@@ -77,8 +72,11 @@ std::vector<core::Diagnostic> faults_of(const OptionValues& values, std::span<co
     if (declared == options.end()) {
       std::vector<std::string> names;
       for (const Option* option : options) names.emplace_back(option->name);
-      faults.push_back(
-          {{}, "the method has no option '" + name + "'", names.empty() ? "no option" : joined(names), {}, {}});
+      faults.push_back({{},
+                        "the method has no option '" + name + "'",
+                        names.empty() ? "no option" : core::joined(names),
+                        {},
+                        {}});
     } else if (core::Diagnostic fault = complaint_about(**declared, value); !fault.message.empty()) {
       faults.push_back(std::move(fault));
     }

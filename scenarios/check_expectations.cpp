@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/text.hpp"
+
 namespace dualdamp::scenarios {
 
 namespace {
@@ -29,8 +31,8 @@ void check_expectations(CheckedFile& file, const Expectable& result) {
     const auto text = expectation.at("value").get<std::string>();
     const auto path = parse_result_path(text);
     if (!path || std::ranges::find(patterns, path->pattern) == patterns.end()) {
-      file.complain(place, "the result of " + result.subject + " has no number '" + text + "'", joined(patterns),
-                    {}, nearest(path ? path->pattern : text, patterns));
+      file.complain(place, "the result of " + result.subject + " has no number '" + text + "'",
+                    core::joined(patterns), {}, nearest(path ? path->pattern : text, patterns));
     } else {
       check_index(file, result, place, *path);
     }

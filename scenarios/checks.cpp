@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 #include "scenarios/check_expectations.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
@@ -87,7 +88,7 @@ void check_excitation(CheckedFile& file) {
                   file.subject() + " does not work with " +
                       (given == nullptr ? "no excitation" : "excitation type '" + type + "'") + ": " +
                       file.needs()->reason,
-                  joined(file.needs()->excitations));
+                  core::joined(file.needs()->excitations));
     return;
   }
   const Section& section = excitations().find(type)->section;
@@ -158,7 +159,7 @@ void check_loss_factor(CheckedFile& file, const Analysis& analysis, const Analys
     file.complain(path,
                   "'" + path + "' does not work with " + file.subject() +
                       ": structural damping is not causal, so it has no motion in time",
-                  joined(names));
+                  core::joined(names));
     return;
   }
   if (file.is_given("excitation.harmonics"))
@@ -187,7 +188,7 @@ void check_load_modulation(CheckedFile& file) {
       file.complain("system.friction",
                     "'load_modulation' follows a harmonic excitation, and there is none; a load that varies with "
                     "position is a 'load_gradient'",
-                    joined(harmonic_excitations()));
+                    core::joined(harmonic_excitations()));
 }
 
 /// What cannot be computed again in another way is not said to be verified.
@@ -200,7 +201,7 @@ void check_verification(CheckedFile& file, const Analysis& analysis, const Analy
   file.complain("numerics.verify",
                 "'numerics.verify' does not work with " + file.subject() +
                     ": no other engine can compute its result again, point by point",
-                joined(names));
+                core::joined(names));
 }
 
 /// An uncertainty that no number of the result would carry is not taken in silence.
@@ -215,7 +216,7 @@ void check_uncertainties(CheckedFile& file, const Analysis& analysis, const Anal
       file.complain(std::string(section) + "." + uncertainty_key(key),
                     std::string("'") + section + "." + key + "' states an uncertainty, and " + file.subject() +
                         " does not use it",
-                    "with analysis.type " + joined(names));
+                    "with analysis.type " + core::joined(names));
 }
 
 /// Items of the result's lists, as far as they are known before the run.

@@ -1,6 +1,7 @@
 #include <cctype>
 #include <set>
 
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/schema.hpp"
@@ -28,7 +29,7 @@ class Page {
       row({"`" + field.name + "`", describe_values(field), default_of(section, field), field.meaning});
     for (const Alternatives& alternatives : section.alternatives)
       paragraph(std::string(alternatives.is_required ? "Exactly one of " : "At most one of ") +
-                joined(alternatives.names) + ".");
+                core::joined(alternatives.names) + ".");
   }
 
   /// A section and those inside it; sections under `level`.
@@ -68,7 +69,7 @@ class Page {
   }
 
   static std::string default_of(const Section& section, const Field& field) {
-    const std::string others = joined(section.instead_of(field.name));
+    const std::string others = core::joined(section.instead_of(field.name));
     if (field.is_required && !field.instead_of.empty()) return "required without `" + field.instead_of + "`";
     if (field.is_required) return others.empty() ? "required" : "required, or " + others;
     if (!field.fallback.is_null())

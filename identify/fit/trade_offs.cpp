@@ -5,17 +5,11 @@
 #include <numeric>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
-  return text;
-}
 
 std::string percent(double share) { return core::format_number(100.0 * std::abs(share), 2) + " %"; }
 
@@ -64,7 +58,7 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   else if (order.size() == 2)
     found.text = pair_text(direction, parameters, order[0], order[1]) + known;
   else
-    found.text = joined(found.parameters) + " trade off among each other" + known;
+    found.text = core::joined(found.parameters, " and ") + " trade off among each other" + known;
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 
@@ -18,16 +19,10 @@ std::string number(double value) {
   return core::format_number(value, digits);
 }
 
-std::string joined(const std::vector<std::string>& list, const std::string& last) {
-  std::string text;
-  for (std::size_t i = 0; i < list.size(); ++i) text += (i == 0 ? "" : i + 1 < list.size() ? ", " : last) + list[i];
-  return text;
-}
-
 std::string statements(const std::vector<Assumption>& list, const std::string& last) {
   std::vector<std::string> texts;
   for (const Assumption assumption : list) texts.emplace_back(statement_of(assumption));
-  return joined(texts, last);
+  return core::joined(texts, last);
 }
 
 /// What an estimate rests on; the joint model has relaxed what is violated.
@@ -129,7 +124,7 @@ std::string why_preferred(const Identification& all) {
   text +=
       rivals > 1 ? ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest" : "";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
-  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + joined(untested, ", ");
+  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
   return text;
 }
 
@@ -167,7 +162,8 @@ std::string why_contradicted(const Ledger& ledger) {
     std::string help = what_would_help(departure.front());
     if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
   }
-  return "it does not hold that " + joined(held, "; nor that ") + "; what would help: " + joined(helps, "; and ");
+  return "it does not hold that " + core::joined(held, "; nor that ") +
+         "; what would help: " + core::joined(helps, "; and ");
 }
 
 std::string why_none(const Identification& all) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 
 namespace dualdamp::scenarios {
@@ -254,13 +255,13 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
     case Kind::text:
       return "a text";
     case Kind::word:
-      return joined(field.words);
+      return core::joined(field.words);
     case Kind::boolean:
       return "true, false";
     case Kind::integer:
       return with_bounds("a whole number");
     case Kind::quantity:
-      return (field.words.empty() ? "" : joined(field.words) + ", or ") + with_bounds(numbers);
+      return (field.words.empty() ? "" : core::joined(field.words) + ", or ") + with_bounds(numbers);
     case Kind::quantities:
       return list("quantities, each " + with_bounds(numbers));
     case Kind::grid:
@@ -268,7 +269,7 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
     case Kind::integers:
       return list("whole numbers" + (bounded ? ", each " + bounds : ""));
     case Kind::word_list:
-      return "a list of " + joined(field.words);
+      return "a list of " + core::joined(field.words);
     case Kind::scalar:
       return "a number, true, false or a text";
     case Kind::sweep:
@@ -299,12 +300,6 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
     }
   }
   return best;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 }  // namespace dualdamp::scenarios

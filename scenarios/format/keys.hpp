@@ -142,7 +142,4 @@ struct Choice {
 /// The name among `names` that `word` was perhaps meant to be; empty when none is near.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& names);
 
-/// "a, b, c"
-[[nodiscard]] std::string joined(const std::vector<std::string>& names);
-
 }  // namespace dualdamp::scenarios

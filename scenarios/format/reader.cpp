@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
@@ -82,7 +83,7 @@ class Reader {
     for (const Entry& entry : node.entries)
       if (std::ranges::find(names, entry.key) == names.end())
         complain(entry.place, "unknown key '" + shortened(entry.key) + "'" + where,
-                 names.empty() ? "no key" : joined(names), {}, nearest(entry.key, names));
+                 names.empty() ? "no key" : core::joined(names), {}, nearest(entry.key, names));
   }
 
   /// " of type none": what the keys depend on.
@@ -96,7 +97,7 @@ class Reader {
     std::vector<const Entry*> given;
     for (const std::string& name : alternatives.names)
       if (const Entry* entry = node.find(name)) given.push_back(entry);
-    const std::string list = joined(alternatives.names);
+    const std::string list = core::joined(alternatives.names);
     const std::string where = path.empty() ? "the scenario" : "'" + path + "'";
     if (given.empty() && alternatives.is_required) complain(node.head(), where + " needs one of " + list, list);
     for (std::size_t i = 1; i < given.size(); ++i)
@@ -126,7 +127,7 @@ class Reader {
     }
     const std::vector<std::string> others = section.instead_of(field.name);
     if (any_given(others)) return;
-    if (!others.empty()) allowed += "; or " + joined(others) + " instead";
+    if (!others.empty()) allowed += "; or " + core::joined(others) + " instead";
     complain(node.head(), "'" + path + "' is missing", std::move(allowed));
   }
 
@@ -172,7 +173,7 @@ class Reader {
 
   Json word(const Node& node, const Field& field, const std::string& path) {
     if (std::ranges::find(field.words, node.text) != field.words.end()) return node.text;
-    complain(node.place, "'" + path + "' cannot be '" + shown(node) + "'", joined(field.words), shown(node),
+    complain(node.place, "'" + path + "' cannot be '" + shown(node) + "'", core::joined(field.words), shown(node),
              nearest(node.text, field.words));
     return nullptr;
   }
@@ -365,7 +366,7 @@ class Reader {
   const Variant* chosen_variant(const Node& node, const Choice& choice, const std::string& path) {
     const Entry* entry = node.find(choice.key);
     if (entry == nullptr) {
-      complain(node.head(), "'" + path + "." + choice.key + "' is missing", joined(choice.names()));
+      complain(node.head(), "'" + path + "." + choice.key + "' is missing", core::joined(choice.names()));
       return nullptr;
     }
     if (entry->value.kind == Node::Kind::null) return nullptr;
@@ -376,7 +377,7 @@ class Reader {
           entry->value.place,
           "'" + path + "." + choice.key + "' cannot be " +
               (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'" : shown(entry->value)),
-          joined(choice.names()) + (choice.key == "law" ? "; or the law of a plugin, with --plugin LIB" : ""),
+          core::joined(choice.names()) + (choice.key == "law" ? "; or the law of a plugin, with --plugin LIB" : ""),
           shown(entry->value), nearest(entry->value.text, choice.names()));
       return nullptr;
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace dualdamp::scenarios {
 
 Field methods_key(const std::string& all) {
@@ -32,7 +34,7 @@ void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& rec
       const auto name = analysis.at("methods")[i].get<std::string>();
       if (const std::string lack = lack_of(*identify::find_method(name)); !lack.empty())
         file.complain("analysis.methods[" + std::to_string(i) + "]",
-                      "method '" + name + "' cannot be used: " + lack, joined(fitting));
+                      "method '" + name + "' cannot be used: " + lack, core::joined(fitting));
     }
   }
 }

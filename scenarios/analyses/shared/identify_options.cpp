@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace dualdamp::scenarios {
 
 namespace {
@@ -89,8 +91,8 @@ void check_method_options(CheckedFile& file, std::size_t pairs) {
     if (!asks_for_something(value_of(option->kind, analysis.at(option->name)))) continue;
     if (names_of(chosen, *option, true).empty())
       file.complain(path, "none of the chosen methods uses '" + path + "'",
-                    "with one of the methods " + joined(names_of(all, *option, true)),
-                    "methods: " + joined(names_of(chosen, *option, false)));
+                    "with one of the methods " + core::joined(names_of(all, *option, true)),
+                    "methods: " + core::joined(names_of(chosen, *option, false)));
   }
 }
 
@@ -110,7 +112,7 @@ std::vector<std::string> unused_options(const identify::OptionValues& values,
     if (value == values.end() || !asks_for_something(value->second)) continue;
     const std::vector<std::string> names = names_of(methods, *option, false);
     if (!names.empty() && names.size() < methods.size())
-      warnings.push_back("the option '" + std::string(option->name) + "' is not used by " + joined(names));
+      warnings.push_back("the option '" + std::string(option->name) + "' is not used by " + core::joined(names));
   }
   return warnings;
 }
