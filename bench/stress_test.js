@@ -96,6 +96,28 @@ function consequenceChart() {
   })];
 }
 
+/** One metric of each method over distance or harm: points in the middle of their intervals. */
+function overConsequence(of, metric, title, note, further = []) {
+  const all = rowsOf("by_consequence").filter((row) => row.of === of && row[metric] !== null && row.from > 0);
+  if (!all.length) return [];
+  const middle = (row) => row.from * Math.sqrt((row.to ?? 3 * row.from) / row.from);
+  const line = (rows, key, label, colour, extra = {}) =>
+    ({ label, x: rows.map(middle), y: rows.map((row) => 100 * row[key]), colour, kind: "line", ...extra });
+  const methods = rowsOf("ranking").map((row) => row.method);
+  const rowsOfMethod = (method) => all.filter((row) => row.method === method);
+  return [chart({
+    title, note, x: { label: of, unit: "", log: true }, y: { label: metric.replace("_", " of "), unit: "%" },
+    series: [...methods.map((method, i) => line(rowsOfMethod(method), metric, method, i)).filter((series) => series.x.length),
+      ...further.map((key) => line(rowsOfMethod(methods[0]), key, "best possible test", methods.length, { kind: "dashed" }))],
+  })];
+}
+
+function consequenceCharts() {
+  return [...consequenceChart(),
+    ...overConsequence("distance", "power", "Who knows: power over distance", "Departures of equal distance are equally easy to see, whatever their severities. Means over departures and families; by_consequence.csv has the standard errors.", ["attainable_power"]),
+    ...overConsequence("harm", "coverage_F0", "Who is right: coverage of F0 over harm", "Departures of equal harm bias a perfect fit equally. 95 % is what the intervals promise.")];
+}
+
 /** What the campaign says in tables. */
 function stressTables() {
   if (!tables.ranking) return [];
@@ -108,4 +130,4 @@ function stressTables() {
     ...departureTable()];
 }
 
-views.stress_test = { before: stressTables, charts: consequenceChart };
+views.stress_test = { before: stressTables, charts: consequenceCharts };

@@ -1,6 +1,7 @@
 #pragma once
 /// What a method's answers to many cases are scored by, and sums of weighted answers.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -79,10 +80,48 @@ class Mean {
     weight_ += weight;
     sum_ += weight * value;
   }
+  void add(const Mean& other) {
+    weight_ += other.weight_;
+    sum_ += other.sum_;
+  }
+  [[nodiscard]] bool empty() const { return weight_ == 0.0; }
   [[nodiscard]] double value() const { return weight_ > 0.0 ? sum_ / weight_ : not_stated; }
 
  private:
   double weight_ = 0.0, sum_ = 0.0;
+};
+
+/// Weighted means over cases of all metrics but the area of risk.
+class MetricMeans {
+ public:
+  /// A case of the truth has a false alarm, one of a departure power.
+  void add(const Mark& mark, double weight, bool is_truth, double attainable_power) {
+    add_parameter(mark.zeta, weight, Metric::coverage_zeta, Metric::interval_score_zeta);
+    add_parameter(mark.F0, weight, Metric::coverage_F0, Metric::interval_score_F0);
+    mean(is_truth ? Metric::false_alarm : Metric::power).add(weight, mark.rejected ? 1.0 : 0.0);
+    mean(Metric::prediction_error).add(weight, static_cast<double>(mark.prediction_error));
+    if (!is_truth) mean(Metric::attainable_power).add(weight, attainable_power);
+  }
+  void add(const MetricMeans& other) {
+    for (std::size_t i = 0; i < metric_count; ++i) means_[i].add(other.means_[i]);
+  }
+  [[nodiscard]] bool empty() const {
+    return std::ranges::all_of(means_, [](const Mean& mean) { return mean.empty(); });
+  }
+  [[nodiscard]] Metrics value() const {
+    Metrics metrics;
+    for (std::size_t i = 0; i < metric_count; ++i) metrics.values[i] = means_[i].value();
+    return metrics;
+  }
+
+ private:
+  Mean& mean(Metric metric) { return means_[static_cast<std::size_t>(metric)]; }
+  void add_parameter(const ParameterMark& mark, double weight, Metric coverage, Metric score) {
+    if (mark.has_interval) mean(coverage).add(weight, mark.covers ? 1.0 : 0.0);
+    mean(score).add(weight, static_cast<double>(mark.score));
+  }
+
+  std::array<Mean, metric_count> means_;
 };
 
 }  // namespace dualdamp::bench

@@ -84,6 +84,21 @@ Table difference_table(const Scores& scores, const Grid& grid) {
   return table;
 }
 
+Table by_consequence_table(const Scores& scores, const Grid& grid) {
+  const std::vector<ConsequenceScore>& list = scores.by_consequence;
+  Table table{
+      "by_consequence",
+      {text_column("of", list, [](const ConsequenceScore& s) { return s.axis; }),
+       column("from", "", list, &ConsequenceScore::from), column("to", "", list, &ConsequenceScore::to),
+       text_column("method", list, [&](const ConsequenceScore& s) { return grid.question().entrant(s.entrant); }),
+       column("departures", "", list, &ConsequenceScore::departures),
+       column("cases", "", list, &ConsequenceScore::cases)},
+      true};
+  add_metrics(table, list);
+  table.key = "by_consequence";
+  return table;
+}
+
 Table consequence_table(const MarkedCases& cases, const Grid& grid) {
   const StressTest& question = grid.question();
   std::vector<std::size_t> rows(cases.consequences.size());
@@ -149,7 +164,8 @@ Json summary(const MarkedCases& cases, const Grid& grid) {
                    {"motions", grid.motions()},
                    {"rigs", question.rigs.size()},
                    {"estimates", grid.cases() * question.entrants()}};
-  for (const char* key : {"ranking", "families", "departures", "differences", "scores", "consequences"})
+  for (const char* key :
+       {"ranking", "families", "departures", "differences", "by_consequence", "scores", "consequences"})
     json[key] = nullptr;
   return json;
 }
@@ -179,9 +195,9 @@ scenarios::Answer answer_of(const MarkedCases& cases, const Grid& grid) {
   const Scores scores = score(cases, grid);
   scenarios::Answer answer;
   answer.result = summary(cases, grid);
-  answer.tables = {short_ranking(scores, grid),   ranking_table(scores, grid),    family_table(scores, grid),
-                   departure_table(grid),         difference_table(scores, grid), cell_table(scores, grid),
-                   consequence_table(cases, grid)};
+  answer.tables = {short_ranking(scores, grid), ranking_table(scores, grid),    family_table(scores, grid),
+                   departure_table(grid),       difference_table(scores, grid), by_consequence_table(scores, grid),
+                   cell_table(scores, grid),    consequence_table(cases, grid)};
   if (cases.failed_cases > 0) answer.status = core::ExitStatus::some_cases_failed;
   return answer;
 }
@@ -205,6 +221,14 @@ std::vector<scenarios::ResultField> score_fields() {
   fields.push_back({"families[].family", "", "family of departures, or none"});
   fields.push_back({"families[].method", "", "a method or an entry"});
   add_metric_fields(fields, "families");
+  for (const auto& [name, unit, meaning] :
+       {std::tuple("of", "", "distance or harm"),
+        std::tuple("from", "1", "cases of departures with this distance or harm at least"),
+        std::tuple("to", "1", "and less than this; null: no limit"),
+        std::tuple("method", "", "a method or an entry"),
+        std::tuple("departures", "1", "departures that have such cases"), std::tuple("cases", "1", "these cases")})
+    fields.push_back({"by_consequence[]." + std::string(name), unit, meaning});
+  add_metric_fields(fields, "by_consequence");
   for (const auto& [name, unit, meaning] :
        {std::tuple("differences[].better", "", "the better of two"),
         std::tuple("differences[].worse", "", "the other"),

@@ -55,12 +55,23 @@ struct Difference {
   bool is_significant = false;
 };
 
+/// One method over the cases whose distance, or harm, lies in one interval: what departures share whose severities
+/// do not compare. The truth is not among them.
+struct ConsequenceScore : Scored {
+  std::size_t entrant = 0;
+  std::string axis;                    ///< distance or harm
+  double from = 0.0, to = not_stated;  ///< NaN: open
+  int departures = 0;                  ///< those that have such cases
+  int cases = 0;
+};
+
 struct Scores {
   std::vector<CellScore> cells;       ///< by cell, method
   std::vector<FamilyScore> families;  ///< by family, method
   std::vector<Rank> ranking;          ///< best first
   std::vector<Difference> differences;
-  std::size_t failed_cases = 0;  ///< without an estimate by any method
+  std::vector<ConsequenceScore> by_consequence;  ///< by axis, interval, method; those with cases
+  std::size_t failed_cases = 0;                  ///< without an estimate by any method
 };
 
 /// What a departure comes to on one rig with one set of sensors.

@@ -229,6 +229,7 @@ class Benchmark(unittest.TestCase):
                 checked += 1
         self.assertGreaterEqual(checked, 10 * 7)
         self.check_families(out, rows)
+        self.check_intervals_of_consequence(out, cells)
 
     def test_prediction_errors_recomputed_from_den_hartogs_law(self):
         """Of answers that are drawn: amplitudes in two tests that no record holds, half as far again and 10 % below in frequency."""
@@ -271,6 +272,26 @@ class Benchmark(unittest.TestCase):
             values = [value for (_, name), value in means.items() if name == metric and value is not None]
             self.assertAlmostEqual(float(overall[metric]), sum(values) / len(values), delta=1e-9)
         self.assertAlmostEqual(float(overall["interval_score"]), (float(overall["interval_score_zeta"]) + float(overall["interval_score_F0"])) / 2, delta=1e-9)
+
+    def check_intervals_of_consequence(self, out, cells):
+        """Cases within an interval of distance or harm: pooled by departure, then means over departures and families."""
+        family = {"contact_compliance": "presliding", "detuning": "drive", "static_friction": "velocity"}
+        consequences = table(out / "consequences.csv")
+        found = [row for row in table(out / "by_consequence.csv") if row["method"] == "drawn"]
+        self.assertGreaterEqual(len(found), 4)
+        for row in found:
+            low, high = float(row["from"]), number(row["to"]) or math.inf
+            inside = [(c["law"], float(c["severity"])) for c in consequences if c["law"] in family and low <= float(c[row["of"]]) < high]
+            pooled = {law: [mark for cell in inside if cell[0] == law for mark in cells[cell]] for law in {law for law, _ in inside}}
+            self.assertEqual((int(row["departures"]), int(row["cases"])), (len(pooled), sum(map(len, pooled.values()))))
+            for metric, of_mark in (("power", lambda mark: mark[0]), ("interval_score_zeta", lambda mark: mark[3]["zeta"][1]), ("coverage_F0", lambda mark: mark[3]["F0"][0])):
+                families = {}
+                for law, marks in pooled.items():
+                    values = [value for mark in marks if (value := of_mark(mark)) is not None]
+                    if values:
+                        families.setdefault(family[law], []).append(sum(values) / len(values))
+                means = [sum(values) / len(values) for values in families.values()]
+                self.assertAlmostEqual(number(row[metric]), sum(means) / len(means), delta=1e-5, msg=f"{row['of']} {low} {metric}")
 
     def test_estimates_of_23_cells_recomputed_by_another_integrator(self):
         """Without noise: the errors of the line through motions that are integrated here, for departures of every kind."""
