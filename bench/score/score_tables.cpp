@@ -189,6 +189,21 @@ void add_metric_fields(std::vector<scenarios::ResultField>& fields, const std::s
   }
 }
 
+void add_consequence_fields(std::vector<scenarios::ResultField>& fields) {
+  for (const auto& [name, unit, meaning] :
+       {std::tuple("law", "", "departure, or coulomb_viscous"), std::tuple("severity", "1", "its size"),
+        std::tuple("rig", "1", "number of the rig, from 0"), std::tuple("range", "", "range of excitation"),
+        std::tuple("sensors", "", "sensors"), std::tuple("zeta", "1", "of the rig"),
+        std::tuple("F0", "N", "of the rig"),
+        std::tuple("distance", "1", "readings to those of the nearest Coulomb + viscous motion, in units of noise"),
+        std::tuple("harm", "1", "largest relative error of zeta and F0 of that motion"),
+        std::tuple("harm_zeta", "1", "that of zeta"), std::tuple("harm_F0", "1", "that of F0"),
+        std::tuple("attainable_power", "1", "of the best test which knows the departure"),
+        std::tuple("cramer_rao_zeta", "1", "least relative standard deviation of zeta, the law known"),
+        std::tuple("cramer_rao_F0", "1", "likewise of F0")})
+    fields.push_back({"consequences[]." + std::string(name), unit, meaning});
+}
+
 }  // namespace
 
 scenarios::Answer answer_of(const MarkedCases& cases, const Grid& grid) {
@@ -249,18 +264,7 @@ std::vector<scenarios::ResultField> score_fields() {
         std::tuple("scores[].F0_error", "1", "median modulus of the error of F0, relative")})
     fields.push_back({name, unit, meaning});
   add_metric_fields(fields, "scores");
-  for (const auto& [name, unit, meaning] :
-       {std::tuple("law", "", "departure, or coulomb_viscous"), std::tuple("severity", "1", "its size"),
-        std::tuple("rig", "1", "number of the rig, from 0"), std::tuple("range", "", "range of excitation"),
-        std::tuple("sensors", "", "sensors"), std::tuple("zeta", "1", "of the rig"),
-        std::tuple("F0", "N", "of the rig"),
-        std::tuple("distance", "1", "readings to those of the nearest Coulomb + viscous motion, in units of noise"),
-        std::tuple("harm", "1", "largest relative error of zeta and F0 of that motion"),
-        std::tuple("harm_zeta", "1", "that of zeta"), std::tuple("harm_F0", "1", "that of F0"),
-        std::tuple("attainable_power", "1", "of the best test which knows the departure"),
-        std::tuple("cramer_rao_zeta", "1", "least relative standard deviation of zeta, the law known"),
-        std::tuple("cramer_rao_F0", "1", "likewise of F0")})
-    fields.push_back({"consequences[]." + std::string(name), unit, meaning});
+  add_consequence_fields(fields);
   return fields;
 }
 
