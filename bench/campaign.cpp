@@ -53,25 +53,34 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   sample.rigs.resize(1);
   sample.seeds = 1;
   const Grid grid(sample);
-  const auto try_motion = [&](const Grid& cases, std::size_t motion) {
+  const auto seconds_of = [&](const Grid& cases, std::size_t motion) {
+    const Clock::time_point start = Clock::now();
     run_motion(cases, context.steady_states(), motion, [](std::size_t) { return true; }, [](const std::string&) {});
+    return seconds_since(start);
   };
-  const Clock::time_point start = Clock::now();
-  for (std::size_t motion = 0; motion < grid.motions(); ++motion) try_motion(grid, motion);
-  const double motions = seconds_since(start);
-  const Clock::time_point again = Clock::now();
-  sample.seeds = 2;
-  const Grid twice(sample);
-  try_motion(twice, 0);
-  const double reading = seconds_since(again) / static_cast<double>(twice.cases_per_motion());
-  size.seconds = (motions * static_cast<double>(severities * question.ranges.size() * question.rigs.size()) +
-                  reading * static_cast<double>(size.cases)) /
-                 std::thread::hardware_concurrency();
+  double motions = 0.0;
+  for (std::size_t motion = 0; motion < grid.motions(); ++motion) motions += seconds_of(grid, motion);
+  const double threads = std::thread::hardware_concurrency();
+  size.seconds =
+      motions * static_cast<double>(severities * question.ranges.size() * question.rigs.size()) / threads;
+  // What further readings of a motion take. The motion is timed again: it may have been the first at all.
+  if (question.seeds > 1) {
+    constexpr int most = 5;
+    const double once = seconds_of(grid, 0);
+    StressTest repeated = sample;
+    repeated.seeds = std::min(question.seeds, most);
+    const Grid several(repeated);
+    const auto further = static_cast<double>(several.cases_per_motion() - grid.cases_per_motion());
+    size.seconds += std::max(seconds_of(several, 0) - once, 0.0) / further *
+                    static_cast<double>(size.cases - size.motions * grid.cases_per_motion()) / threads;
+  }
   constexpr double of_program = 60.0;
   constexpr double of_case = 30e-6;
   constexpr double of_estimate = 40e-6;
+  constexpr double of_sample = 130e-6;  // of a random response, in each thread
   size.megabytes =
       of_program + of_case * static_cast<double>(size.cases) + of_estimate * static_cast<double>(size.estimates);
+  if (question.random) size.megabytes += of_sample * question.random->samples() * threads;
   return size;
 }
 

@@ -49,6 +49,13 @@ Json consequence_json(const Consequence& consequence) {
           {"cramer_rao_F0", number_json(consequence.cramer_rao_F0)}};
 }
 
+/// Why some of a motion could not be measured; empty.
+std::string first_warning(const scenarios::MotionRecord& curve,
+                          const std::optional<scenarios::MotionRecord>& response) {
+  if (!curve.warnings.empty()) return curve.warnings.front();
+  return response && !response->warnings.empty() ? response->warnings.front() : "";
+}
+
 /// A law that makes a record stays out of the library of a method that seeks laws: such a method is judged by laws
 /// that it does not know.
 identify::OptionValues options_for(const identify::MethodEntry& method, const Departure& departure) {
@@ -82,16 +89,21 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
     std::optional<DepartedMotions> sampled;
     std::optional<DepartedMotions>& motions = sensors.sensors.sample_rate > 0.0 ? sampled : unsampled;
     std::optional<Consequence> consequence;
+    std::optional<scenarios::MotionRecord> response;
     for (int seed = 0; seed < question.seeds; ++seed, ++place) {
       if (!wanted(place)) continue;
       if (!consequence) {
         if (!motions) motions = departed_motions(maker, departed, rig.truth, laboratory);
         consequence = consequence_of(maker, departed, rig, *motions, laboratory, sensors.sensors);
+        response = maker.random_response(motion.departure.model(rig.truth, departed.reference, motion.severity),
+                                         laboratory.sensors, grid.drive_seed(number));
       }
       std::vector<std::string> warnings;
-      const identify::Record record = motions->here.reading(laboratory.sensors, grid.seed(place), warnings);
-      const std::string reason = motions->here.curve.warnings.empty() ? "" : motions->here.curve.warnings.front();
-      take({place, record, laboratory.constants, sensors, *consequence, motions->unmeasured, reason});
+      identify::Record record = motions->here.reading(laboratory.sensors, grid.seed(place), warnings);
+      if (response) add_reading(*response, laboratory.sensors, grid.seed(place), record);
+      const std::size_t responses = response ? response->exact.histories.size() : 0;
+      const std::string reason = first_warning(motions->here.curve, response);
+      take({place, record, responses, laboratory.constants, sensors, *consequence, motions->unmeasured, reason});
     }
   }
 }

@@ -17,6 +17,7 @@ namespace dualdamp::bench {
 struct MeasuredCase {
   std::size_t number = 0;
   const identify::Record& record;
+  std::size_t responses = 0;  ///< histories at its end that answer a random drive: 0 or 1
   const identify::KnownConstants& constants;
   const SensorSet& sensors;
   const Consequence& consequence;

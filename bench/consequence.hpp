@@ -8,9 +8,10 @@
 ///   harm = largest relative difference between the zeta and F0 of that minimum and the truth.
 ///
 /// Readings are all that a record holds and that has noise: amplitudes and phases of pairs, extremes, samples of x,
-/// v and a; a mass that has come to rest has further extremes where it sticks. sigma_i is the standard deviation of
-/// a reading, that of resolution and of Y (by dx/dY) included. So harm is what a perfect fit would be wrong by, and
-/// no test has more power than
+/// v and a; a mass that has come to rest has further extremes where it sticks. The response to a random drive is
+/// none of them: a distance takes some 27 motions, and one of 2,000 s takes a second. sigma_i is the standard
+/// deviation of a reading, that of resolution and of Y (by dx/dY) included. So harm is what a perfect fit would be
+/// wrong by, and no test has more power than
 ///
 ///   attainable power = Phi(distance - 1.645),
 ///

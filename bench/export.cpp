@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <ostream>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -71,10 +72,16 @@ Columns columns_of(const identify::History& history) {
   columns.add("y [m]", history.y);
   columns.add("v [m/s]", history.v);
   columns.add("a [m/s^2]", history.a);
+  columns.add("force [N]", history.force);
   return columns;
 }
 
-void write_histories(std::ostream& out, const std::vector<identify::History>& histories) {
+void write_alone(std::ostream& out, const Columns& columns) {
+  columns.write_header(out, false);
+  columns.write_rows(out, [](std::size_t) { return std::string(); });
+}
+
+void write_histories(std::ostream& out, std::span<const identify::History> histories) {
   for (std::size_t i = 0; i < histories.size(); ++i) {
     const Columns columns = columns_of(histories[i]);
     if (i == 0) columns.write_header(out, true);
@@ -86,8 +93,7 @@ void write_decay(std::ostream& out, const identify::DecayRecord& decay) {
   Columns columns;
   columns.add("t [s]", decay.times);
   columns.add("x [m]", decay.extremes);
-  columns.write_header(out, false);
-  columns.write_rows(out, [](std::size_t) { return std::string(); });
+  write_alone(out, columns);
 }
 
 std::string six_digits(std::size_t number) {
@@ -95,14 +101,21 @@ std::string six_digits(std::size_t number) {
   return std::string(text.size() < 6 ? 6 - text.size() : 0, '0') + text;
 }
 
-void write_case(const std::string& directory, const std::string& name, const identify::Record& record) {
+/// `responses`: how many histories at the end of the record are responses to a random drive, none or one.
+void write_case(const std::string& directory, const std::string& name, const identify::Record& record,
+                std::size_t responses) {
   std::vector<OutputFile> files;
-  files.push_back({name + ".csv", [&record](std::ostream& out) {
-                     if (!record.histories.empty())
-                       write_histories(out, record.histories);
+  const std::span histories(record.histories);
+  const std::span sampled = histories.first(histories.size() - responses);
+  files.push_back({name + ".csv", [&record, sampled](std::ostream& out) {
+                     if (!sampled.empty())
+                       write_histories(out, sampled);
                      else if (record.pairs)
                        write_pairs(out, record.pairs->pairs);
                    }});
+  for (const identify::History& response : histories.last(responses))
+    files.push_back(
+        {name + "-random.csv", [&response](std::ostream& out) { write_alone(out, columns_of(response)); }});
   if (record.decay)
     files.push_back({name + "-decay.csv", [&record](std::ostream& out) { write_decay(out, *record.decay); }});
   scenarios::write_files(directory, files);
@@ -138,7 +151,7 @@ std::size_t export_cases(const StressTest& question, const scenarios::RunContext
         grid, context.steady_states(), motion, [](std::size_t) { return true; },
         [&](const MeasuredCase& measured) {
           const std::size_t file = file_of[measured.number];
-          write_case(directory + "/cases", six_digits(file), measured.record);
+          write_case(directory + "/cases", six_digits(file), measured.record, measured.responses);
           constants[file - 1] = constants_line(measured);
         });
   });

@@ -2,7 +2,8 @@
 /// A stress test as files for programs outside: what a laboratory would have, and no word of laws or truth.
 ///
 /// `cases/NNNNNN.csv`: the record of a case in the format of docs/data-files.md, x-Y pairs or histories;
-/// `cases/NNNNNN-decay.csv` beside it where the stress test has decays. `constants.csv`: for each case the mass,
+/// `cases/NNNNNN-decay.csv` beside it where the stress test has decays, `cases/NNNNNN-random.csv` where it has
+/// responses to a random drive. `constants.csv`: for each case the mass,
 /// the stiffness and the frequency that the laboratory believes in, and the standard deviations of an amplitude
 /// that its sensors have. The numbers are those of the key (`score/key.hpp`): neighbours have nothing to do with
 /// each other.

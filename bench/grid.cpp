@@ -43,6 +43,11 @@ TrueParameters Grid::parameters(const Motion& motion) const {
   return truth;
 }
 
+std::uint64_t Grid::drive_seed(std::size_t motion) const {
+  constexpr std::uint64_t of_drives = 0x8CB92BA72F3D8DD7U;  // other seeds than those of the cases
+  return mixed(mixed(static_cast<std::uint64_t>(question_.seed) ^ of_drives) + motion);
+}
+
 std::uint64_t Grid::seed(std::size_t number) const {
   return mixed(mixed(static_cast<std::uint64_t>(question_.seed)) + number);
 }

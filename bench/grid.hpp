@@ -53,6 +53,8 @@ class Grid {
   }
   /// What methods can find in it.
   [[nodiscard]] TrueParameters parameters(const Motion& motion) const;
+  /// Of the random drive of a motion, which no other motion has and all its cases share.
+  [[nodiscard]] std::uint64_t drive_seed(std::size_t motion) const;
   /// Of all draws of a case.
   [[nodiscard]] std::uint64_t seed(std::size_t number) const;
 

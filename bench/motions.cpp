@@ -1,7 +1,9 @@
 #include "bench/motions.hpp"
 
 #include <algorithm>
+#include <iterator>
 
+#include "bench/random_response.hpp"
 #include "bench/rigs.hpp"
 
 namespace dualdamp::bench {
@@ -22,6 +24,13 @@ identify::Record Motions::reading(const identify::Sensors& sensors, std::uint64_
     for (identify::Pair& pair : record.pairs->pairs) pair.omega *= stated;
   if (decay) record.decay = scenarios::reading(*decay, sensors, seed ^ of_decay, warnings).decay;
   return record;
+}
+
+void add_reading(const scenarios::MotionRecord& response, const identify::Sensors& sensors, std::uint64_t seed,
+                 identify::Record& record) {
+  constexpr std::uint64_t of_response = 0x2545F4914F6CDD1DU;  // other draws than those of curve and decay
+  identify::Record read = identify::read(response.exact, sensors, seed ^ of_response);
+  std::ranges::move(read.histories, std::back_inserter(record.histories));
 }
 
 MotionMaker::MotionMaker(const StressTest& question, const TrueRig& rig, const ExcitationRange& range,
@@ -57,6 +66,13 @@ Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& s
   decay.peaks = result.peaks = question_.decay->peaks;
   result.decay = scenarios::motion_of(released, decay, sensors, options_);
   return result;
+}
+
+std::optional<scenarios::MotionRecord> MotionMaker::random_response(const sim::Model& model,
+                                                                    const identify::Sensors& sensors,
+                                                                    std::uint64_t seed) const {
+  if (!question_.random) return std::nullopt;
+  return random_motion(*question_.random, model, seed, sensors, rig_.truth.model.excitation.frequency);
 }
 
 UnmeasuredAmplitudes MotionMaker::unmeasured(const sim::Model& model) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// The motions that one law makes on a rig, as perfect sensors see them: a curve of steady states and, where the
-/// stress test asks for one, a decay.
+/// stress test asks for one, a decay. A response to a random drive stands apart, since nothing is computed from it
+/// but records (random_response.hpp, consequence.hpp).
 
 #include <cstdint>
 #include <optional>
@@ -26,6 +27,10 @@ struct Motions {
                                          std::vector<std::string>& warnings) const;
 };
 
+/// Adds the history that the sensors make of a random response.
+void add_reading(const scenarios::MotionRecord& response, const identify::Sensors& sensors, std::uint64_t seed,
+                 identify::Record& record);
+
 /// A rig driven over a range, as a laboratory sets it.
 class MotionMaker {
  public:
@@ -39,6 +44,12 @@ class MotionMaker {
   /// `growth`, relative, from the first sweep to the last. `stretch` multiplies all input amplitudes.
   [[nodiscard]] Motions motions(const sim::Model& model, const identify::Sensors& sensors, double growth = 0.0,
                                 double stretch = 1.0) const;
+
+  /// Of the stress test's random drive with a seed of its own; nothing where it has none. `sensors` say how late it
+  /// is read.
+  [[nodiscard]] std::optional<scenarios::MotionRecord> random_response(const sim::Model& model,
+                                                                       const identify::Sensors& sensors,
+                                                                       std::uint64_t seed) const;
 
   /// What the model would do in the tests that are not made; NaN where it has no steady state or does not move.
   [[nodiscard]] UnmeasuredAmplitudes unmeasured(const sim::Model& model) const;

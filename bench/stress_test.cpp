@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bench/campaign.hpp"
+#include "bench/random_response.hpp"
 #include "bench/rigs.hpp"
 #include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"
@@ -108,7 +109,7 @@ Section keys() {
        seed(),
        section("rigs", rig_keys(), "rigs of a low-discrepancy set (Halton); default: the rig of the scenario"),
        section("decay", decay, "a free vibration in addition to each curve, for the methods that need one"),
-       methods_key("all that the measurements allow")}};
+       random_response_key(), methods_key("all that the measurements allow")}};
 }
 
 /// An item of `pairs`; nothing where the reader has refused a part of it.
@@ -192,7 +193,8 @@ std::size_t states_of(const Json& range) {
 }
 
 /// A record of the kind that each range gives with each set of sensors.
-std::vector<identify::Record> outlines(const Json& analysis) {
+std::vector<identify::Record> outlines(const CheckedFile& file) {
+  const Json& analysis = file.values().at("analysis");
   std::vector<identify::Record> records;
   const Json sets = analysis.value("sensors", Json::array({Json::object()}));
   for (const Json& range : analysis.at("ranges")) {
@@ -214,6 +216,9 @@ std::vector<identify::Record> outlines(const Json& analysis) {
                          .mean_square_speed = 1.0});
       }
       if (analysis.contains("decay")) record.decay = identify::DecayRecord{{1.0}, {0.0}};
+      // A faulty one is complained about, and not its lack too.
+      if (file.stands_in_file("analysis", "random_response"))
+        record.histories.push_back(random_outline(analysis.value("random_response", Json::object())));
       if (sensors.contains("sample_rate"))
         record.histories.resize(pairs.size(), {.sample_rate = 1.0, .y = {0.0}, .x = {0.0}, .v = {0.0}, .a = {0.0}});
     }
@@ -241,13 +246,14 @@ void check(CheckedFile& file) {
   check_names(file, "ranges");
   check_names(file, "sensors");
   check_samples(file, analysis);
+  check_random_response(file);
   if (!file.stands_in_file("analysis", "laws")) {
     Json all = Json::array();
     for (const Rig& departure : departures())
       if (!departure.needs_sweeps || has_sweeps(analysis)) all.push_back(departure.name);
     file.fill_in("laws", std::move(all));
   }
-  resolve_methods(file, outlines(analysis), scenarios::SlowMethods::only_where_named);
+  resolve_methods(file, outlines(file), scenarios::SlowMethods::only_where_named);
   if (!analysis.contains("laws")) return;
   check_pairs(file, analysis);
   check_severities(file, analysis);
@@ -324,6 +330,7 @@ StressTest stress_test_of(const CheckedValues& values) {
   result.seed = section.at("seed").get<std::int64_t>();
   if (section.contains("decay"))
     result.decay = {number(section.at("decay").at("displacement")), section.at("decay").at("peaks").get<int>()};
+  if (section.contains("random_response")) result.random = random_test_of(section.at("random_response"));
   result.methods = methods_of(section.at("methods"));
   return result;
 }

@@ -38,6 +38,16 @@ struct DecayTest {
   int peaks = 0;
 };
 
+/// The response to a random drive beside each range, for the methods that need one: from rest, sampled.
+struct RandomTest {
+  sim::Excitation drive;     ///< noise, whose seed each motion has of its own (grid.hpp)
+  double duration = 0.0;     ///< s
+  double settle = 0.0;       ///< time before it that is not recorded [s]
+  double sample_rate = 0.0;  ///< Hz
+
+  [[nodiscard]] double samples() const { return duration * sample_rate; }
+};
+
 /// The truth that departures depart from.
 struct TrueRig {
   Truth truth;
@@ -56,6 +66,7 @@ struct StressTest {
   std::int64_t seed = 0;  ///< of all random draws, which are independent from case to case
   std::vector<const identify::MethodEntry*> methods;
   std::optional<DecayTest> decay;
+  std::optional<RandomTest> random;
   std::vector<Entry> entries;  ///< answers of programs outside, scored beside the methods
 
   /// Who takes part: the methods, then the entries.

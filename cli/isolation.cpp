@@ -18,8 +18,8 @@
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/interrupt.hpp"
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 
 namespace dualdamp::cli {
 

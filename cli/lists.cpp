@@ -4,7 +4,7 @@
 
 #include "bench/analyses.hpp"
 #include "cli/print.hpp"
-#include "core/text.hpp"
+#include "core/diagnostics.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dualdamp::core {
@@ -42,6 +43,9 @@ struct Diagnostic {
 /// Several lines of text: `file:line:column: error: message`, the source line, a caret, then what was allowed,
 /// what was found and the suggestion.
 [[nodiscard]] std::string format(const Diagnostic& diagnostic);
+
+/// Words of a message: "a, b, c"; with `last` = " and ": "a, b and c".
+[[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last = ", ");
 
 /// Thrown at an entrance (scenario file, data file, command line) with all problems found there.
 class InputError : public std::runtime_error {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 
 namespace dualdamp::identify {
 

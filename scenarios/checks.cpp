@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 #include "scenarios/check_expectations.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"

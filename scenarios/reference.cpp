@@ -1,7 +1,7 @@
 #include <cctype>
 #include <set>
 
-#include "core/text.hpp"
+#include "core/diagnostics.hpp"
 #include "core/units.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/schema.hpp"

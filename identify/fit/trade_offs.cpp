@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 
 namespace dualdamp::identify {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 #include "core/units.hpp"
 
 namespace dualdamp::scenarios {

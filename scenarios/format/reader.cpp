@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"

@@ -5,7 +5,7 @@ usage: parity.py ROOT PROGRAM
 
 Laws and methods are those the built PROGRAM lists; a page of another name is a fault. Each law has a header,
 a source, a test, a page and a scenario that uses it; each method likewise, where one file pair may serve a family:
-resonance.{hpp,cpp} serves resonance_two_point. Each analysis has its pair in scenarios/analyses/ or bench/, a test
+resonance.{hpp,cpp} serves resonance_two_point; and a shipped stress test names it among its methods. Each analysis has its pair in scenarios/analyses/ or bench/, a test
 that names it, a section in docs/analyses.md and a scenario that uses it; a .js file beside the pairs is the view of one (without
 one the page draws its tables). Every header of a library is in a CMakeLists.txt (public under
 HEADERS, which makes a FILE_SET; private under SOURCES), so is every source; a name under PAIRS stands for header,
@@ -23,7 +23,8 @@ import yaml
 CODE = ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli", "python", "tests"]
 LIBRARIES = ["core", "friction_models", "sim", "identify", "scenarios"]  # folders whose headers are installed
 PAIR_LIST = re.compile(r"\bdualdamp_module\([^)]*?\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
-SHIPPED = ["scenarios/examples", "scenarios/paper", "scenarios/stress"]
+CAMPAIGNS = ["scenarios/stress"]
+SHIPPED = ["scenarios/examples", "scenarios/paper", *CAMPAIGNS]
 ANALYSES = ["scenarios/analyses", "bench"]  # folders with the pairs of analyses
 
 
@@ -51,12 +52,12 @@ def words_of(node, key):
             yield from words_of(value, key)
 
 
-def scenario_files(root):
-    return sorted(p for folder in SHIPPED for p in (root / folder).rglob("*.yaml"))
+def scenario_files(root, folders=SHIPPED):
+    return sorted(p for folder in folders for p in (root / folder).rglob("*.yaml"))
 
 
-def used_words(root, key):
-    return {word for path in scenario_files(root) for word in words_of(yaml.safe_load(path.read_text()), key)}
+def used_words(root, key, folders=SHIPPED):
+    return {word for path in scenario_files(root, folders) for word in words_of(yaml.safe_load(path.read_text()), key)}
 
 
 def lacking(root, places):
@@ -84,6 +85,7 @@ def law_faults(root, names):
 
 def method_faults(root, names):
     used = used_words(root, "methods")
+    tested = used_words(root, "methods", CAMPAIGNS)
     for name in names:
         stems = family(name)
         yield from (f"method {name}: {fault}" for fault in lacking(root, [
@@ -94,6 +96,8 @@ def method_faults(root, names):
         ]))
         if name not in used:
             yield f"method {name}: no scenario uses it"
+        elif name not in tested:
+            yield f"method {name}: no stress test names it ({CAMPAIGNS[0]}/)"
     for page in sorted((root / "docs/methods").glob("*.md")):
         if page.stem not in names and page.stem not in ("README", "index", "accuracy"):
             yield f"docs/methods/{page.name}: the program lists no such method"

@@ -19,6 +19,7 @@ import unittest
 from pathlib import Path
 
 from case import PATIENCE
+from definitions import interval_score, number, plain, risk_area, table
 from resonance import F0, MASS, STIFFNESS, ZETA, amplitude, line, nearest, steady_state
 
 PROGRAM = str(Path(sys.argv[1]).resolve())
@@ -27,36 +28,6 @@ SCENARIO = ROOT / "scenarios/stress/small.yaml"
 METRICS = ("coverage_zeta", "coverage_F0", "interval_score_zeta", "interval_score_F0", "power", "attainable_power", "false_alarm",
            "prediction_error", "selective_risk_area")
 SEEDS = 4
-
-
-def table(path):
-    lines = [line for line in Path(path).read_text().splitlines() if not line.startswith("#")]
-    return list(csv.DictReader(lines))
-
-
-def number(text):
-    return float(text) if text not in ("", None) else None
-
-
-def plain(row):
-    """A row without the name of its method."""
-    return {key: value for key, value in row.items() if key != "method"}
-
-
-def interval_score(low, high, truth):
-    return min(((high - low) + 40 * max(low - truth, 0) + 40 * max(truth - high, 0)) / truth, 40)
-
-
-def risk_area(items):
-    """items: (confidence, loss)."""
-    groups = {}
-    for confidence, loss in items:
-        groups.setdefault(confidence, []).append(loss)
-    seen, area = [], 0
-    for confidence in sorted(groups, reverse=True):
-        seen += groups[confidence]
-        area += len(groups[confidence]) / len(items) * sum(seen) / len(seen)
-    return area
 
 
 class Benchmark(unittest.TestCase):

@@ -192,7 +192,8 @@ class Stress(unittest.TestCase):
         self.assertFalse(cases["detuning", 0.05]["den_hartog_fit"]["usable"])
 
     def test_refused_before_anything_runs(self):
-        response, histories = (ROOT / f"scenarios/stress/{name}.yaml" for name in ("response", "histories"))
+        short = "intensity: 0.76 N^2/Hz, bandwidth: 50 Hz, duration: 9 s, sample_rate: 200 Hz"
+        response, histories, shaken = (ROOT / f"scenarios/stress/{name}.yaml" for name in ("response", "histories", "random"))
         for file, assignment, message in [
                 (response, "analysis.methods=[resonance_least_squares]", "the pairs were measured at several frequencies"),
                 (response, "analysis.methods=[output_error]", "method 'output_error' cannot be used"),
@@ -201,9 +202,19 @@ class Stress(unittest.TestCase):
                 (SCENARIO, "analysis.pairs=[{law: lugre, beside: dahl}]", "cannot be 'dahl'"),
                 (SCENARIO, "analysis.laws=[drifting_friction]", "shows in records of several sweeps alone"),
                 (SCENARIO, "analysis.pairs=[{law: iwan, beside: detuning}, {law: iwan, beside: detuning}]", "two pairs of these departures"),
-                (histories, "analysis.sensors[0].average_cycles=9000", "the history has too many rows")]:
+                (histories, "analysis.sensors[0].average_cycles=9000", "the history has too many rows"),
+                (histories, f"analysis.random_response={{type: force_noise, {short}}}", "a record holds the samples of steady states or those of"),
+                (SCENARIO, "analysis.methods=[stochastic_averaging]", "the record holds no time histories"),
+                (shaken, "analysis.random_response.type=white", "'analysis.random_response.type' cannot be 'white'"),
+                (shaken, "analysis.random_response.seed=1", "unknown key 'seed' in 'analysis.random_response'"),
+                (shaken, f"analysis.random_response={{type: base_noise, {short}}}", "'N^2/Hz' is not a unit of a spectral density"),
+                (shaken, "analysis.random_response.sample_rate=1 kHz", "the history has too many rows"),
+                (shaken, "analysis.random_response.settle=1e6 s", "the simulation is too long"),
+                (shaken, "analysis.random_response.bandwidth=10 kHz", "the drive is too long"),
+                (shaken, "analysis.sensors[0].sample_rate=1 kHz", "a record holds the samples of steady states or those of")]:
             result = self.run_program("run", file, "--out", self.folder / "none", "--set", assignment, status=3)
             self.assertIn(message, result.stderr)
+            self.assertRegex(result.stderr, r"(--set|\.yaml):\d+:\d+: error")
             self.assertFalse((self.folder / "none").exists())
 
     def test_killed_at_any_time_and_resumed(self):

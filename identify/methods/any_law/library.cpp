@@ -64,8 +64,8 @@ const std::vector<rigs::Rig>& further_laws() {
   return list;
 }
 
-/// Two have no F0. `rate_state` takes four tenths of the time of all others together. A second mode takes as long as
-/// a bristle law, and at one frequency its inertia acts on the readings as another stiffness does, for which
+/// Two have no F0. `rate_state` takes four tenths of the time of all others together. A second mode takes as long
+/// as a bristle law, and at one frequency its inertia acts on the readings as another stiffness does, for which
 /// `detuning` stands.
 constexpr std::array no_laws = {"rate_state", "rough_way", "second_mode", "warming"};
 /// The other sign of a law that is two-sided here.
