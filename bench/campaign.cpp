@@ -105,7 +105,8 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   file.finish();
   scenarios::Answer answer = answer_of(read_cases(file.path(), grid), grid);
   if (is_complete && options.found == scenarios::FoundCases::refuse)
-    answer.warnings.push_back("all cases of this campaign were there already: they are scored anew, not computed");
+    answer.warnings.emplace_back(
+        "all cases of this campaign were there already: they are scored anew, not computed");
   return answer;
 }
 
