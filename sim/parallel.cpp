@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <system_error>
 #include <thread>
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 #include "core/cancellation.hpp"
 
@@ -25,6 +28,36 @@ bool threads_are_to_be_had() {
   }
 }
 
+/// Says that all parts of a loop begin after its call and end before its return. The thread sanitizer does not see
+/// this in a library that is not instrumented; without it nothing is done.
+class LoopOrder {
+ public:
+  LoopOrder() { release(&begin_); }
+  void loop_ended() { acquire(&end_); }
+
+  class Part {
+   public:
+    explicit Part(LoopOrder& loop) : loop_(loop) { acquire(&loop_.begin_); }
+    ~Part() { release(&loop_.end_); }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+   private:
+    LoopOrder& loop_;
+  };
+
+ private:
+#ifdef __SANITIZE_THREAD__
+  static void acquire(char* what) { __tsan_acquire(what); }
+  static void release(char* what) { __tsan_release(what); }
+#else
+  static void acquire(char*) {}
+  static void release(char*) {}
+#endif
+  char begin_ = 0;
+  char end_ = 0;
+};
+
 }  // namespace
 
 void in_parts(std::size_t size, std::size_t grain, int threads,
@@ -32,13 +65,16 @@ void in_parts(std::size_t size, std::size_t grain, int threads,
   namespace tbb = oneapi::tbb;
   static const int cores = threads_are_to_be_had() ? tbb::info::default_concurrency() : 1;
   tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
+  LoopOrder order;
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, (size + grain - 1) / grain, [&](std::size_t part) {
+      const LoopOrder::Part ordered(order);
       core::stop_if_cancelled();
       const std::size_t first = part * grain;
       work(first, std::min(grain, size - first));
     });
   });
+  order.loop_ended();
 }
 
 struct ThreadLimit::Control {
