@@ -78,6 +78,7 @@ LIBRARIES = {
     "OpenSSL": (r"openssl/", ["core"], SOURCES),
     "the processor's own functions": (r"immintrin\.h", ["sim"], SOURCES),
     "SLEEF": (r"sleef\.h", ["sim"], SOURCES),
+    "the thread sanitizer": (r"sanitizer/", ["sim"], SOURCES),
     "oneTBB": (r"(tbb|oneapi)/", ["sim", *ABOVE_SIM], SOURCES),
     "Boost.Odeint": (r"boost/numeric/odeint", ["sim", "bench"], SOURCES),
     "SUNDIALS": (r"(cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/", ["bench"], SOURCES),
