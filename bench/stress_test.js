@@ -102,13 +102,14 @@ function overConsequence(of, metric, title, note, further = []) {
   if (!all.length) return [];
   const middle = (row) => row.from * Math.sqrt((row.to ?? 3 * row.from) / row.from);
   const line = (rows, key, label, colour, extra = {}) =>
-    ({ label, x: rows.map(middle), y: rows.map((row) => 100 * row[key]), colour, kind: "line", ...extra });
+    ({ label, x: rows.map(middle), y: rows.map((row) => 100 * row[key]), colour, ...extra });
   const methods = rowsOf("ranking").map((row) => row.method);
   const rowsOfMethod = (method) => all.filter((row) => row.method === method);
   return [chart({
     title, note, x: { label: of, unit: "", log: true }, y: { label: metric.replace("_", " of "), unit: "%" },
-    series: [...methods.map((method, i) => line(rowsOfMethod(method), metric, method, i)).filter((series) => series.x.length),
-      ...further.map((key) => line(rowsOfMethod(methods[0]), key, "best possible test", methods.length, { kind: "dashed" }))],
+    // There are seven colours.
+    series: [...methods.map((method, i) => line(rowsOfMethod(method), metric, method, i, { kind: i < 7 ? "line" : "dashed" })).filter((series) => series.x.length),
+      ...further.map((key) => line(rowsOfMethod(methods[0]), key, "best possible test", 6, { kind: "dashed", width: 4 }))],
   })];
 }
 
