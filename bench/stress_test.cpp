@@ -7,6 +7,7 @@
 #include "bench/campaign.hpp"
 #include "bench/random_response.hpp"
 #include "bench/rigs.hpp"
+#include "bench/score/program_answer.hpp"
 #include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
@@ -109,7 +110,9 @@ Section keys() {
        seed(),
        section("rigs", rig_keys(), "rigs of a low-discrepancy set (Halton); default: the rig of the scenario"),
        section("decay", decay, "a free vibration in addition to each curve, for the methods that need one"),
-       random_response_key(), methods_key("all that the measurements allow")}};
+       random_response_key(), methods_key("all that the measurements allow"),
+       boolean("answer", "the program's own answer takes part too, as a method: what 'identify' says of a record")
+           .with_fallback(false)}};
 }
 
 /// An item of `pairs`; nothing where the reader has refused a part of it.
@@ -332,6 +335,7 @@ StressTest stress_test_of(const CheckedValues& values) {
     result.decay = {number(section.at("decay").at("displacement")), section.at("decay").at("peaks").get<int>()};
   if (section.contains("random_response")) result.random = random_test_of(section.at("random_response"));
   result.methods = methods_of(section.at("methods"));
+  if (section.at("answer").get<bool>()) result.methods.push_back(&program_answer);
   return result;
 }
 
