@@ -29,7 +29,7 @@ constexpr double reach = 12.0;
 
 /// What a law at one severity expects of a measurement, over the deviations of its readings.
 struct Expectation {
-  const LawFit* fit = nullptr;
+  const SeverityFit* fit = nullptr;
   VectorXd readings;
   MatrixXd slopes;
 };
@@ -53,7 +53,7 @@ double power_at(double chi2) {
 
 /// Covariance of the measurement's unknowns after the record: those it shares with the record as there, its own by
 /// their priors.
-MatrixXd covariance_for(const ReadingModel& record, const LawFit& fit, const ReadingModel& planned) {
+MatrixXd covariance_for(const ReadingModel& record, const SeverityFit& fit, const ReadingModel& planned) {
   MatrixXd covariance = MatrixXd::Zero(planned.unknowns(), planned.unknowns());
   covariance.topLeftCorner(2, 2) = fit.covariance.topLeftCorner(2, 2);
   const std::vector<Nuisance>& own = planned.nuisances();
@@ -66,7 +66,7 @@ MatrixXd covariance_for(const ReadingModel& record, const LawFit& fit, const Rea
   return covariance;
 }
 
-VectorXd unknowns_for(const ReadingModel& record, const LawFit& fit, const ReadingModel& planned) {
+VectorXd unknowns_for(const ReadingModel& record, const SeverityFit& fit, const ReadingModel& planned) {
   VectorXd unknowns = VectorXd::Zero(planned.unknowns());
   const bool shared =
       !record.nuisances().empty() && record.nuisances().front().name == planned.nuisances().front().name;
@@ -75,15 +75,15 @@ VectorXd unknowns_for(const ReadingModel& record, const LawFit& fit, const Readi
 }
 
 /// The fit of a law after the measurement, where it gave `readings`.
-LawFit updated(const ReadingModel& record, const ReadingModel& planned, const Expectation& point,
-               const VectorXd& readings) {
+SeverityFit updated(const ReadingModel& record, const ReadingModel& planned, const Expectation& point,
+                    const VectorXd& readings) {
   const MatrixXd prior = covariance_for(record, *point.fit, planned);
   const MatrixXd spread =
       MatrixXd::Identity(readings.size(), readings.size()) + point.slopes * prior * point.slopes.transpose();
   const Eigen::LLT<MatrixXd> factor(spread);
   const VectorXd apart = readings - point.readings;
   const VectorXd solved = factor.solve(apart);
-  LawFit fit;
+  SeverityFit fit;
   fit.severity = point.fit->severity;
   fit.residuals.resize(point.fit->residuals.size() + apart.size());
   fit.residuals << point.fit->residuals, factor.matrixL().solve(apart);
@@ -219,15 +219,15 @@ class Advisor {
   }
 
   [[nodiscard]] Curve curve_now(const Rival& rival) const {
-    std::vector<LawFit> fits;
-    for (const LawFit& fit : rival.law->fits)
+    std::vector<SeverityFit> fits;
+    for (const SeverityFit& fit : rival.law->fits)
       if (fit.chi2 < rival.law->best().chi2 + reach) fits.push_back(fit);
     return {rival.density, rival.law->best().chi2, severity_curve(record_, fits)};
   }
 
   [[nodiscard]] Curve after_readings(const ReadingModel& planned, const Rival& rival,
                                      const VectorXd& readings) const {
-    std::vector<LawFit> fits;
+    std::vector<SeverityFit> fits;
     for (const Expectation& point : rival.points) fits.push_back(updated(record_, planned, point, readings));
     return {rival.density, rival.law->best().chi2, severity_curve(planned, fits)};
   }
@@ -258,7 +258,7 @@ class Advisor {
       weights[i] =
           1.0 /
           planned.known_deviations()[static_cast<std::size_t>(planned.channels()[static_cast<std::size_t>(i)])];
-    for (const LawFit& fit : rival.law->fits) {
+    for (const SeverityFit& fit : rival.law->fits) {
       if (fit.chi2 > rival.law->best().chi2 + reach) continue;
       const LawAt law{fit.severity == 0.0 ? nullptr : rival.law->law.departure, fit.severity};
       const std::unique_ptr<NearbyOrbits> own = planned.no_orbits(planned.known_deviations());

@@ -37,10 +37,9 @@ class Errors {
 
 }  // namespace
 
-std::optional<BootstrapSpread> bootstrap_spread(const Reading& own, const Eigen::VectorXd& truth,
-                                                const std::function<Record(int)>& draw,
-                                                const std::function<std::optional<Reading>(const Record&)>& read,
-                                                int records) {
+std::optional<BootstrapSpread> bootstrap_spread(
+    const ParameterReading& own, const Eigen::VectorXd& truth, const std::function<Record(int)>& draw,
+    const std::function<std::optional<ParameterReading>(const Record&)>& read, int records) {
   const Eigen::Index size = truth.size();
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(size);
   Errors errors(size);
@@ -48,7 +47,7 @@ std::optional<BootstrapSpread> bootstrap_spread(const Reading& own, const Eigen:
   int count = 0;
   for (int b = 0; b < records; ++b) {
     core::stop_if_cancelled();
-    const std::optional<Reading> reading = read(draw(b));
+    const std::optional<ParameterReading> reading = read(draw(b));
     if (!reading) continue;
     ++count;
     const Eigen::VectorXd beside = reading->parameters - mean;
@@ -68,8 +67,8 @@ std::optional<BootstrapSpread> bootstrap_spread(const Reading& own, const Eigen:
 }
 
 std::optional<BootstrapSpread> parametric_bootstrap(
-    const std::vector<NumberedHistory>& histories, const Reading& own, double offset,
-    const std::function<std::optional<Reading>(const Record&)>& read) {
+    const std::vector<NumberedHistory>& histories, const ParameterReading& own, double offset,
+    const std::function<std::optional<ParameterReading>(const Record&)>& read) {
   const Eigen::VectorXd& p = own.parameters;
   ForceParameters law{p[0], p[1], p[2], p[3]};
   const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, law, offset);

@@ -32,7 +32,7 @@ namespace dualdamp::identify {
 inline constexpr int synthetic_count = 40;
 
 /// What a method makes of one record: m, c, k, F0, and after them what else it estimates.
-struct Reading {
+struct ParameterReading {
   Eigen::VectorXd parameters;
   Eigen::VectorXd errors;  ///< standard errors as the residuals show them; 0: a constant
 };
@@ -46,14 +46,14 @@ struct BootstrapSpread {
 /// `draw(b)`: the record of number b; `read`: the method, nothing where it refuses. `truth`: what they
 /// were made with. Nothing when the method refuses more than one record in ten.
 [[nodiscard]] std::optional<BootstrapSpread> bootstrap_spread(
-    const Reading& own, const Eigen::VectorXd& truth, const std::function<Record(int)>& draw,
-    const std::function<std::optional<Reading>(const Record&)>& read, int records = synthetic_count);
+    const ParameterReading& own, const Eigen::VectorXd& truth, const std::function<Record(int)>& draw,
+    const std::function<std::optional<ParameterReading>(const Record&)>& read, int records = synthetic_count);
 
 /// The spread over synthetic records of the synthetic record that `own` is the truth of. `offset`: a constant force
 /// [N].
 [[nodiscard]] std::optional<BootstrapSpread> parametric_bootstrap(
-    const std::vector<NumberedHistory>& histories, const Reading& own, double offset,
-    const std::function<std::optional<Reading>(const Record&)>& read);
+    const std::vector<NumberedHistory>& histories, const ParameterReading& own, double offset,
+    const std::function<std::optional<ParameterReading>(const Record&)>& read);
 
 /// Value, and from the spread standard errors, intervals, covariance and correlation of (zeta, F0); a warning where
 /// the bias is more than half a standard error and a thousandth of the value. Without a spread the value alone, and

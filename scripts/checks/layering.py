@@ -5,7 +5,8 @@ usage: layering.py ROOT
 
 FOLDERS says which folders may include which, ROOMS the same of the rooms inside a folder; LIBRARIES says where each
 foreign library may appear. A header is public when a CMakeLists.txt names it under HEADERS (they are installed),
-private otherwise. A name under PAIRS stands for a public header, NAME.hpp, and a source.
+private otherwise. Two types of one name in one namespace break the rule of one definition: the linker takes one of
+them for both, without a word. A name under PAIRS stands for a public header, NAME.hpp, and a source.
 """
 
 import re
@@ -101,6 +102,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 HEADER_LIST = re.compile(r"\bHEADERS\b(.*?)(?:\bSOURCES\b|\))", re.DOTALL)
 PAIR_LIST = re.compile(r"\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
 LINKED = re.compile(r"\b(?:dualdamp_|dualdamp::)(%s)\b" % "|".join(FOLDERS))
+TYPE = re.compile(r"(?:struct|class|enum class|union) (?:\[\[\w+\]\] )?(\w+)(?: final)?\s*(?::[^:;]|\{|$)")
 # Folders that keep a library in a single file.
 ONE_FILE = {"Boost.Odeint": "sim", "the operating system": "identify"}
 
@@ -219,6 +221,29 @@ def one_file_faults(root):
             yield f"{folder}/: {library} belongs in one .cpp, it is in {names}"
 
 
+def types_of(path):
+    """Types that a file defines in a named namespace, with their lines."""
+    namespaces = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if match := re.match(r"namespace ?([\w:]*) ?\{", line):
+            namespaces.append(match[1])
+        elif line.startswith("}  // namespace") and namespaces:
+            namespaces.pop()
+        elif (match := TYPE.match(line)) and namespaces and "" not in namespaces:
+            yield "::".join([*namespaces, match[1]]), number
+
+
+def type_faults(root):
+    first = {}
+    for folder in FOLDERS:
+        for path in source_files(root, folder):
+            for name, line in types_of(path):
+                place = f"{path.relative_to(root)}:{line}"
+                if name in first:
+                    yield f"{place}: {name} is defined in {first[name]} too: the linker takes one of them for both"
+                first.setdefault(name, place)
+
+
 def faults(root):
     public = public_headers(root)
     for folder in [*FOLDERS, "tests"]:
@@ -227,6 +252,7 @@ def faults(root):
         if folder in FOLDERS:
             yield from link_faults(root, folder)
     yield from one_file_faults(root)
+    yield from type_faults(root)
 
 
 def main():

@@ -19,7 +19,7 @@ SOUND = {
     "cli/main.cpp": '#include <CLI/CLI.hpp>\n#include <unistd.h>\n#include "core/units.hpp"\n',
     "tests/core/units.cpp": '#include <yaml-cpp/yaml.h>\n#include "cli/main.cpp"\n#include "files.hpp"\n',
     "tests/core/files.hpp": "#pragma once\n",
-    "scenarios/json.hpp": "#pragma once\n#include <nlohmann/json.hpp>\n",
+    "scenarios/json.hpp": "#pragma once\n#include <nlohmann/json.hpp>\n\nnamespace dualdamp::scenarios {\n\nstruct Text {\n  int a;\n};\n\n}  // namespace dualdamp::scenarios\n",
     "core/CMakeLists.txt": "dualdamp_module(core\n  HEADERS units.hpp bad.hpp\n  SOURCES units.cpp)\n",
     "friction_models/CMakeLists.txt": "dualdamp_module(f PAIRS laws/coulomb PUBLIC dualdamp_core)\n",
     "sim/CMakeLists.txt": "# not dualdamp_cli\ndualdamp_module(sim HEADERS smooth.hpp bad.hpp PUBLIC dualdamp_core)\n",
@@ -28,6 +28,8 @@ SOUND = {
 
 # One change to the sound tree, and words of the complaint.
 FAULTS = {
+    "a type defined twice": ("scenarios/bad.cpp", "namespace dualdamp::scenarios {\nstruct Text {\n  double b;\n};\n}  // namespace dualdamp::scenarios\n",
+                             ["bad.cpp:2", "scenarios/json.hpp:6 too"]),
     "upward include": ("core/bad.cpp", '#include "sim/smooth.hpp"\n', ["core/bad.cpp:1", "core/ may include only core"]),
     "sideways include": ("friction_models/bad.hpp", '#pragma once\n#include "scenarios/x.hpp"\n', ["bad.hpp:2"]),
     "angle brackets hide nothing": ("core/bad.cpp", "#include <sim/smooth.hpp>\n", ["core/ may include only core"]),

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 /// Friction and damping keep to a share of what plain friction has: below it a law is another one.
 constexpr double least_share = 0.02;
 
-VectorXd weights_of(const ReadingModel& model, const ReadingNoise& noise) {
+VectorXd weights_of(const ReadingModel& model, const ChannelNoise& noise) {
   VectorXd weights(model.readings().size());
   for (Index i = 0; i < weights.size(); ++i)
     weights[i] = 1.0 / noise.deviations[static_cast<std::size_t>(model.channels()[static_cast<std::size_t>(i)])];
@@ -46,7 +46,7 @@ MatrixXd with_priors(const ReadingModel& model, const MatrixXd& weighted) {
 /// Gauss and Newton with Broyden's corrections of the derivatives: taken anew only where they mislead.
 class Search {
  public:
-  Search(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise, NearbyOrbits& near)
+  Search(const ReadingModel& model, const LawAt& law, const ChannelNoise& noise, NearbyOrbits& near)
       : model_(model), law_(law), weights_(weights_of(model, noise)), near_(near) {}
 
   /// `slopes`: derivatives of a similar law, to begin with; empty: none are known.
@@ -84,8 +84,8 @@ class Search {
     return true;
   }
 
-  [[nodiscard]] LawFit result() const {
-    LawFit fit;
+  [[nodiscard]] SeverityFit result() const {
+    SeverityFit fit;
     fit.severity = law_.severity;
     fit.unknowns = p_;
     fit.residuals = residuals_;
@@ -153,7 +153,7 @@ class Search {
 };
 
 /// Covariance of the unknowns from the derivatives; false where the readings do not determine them.
-bool find_covariance(LawFit& fit) {
+bool find_covariance(SeverityFit& fit) {
   const MatrixXd information = fit.slopes.transpose() * fit.slopes;
   const Eigen::LDLT<MatrixXd> factor(information);
   fit.covariance = factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
@@ -161,8 +161,8 @@ bool find_covariance(LawFit& fit) {
 }
 
 /// What the smooth curve leaves of the residuals of each channel, from residuals over `noise`.
-ReadingNoise noise_of(const ReadingModel& model, const ReadingNoise& noise, const VectorXd& residuals) {
-  ReadingNoise found = noise;
+ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, const VectorXd& residuals) {
+  ChannelNoise found = noise;
   found.freedom = std::numeric_limits<double>::infinity();
   double freedom = 0.0;
   bool known = true;
@@ -191,10 +191,10 @@ ReadingNoise noise_of(const ReadingModel& model, const ReadingNoise& noise, cons
 }
 
 /// Unknowns at a severity, continued from those of the last two fits.
-VectorXd continued(const std::vector<LawFit>& fits, double severity) {
-  const LawFit& last = fits.back();
+VectorXd continued(const std::vector<SeverityFit>& fits, double severity) {
+  const SeverityFit& last = fits.back();
   if (fits.size() < 3) return last.unknowns;
-  const LawFit& before = fits[fits.size() - 2];
+  const SeverityFit& before = fits[fits.size() - 2];
   const double part = (severity - last.severity) / (last.severity - before.severity);
   VectorXd unknowns = last.unknowns + part * (last.unknowns - before.unknowns);
   unknowns.head(2) = unknowns.head(2).cwiseMax(least_share);
@@ -202,24 +202,24 @@ VectorXd continued(const std::vector<LawFit>& fits, double severity) {
 }
 
 /// The last but one fit takes the derivatives between those of its neighbours, which took their own.
-void share_slopes(std::vector<LawFit>& fits) {
-  const LawFit& right = fits.back();
-  const LawFit& left = fits[fits.size() - 3];
-  LawFit& middle = fits[fits.size() - 2];
+void share_slopes(std::vector<SeverityFit>& fits) {
+  const SeverityFit& right = fits.back();
+  const SeverityFit& left = fits[fits.size() - 3];
+  SeverityFit& middle = fits[fits.size() - 2];
   const double part = (middle.severity - left.severity) / (right.severity - left.severity);
-  LawFit shared = middle;
+  SeverityFit shared = middle;
   shared.slopes = (1.0 - part) * left.slopes + part * right.slopes;
   if (find_covariance(shared)) middle = std::move(shared);
 }
 
 }  // namespace
 
-std::optional<LawFit> fit_law(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise,
-                              const LawStart& start, NearbyOrbits& near) {
+std::optional<SeverityFit> fit_law(const ReadingModel& model, const LawAt& law, const ChannelNoise& noise,
+                                   const LawStart& start, NearbyOrbits& near) {
   Search search(model, law, noise, near);
   if (!search.minimize(start.unknowns, start.slopes)) return std::nullopt;
   if (start.own_slopes && !search.differentiate()) return std::nullopt;
-  LawFit fit = search.result();
+  SeverityFit fit = search.result();
   return find_covariance(fit) ? std::optional(fit) : std::nullopt;
 }
 
@@ -235,23 +235,23 @@ std::optional<PlainFit> plain_fit(const ReadingModel& model) {
   LawStart start{.unknowns = model.start()};
   constexpr int rounds = 3;
   for (int i = 0; i < rounds; ++i) {
-    const std::optional<LawFit> fit = fit_law(model, {}, plain.noise, start, *near);
+    const std::optional<SeverityFit> fit = fit_law(model, {}, plain.noise, start, *near);
     if (!fit) return std::nullopt;
     start.unknowns = fit->unknowns;
     plain.fit = *fit;
     plain.noise = noise_of(model, plain.noise, fit->residuals.head(model.readings().size()));
   }
-  const std::optional<LawFit> fit = fit_law(model, {}, plain.noise, start, *near);
+  const std::optional<SeverityFit> fit = fit_law(model, {}, plain.noise, start, *near);
   if (!fit) return std::nullopt;
   plain.fit = *fit;
   return plain;
 }
 
-std::vector<LawFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
-                                const ReadingNoise& noise, const LawFit& plain) {
+std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
+                                     const ChannelNoise& noise, const SeverityFit& plain) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;
-  std::vector<LawFit> fits = {plain};
+  std::vector<SeverityFit> fits = {plain};
   const std::unique_ptr<NearbyOrbits> near = model.no_orbits(noise.deviations);
   double least = plain.chi2;
   for (int i = 1; i <= count; ++i) {
@@ -259,7 +259,7 @@ std::vector<LawFit> law_profile(const ReadingModel& model, const rigs::Rig& depa
     const double severity = largest * std::pow(static_cast<double>(i) / count, 1.5);
     const bool own_slopes = i % 2 == 1;
     const LawStart start{continued(fits, severity), fits.back().slopes, own_slopes};
-    const std::optional<LawFit> fit = fit_law(model, {&departure, severity}, noise, start, *near);
+    const std::optional<SeverityFit> fit = fit_law(model, {&departure, severity}, noise, start, *near);
     if (!fit) break;
     fits.push_back(*fit);
     if (own_slopes && i > 1) share_slopes(fits);

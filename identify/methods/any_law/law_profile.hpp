@@ -16,12 +16,13 @@
 namespace dualdamp::identify {
 
 /// Standard deviation of each channel of readings, and the degrees of freedom behind it.
-struct ReadingNoise {
+struct ChannelNoise {
   std::vector<double> deviations;
   double freedom = 0.0;  ///< infinite where they are known
 };
 
-struct LawFit {
+/// The best fit of a law at one severity.
+struct SeverityFit {
   double severity = 0.0;
   double chi2 = 0.0;
   Eigen::VectorXd unknowns;
@@ -39,22 +40,24 @@ struct LawStart {
 };
 
 /// The best fit of a law at one severity from `start` on; nothing where it has no steady states there.
-[[nodiscard]] std::optional<LawFit> fit_law(const ReadingModel& model, const LawAt& law, const ReadingNoise& noise,
-                                            const LawStart& start, NearbyOrbits& near);
+[[nodiscard]] std::optional<SeverityFit> fit_law(const ReadingModel& model, const LawAt& law,
+                                                 const ChannelNoise& noise, const LawStart& start,
+                                                 NearbyOrbits& near);
 
 /// The noise of the readings, where it is not known: what a smooth curve leaves of the residuals of Coulomb +
 /// viscous friction. `plain`: that fit; it is repeated until its weights are those of the noise. Nothing where it
 /// has none.
 struct PlainFit {
-  ReadingNoise noise;
-  LawFit fit;
+  ChannelNoise noise;
+  SeverityFit fit;
 };
 [[nodiscard]] std::optional<PlainFit> plain_fit(const ReadingModel& model);
 
 /// Fits over the severities of one departure, the mildest first; `plain` stands for severity zero. Ends where a law
 /// explains the readings so much worse than a milder one that no region reaches it. Negative `largest`: the other
 /// sign.
-[[nodiscard]] std::vector<LawFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
-                                              const ReadingNoise& noise, const LawFit& plain);
+[[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure,
+                                                   double largest, const ChannelNoise& noise,
+                                                   const SeverityFit& plain);
 
 }  // namespace dualdamp::identify

@@ -93,7 +93,7 @@ const std::vector<rigs::Rig>& all_laws() {
 LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
   LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit)};
   if (!law.both_signs) return all;
-  std::vector<LawFit> negative = law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit);
+  std::vector<SeverityFit> negative = law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit);
   std::ranges::reverse(negative);
   negative.pop_back();
   all.fits.insert(all.fits.begin(), negative.begin(), negative.end());
@@ -125,7 +125,7 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
   return laws;
 }
 
-const LawFit& LawFits::best() const { return *std::ranges::min_element(fits, {}, &LawFit::chi2); }
+const SeverityFit& LawFits::best() const { return *std::ranges::min_element(fits, {}, &SeverityFit::chi2); }
 
 std::vector<LawFits> fit_library(const ReadingModel& model, const LawIntervalOptions& options,
                                  const PlainFit& plain) {

@@ -36,10 +36,10 @@ struct LibraryLaw {
 /// zero.
 struct LawFits {
   LibraryLaw law{};
-  std::vector<LawFit> fits{};
+  std::vector<SeverityFit> fits{};
 
   [[nodiscard]] bool solved() const { return law.departure == nullptr || fits.size() > 1; }
-  [[nodiscard]] const LawFit& best() const;
+  [[nodiscard]] const SeverityFit& best() const;
 };
 
 /// Plain friction first, then the library; on all cores.

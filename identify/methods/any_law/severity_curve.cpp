@@ -30,7 +30,7 @@ Curve through(std::vector<double> at, std::vector<double> values) {
   };
 }
 
-SeverityPoint severity_point(const ReadingModel& model, const LawFit& fit) {
+SeverityPoint severity_point(const ReadingModel& model, const SeverityFit& fit) {
   constexpr double least = std::numeric_limits<double>::min();
   return {fit.severity,
           fit.chi2,
@@ -43,11 +43,11 @@ SeverityPoint severity_point(const ReadingModel& model, const LawFit& fit) {
 
 }  // namespace
 
-std::vector<SeverityPoint> severity_curve(const ReadingModel& model, const std::vector<LawFit>& fits) {
+std::vector<SeverityPoint> severity_curve(const ReadingModel& model, const std::vector<SeverityFit>& fits) {
   if (fits.size() < 2) return {severity_point(model, fits.front())};
   std::vector<double> at;
   std::vector<SeverityPoint> known;
-  for (const LawFit& fit : fits) {
+  for (const SeverityFit& fit : fits) {
     at.push_back(fit.severity);
     known.push_back(severity_point(model, fit));
   }

@@ -25,7 +25,8 @@ struct SeverityPoint {
 
 /// Fits by increasing severity, and points interpolated between them (makima from four fits on, else linear). chi2
 /// follows from interpolated residuals, so that it is a sum of squares between the fits, too.
-[[nodiscard]] std::vector<SeverityPoint> severity_curve(const ReadingModel& model, const std::vector<LawFit>& fits);
+[[nodiscard]] std::vector<SeverityPoint> severity_curve(const ReadingModel& model,
+                                                        const std::vector<SeverityFit>& fits);
 
 /// The least chi2 of the points.
 [[nodiscard]] const SeverityPoint& best_of(const std::vector<SeverityPoint>& points);

@@ -97,9 +97,9 @@ ForceParameters force_parameters(const CorrelatedFit& fit, const Columns& column
 constexpr Eigen::Index offset_place = 4;
 
 /// (m, c, k, F0, offset) and their standard errors, zero where the constants give the value.
-Reading reading_of(const CorrelatedFit& fit, const Columns& columns, const KnownConstants& constants) {
+ParameterReading reading_of(const CorrelatedFit& fit, const Columns& columns, const KnownConstants& constants) {
   const ForceParameters force = force_parameters(fit, columns, constants);
-  Reading reading{Eigen::VectorXd(5), Eigen::VectorXd::Zero(5)};
+  ParameterReading reading{Eigen::VectorXd(5), Eigen::VectorXd::Zero(5)};
   reading.parameters << force.m, force.c, force.k, force.F0, fit.coefficients[columns.offset];
   const std::array<std::optional<Eigen::Index>, 5> places{columns.mass, columns.damping, columns.stiffness,
                                                           columns.friction, columns.offset};
@@ -108,7 +108,7 @@ Reading reading_of(const CorrelatedFit& fit, const Columns& columns, const Known
   return reading;
 }
 
-std::vector<FurtherParameter> further_parameters(const Reading& reading, const Columns& columns,
+std::vector<FurtherParameter> further_parameters(const ParameterReading& reading, const Columns& columns,
                                                  const std::optional<BootstrapSpread>& spread) {
   std::vector<FurtherParameter> list;
   const auto add = [&](const char* name, const char* unit, Eigen::Index place) {
@@ -242,8 +242,8 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   std::vector<std::string> faults;
   if (!(force.m > 0.0)) faults.emplace_back("the mass came out negative");
   if (force.k < 0.0) faults.emplace_back("the stiffness came out negative");
-  const Reading own = reading_of(fit, columns, constants);
-  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+  const ParameterReading own = reading_of(fit, columns, constants);
+  const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {
     Estimate ignored;
     const Regression other = regress(usable_histories(drawn, options, ignored), 0, columns, constants, options);
     return other.fit ? std::optional(reading_of(*other.fit, columns, constants)) : std::nullopt;

@@ -178,7 +178,7 @@ std::string fault_of_run(const FilterRun& run, const Scales& scales) {
 }
 
 /// (m, c, k, F0), mass and stiffness being constants; errors by what the innovations are beside what P expects.
-Reading reading_of(const FilterRun& run, const KnownConstants& constants) {
+ParameterReading reading_of(const FilterRun& run, const KnownConstants& constants) {
   const Eigen::Vector4d& end = run.end.state;
   const auto error = [&](Eigen::Index i) { return std::sqrt(run.surprise * run.end.P(i, i)); };
   return {Eigen::Vector4d(constants.mass, end[3], constants.stiffness, end[2]),
@@ -229,7 +229,7 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
     refuse(estimate, std::move(fault));
     return estimate;
   }
-  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+  const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {
     const History& noisy = drawn.histories.front();
     const Scales its = scales_of(noisy, options);
     const FilterRun other =

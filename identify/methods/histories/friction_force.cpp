@@ -217,9 +217,9 @@ SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const Re
 constexpr Eigen::Index offset_place = 4;
 
 /// (m, c, k, F0, offset), mass and stiffness being constants.
-Reading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {
+ParameterReading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {
   const auto error = [&](Eigen::Index i) { return std::sqrt(fit.covariance(i, i)); };
-  Reading reading{Eigen::VectorXd(5), Eigen::VectorXd(5)};
+  ParameterReading reading{Eigen::VectorXd(5), Eigen::VectorXd(5)};
   reading.parameters << constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1],
       fit.coefficients[2];
   reading.errors << 0.0, error(0), 0.0, error(1), error(2);
@@ -240,8 +240,8 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
                          ", or one speed only");
     return estimate;
   }
-  const Reading own = reading_of(*line.fit, constants);
-  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+  const ParameterReading own = reading_of(*line.fit, constants);
+  const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {
     Estimate ignored;
     const SlidingLine other = sliding_line(friction_samples(drawn, constants, options, ignored), options);
     return other.fit ? std::optional(reading_of(*other.fit, constants)) : std::nullopt;

@@ -48,24 +48,25 @@ Eigen::Matrix4d force_covariance(const ForwardLayout& layout, const Eigen::Matri
 }
 
 /// What one step of Gauss and Newton makes of other residuals at the estimate: so little does noise move the fit.
-std::optional<Reading> reading_of(const ForwardLayout& layout, const LeastSquaresFit& found,
-                                  const Eigen::VectorXd& residuals, const std::vector<Eigen::Index>& blocks) {
+std::optional<ParameterReading> reading_of(const ForwardLayout& layout, const LeastSquaresFit& found,
+                                           const Eigen::VectorXd& residuals,
+                                           const std::vector<Eigen::Index>& blocks) {
   const std::optional<CorrelatedFit> step = fit_correlated(found.jacobian, residuals, blocks);
   if (!step) return std::nullopt;
   const ForceParameters force = layout.force(found.parameters - step->coefficients);
-  return Reading{Eigen::Vector4d(force.m, force.c, force.k, force.F0),
-                 force_covariance(layout, step->covariance).diagonal().cwiseSqrt()};
+  return ParameterReading{Eigen::Vector4d(force.m, force.c, force.k, force.F0),
+                          force_covariance(layout, step->covariance).diagonal().cwiseSqrt()};
 }
 
 std::optional<BootstrapSpread> spread_of(const std::vector<ForwardTest>& tests, const ForwardLayout& layout,
                                          const ForwardResiduals& residuals, const LeastSquaresFit& found,
-                                         const Reading& own) {
+                                         const ParameterReading& own) {
   std::vector<NumberedHistory> histories;
   for (const ForwardTest& test : tests) histories.push_back({test.number, test.history});
   ForceParameters truth = layout.force(found.parameters);
   const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, truth, 0.0);
   if (!synthetic) return std::nullopt;
-  const auto read = [&](const Record& drawn) -> std::optional<Reading> {
+  const auto read = [&](const Record& drawn) -> std::optional<ParameterReading> {
     Eigen::VectorXd misses(residuals.count());
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const History& history = drawn.histories[t];
@@ -101,7 +102,7 @@ void report(std::vector<ForwardTest>& tests, const ForwardLayout& layout, const 
             const LeastSquaresFit& found, Estimate& estimate, std::vector<std::string>& faults) {
   const ForceParameters force = layout.force(found.parameters);
   estimate.value = parameters(force);
-  const std::optional<Reading> own = reading_of(layout, found, found.residuals, residuals.blocks());
+  const std::optional<ParameterReading> own = reading_of(layout, found, found.residuals, residuals.blocks());
   if (!own) {
     faults.emplace_back("the motion does not tell the parameters apart");
     return;

@@ -120,7 +120,7 @@ void compare_halves(const Rows& rows, Estimate& estimate) {
 struct RecursiveFit {
   Rows rows;
   std::optional<CorrelatedFit> fit;
-  Reading reading;  ///< (m, c, k, F0), mass and stiffness being constants
+  ParameterReading reading;  ///< (m, c, k, F0), mass and stiffness being constants
   EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
 };
 
@@ -158,7 +158,7 @@ Estimate recursive_least_squares(const Record& record, const KnownConstants& con
            "one speed only");
     return estimate;
   }
-  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+  const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {
     Estimate ignored;
     RecursiveFit other = fit_recursively(friction_samples(drawn, constants, options, ignored), constants, options);
     return other.fit ? std::optional(std::move(other.reading)) : std::nullopt;

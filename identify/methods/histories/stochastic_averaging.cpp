@@ -175,7 +175,7 @@ struct Averages {
   double unit = 0.0;     ///< rms of A [m], in units of which the blocks are
   Blocks blocks;
   std::array<double, 7> m{};
-  Reading reading;  ///< (m, c, k, F0), mass and stiffness being constants; errors from the blocks
+  ParameterReading reading;  ///< (m, c, k, F0), mass and stiffness being constants; errors from the blocks
 };
 
 /// In units of its rms, which it sets.
@@ -226,7 +226,7 @@ std::optional<BootstrapSpread> spread_of(const History& history, const Averages&
                                          const KnownConstants& constants) {
   Eigen::VectorXd truth = averages.reading.parameters.cwiseMax(0.0);
   const RandomResponse response{history, {truth[0], truth[1], truth[2], truth[3]}, averages.D};
-  const auto again = [&](const Record& drawn) -> std::optional<Reading> {
+  const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {
     const Averages other = averages_of(drawn.histories.front(), constants);
     return other.fault.empty() ? std::optional(other.reading) : std::nullopt;
   };

@@ -28,9 +28,10 @@ Record number_of(const std::array<double, synthetic_count>& numbers, int b) {
   return record;
 }
 
-std::optional<Reading> read_number(const Record& record) {
+std::optional<ParameterReading> read_number(const Record& record) {
   const double number = record.histories.front().x.front();
-  return Reading{Eigen::Vector4d(1.0, number, 100.0, 3.0 - 2.0 * number), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
+  return ParameterReading{Eigen::Vector4d(1.0, number, 100.0, 3.0 - 2.0 * number),
+                          Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
 }
 
 /// One second of the bearing at 500 Hz: noise of x [m], of a as much at resonance, of y a tenth.
@@ -67,7 +68,7 @@ TEST_CASE("The spread over synthetic records is that of their readings, moved by
   double variance = 0.0;
   for (const double number : numbers) variance += (number - mean) * (number - mean) / (synthetic_count - 1.0);
   const auto draw = [&](int b) { return number_of(numbers, b); };
-  const Reading own{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
+  const ParameterReading own{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
   const std::optional<BootstrapSpread> spread = bootstrap_spread(own, own.parameters, draw, read_number);
   REQUIRE(spread);
   CHECK(spread->bias[1] == Approx(mean - 0.4).epsilon(1e-12));
@@ -85,12 +86,12 @@ TEST_CASE(
   Normal normal(5);
   for (double& number : numbers) number = 0.5 + 0.1 * normal();
   const auto draw = [&](int b) { return number_of(numbers, b); };
-  const Reading alike{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
-  Reading rougher = alike;
+  const ParameterReading alike{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.0, 0.1, 0.0, 0.2)};
+  ParameterReading rougher = alike;
   rougher.errors[1] = 0.3;
-  Reading smoother = alike;
+  ParameterReading smoother = alike;
   smoother.errors[1] = 0.01;
-  const auto covariance = [&](const Reading& own) {
+  const auto covariance = [&](const ParameterReading& own) {
     return bootstrap_spread(own, own.parameters, draw, read_number)->covariance;
   };
   const double bias = bootstrap_spread(alike, alike.parameters, draw, read_number)->bias[1];
@@ -100,7 +101,7 @@ TEST_CASE(
 
 TEST_CASE("A method that refuses more than one record in ten gets no interval") {
   const std::array<double, synthetic_count> numbers{};
-  const Reading own = *read_number(number_of(numbers, 0));
+  const ParameterReading own = *read_number(number_of(numbers, 0));
   const auto with_refusals = [&](int refused) {
     int b = 0;
     return bootstrap_spread(

@@ -59,7 +59,7 @@ std::optional<std::array<double, 2>> alias_bound(LawRecord kind, const LawRig& r
   PlainFit plain;
   plain.noise = {{rig.noise * rig.reference.amplitude, rig.noise}, std::numeric_limits<double>::infinity()};
   const auto near = (*model)->no_orbits(plain.noise.deviations);
-  const std::optional<LawFit> fit = fit_law(**model, {}, plain.noise, {.unknowns = (*model)->start()}, *near);
+  const std::optional<SeverityFit> fit = fit_law(**model, {}, plain.noise, {.unknowns = (*model)->start()}, *near);
   if (!fit) return std::nullopt;
   plain.fit = *fit;
   Curves curves;

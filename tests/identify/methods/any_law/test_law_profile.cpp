@@ -88,13 +88,14 @@ TEST_CASE("any_law: fits that share derivatives are those that take their own") 
   for (const char* law : {"contact_compliance", "dahl", "stribeck"}) {
     const identify::rigs::Rig& departure = *identify::rigs::find_departure(law);
     constexpr double largest = 0.3;
-    const std::vector<LawFit> fits = law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit);
+    const std::vector<SeverityFit> fits =
+        law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit);
     REQUIRE(fits.size() > 3);
     for (std::size_t i = 1; i < fits.size(); ++i) {
       INFO(law << " at severity " << fits[i].severity);
       const auto near = one.model->no_orbits(one.plain.noise.deviations);
-      const std::optional<LawFit> own = fit_law(*one.model, {&departure, fits[i].severity}, one.plain.noise,
-                                                {.unknowns = fits[i].unknowns}, *near);
+      const std::optional<SeverityFit> own = fit_law(*one.model, {&departure, fits[i].severity}, one.plain.noise,
+                                                     {.unknowns = fits[i].unknowns}, *near);
       REQUIRE(own);
       // Both searches end where a step is below a tenth of a standard deviation.
       const double deviation = std::sqrt(own->covariance(0, 0));
