@@ -29,7 +29,7 @@ SOUND = {
 # One change to the sound tree, and words of the complaint.
 FAULTS = {
     "a type defined twice": ("scenarios/bad.cpp", "namespace dualdamp::scenarios {\nstruct Text {\n  double b;\n};\n}  // namespace dualdamp::scenarios\n",
-                             ["bad.cpp:2", "scenarios/json.hpp:6 too"]),
+                             ["scenarios/bad.cpp:2 too", "json.hpp:6", "Text"]),
     "upward include": ("core/bad.cpp", '#include "sim/smooth.hpp"\n', ["core/bad.cpp:1", "core/ may include only core"]),
     "sideways include": ("friction_models/bad.hpp", '#pragma once\n#include "scenarios/x.hpp"\n', ["bad.hpp:2"]),
     "angle brackets hide nothing": ("core/bad.cpp", "#include <sim/smooth.hpp>\n", ["core/ may include only core"]),
