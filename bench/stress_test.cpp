@@ -111,7 +111,9 @@ Section keys() {
        section("rigs", rig_keys(), "rigs of a low-discrepancy set (Halton); default: the rig of the scenario"),
        section("decay", decay, "a free vibration in addition to each curve, for the methods that need one"),
        random_response_key(), methods_key("all that the measurements allow"),
-       boolean("answer", "the program's own answer takes part too, as a method: what 'identify' says of a record")
+       boolean(
+           "answer",
+           "the program's own answer takes part too, as a method: what 'identify' says of a record without any_law")
            .with_fallback(false)}};
 }
 

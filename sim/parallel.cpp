@@ -64,16 +64,23 @@ void in_parts(std::size_t size, std::size_t grain, int threads,
               const std::function<void(std::size_t first, std::size_t count)>& work) {
   namespace tbb = oneapi::tbb;
   static const int cores = threads_are_to_be_had() ? tbb::info::default_concurrency() : 1;
-  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
+  const int most = threads > 0 ? std::min(threads, cores) : cores;
   LoopOrder order;
-  arena.execute([&] {
+  const auto loop = [&] {
     tbb::parallel_for(std::size_t{0}, (size + grain - 1) / grain, [&](std::size_t part) {
       const LoopOrder::Part ordered(order);
       core::stop_if_cancelled();
       const std::size_t first = part * grain;
       work(first, std::min(grain, size - first));
     });
-  });
+  };
+  // A loop inside a loop shares the threads of the outer one: with an arena of its own it would draw them away from
+  // parts that take minutes to parts that take microseconds. Isolated: a thread that waits for the end of the inner
+  // loop does not begin a part of the outer one.
+  if (most < tbb::this_task_arena::max_concurrency())
+    tbb::task_arena(most).execute(loop);
+  else
+    tbb::this_task_arena::isolate(loop);
   order.loop_ended();
 }
 

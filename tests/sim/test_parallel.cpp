@@ -26,6 +26,21 @@ int most_at_once() {
   return most;
 }
 
+/// Whether two long parts are done at the same time although each of them is a row of short loops. A part that was
+/// left alone for 10 s gives up.
+bool long_parts_meet() {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
+  std::atomic<int> begun{0};
+  sim::in_parts(2, 1, 2, [&](std::size_t, std::size_t) {
+    ++begun;
+    while (begun < 2 && Clock::now() < end)
+      sim::in_parts(8, 1, 0,
+                    [](std::size_t, std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(10)); });
+  });
+  return Clock::now() < end;
+}
+
 }  // namespace
 
 TEST_CASE("a limit on threads holds for nested loops, and ends with its scope") {
@@ -43,4 +58,21 @@ TEST_CASE("parts cover every item once, the last part shorter") {
     for (std::size_t i = first; i < first + count; ++i) ++visits[i];
   });
   CHECK(visits == std::vector<int>(10, 1));
+}
+
+TEST_CASE("short loops inside long parts do not keep a thread from the next long part") {
+  if (std::thread::hardware_concurrency() > 1)
+    for (int i = 0; i < 20; ++i) REQUIRE(long_parts_meet());
+}
+
+TEST_CASE("a loop inside a loop of one thread has one thread") {
+  std::atomic<int> others{0};
+  sim::in_parts(4, 1, 1, [&](std::size_t, std::size_t) {
+    const std::thread::id here = std::this_thread::get_id();
+    sim::in_parts(16, 1, 0, [&](std::size_t, std::size_t) {
+      if (std::this_thread::get_id() != here) ++others;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    });
+  });
+  CHECK(others == 0);
 }
