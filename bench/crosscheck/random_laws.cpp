@@ -21,6 +21,7 @@ class RandomLaws {
   using Kind = std::pair<const char*, Draw>;
   static const std::array<Kind, 5> exact;
   static const std::array<Kind, 11> smooth;
+  static const Kind beside;
 
   Json law(const Kind& kind) {
     Json result = {{"law", kind.first}};
@@ -171,6 +172,14 @@ class RandomLaws {
             {"reference_velocity", sizes_.speed()},
             {"exponent", draws_.chance(0.3) ? 2.0 : draws_.uniform(0.5, 3.0)}};
   }
+  Json attached_mass() {
+    const double mass = sizes_.mass * (sizes_.wide ? draws_.logarithmic(1e-5, 1e2) : draws_.logarithmic(1e-3, 2.0));
+    const double natural =
+        sizes_.natural * (sizes_.wide ? draws_.logarithmic(1e-2, 1e2) : draws_.logarithmic(0.1, 10.0));
+    Json result = {{"mass", mass}, {"stiffness", mass * natural * natural}};
+    if (draws_.chance(0.75)) result["damping"] = 2.0 * mass * natural * draws_.logarithmic(1e-3, 1.0);
+    return result;
+  }
 
   void add_modifiers(Json& law) {
     const friction::LawEntry* entry = friction::find_law(law.at("law").get<std::string>());
@@ -219,6 +228,8 @@ const std::array<RandomLaws::Kind, 11> RandomLaws::smooth = {
      {"viscous_saturating", &RandomLaws::viscous_saturating},
      {"viscous_power", &RandomLaws::viscous_power}}};
 
+const RandomLaws::Kind RandomLaws::beside = {"attached_mass", &RandomLaws::attached_mass};
+
 /// Laws of the exact engine by how often they are met: rigid friction and contacts most.
 std::size_t exact_kind(Draws& draws) {
   constexpr std::array<std::size_t, 10> kinds = {0, 0, 0, 0, 1, 1, 1, 2, 3, 4};
@@ -236,6 +247,10 @@ Json random_friction(Draws& draws, const Sizes& sizes) {
   const int more = draws.chance(0.65) ? (has_smooth ? 0 : 1) : 2 + draws.pick(2) - (has_smooth ? 1 : 0);
   for (int i = 0; i < more; ++i) list.push_back(laws.law(RandomLaws::exact[exact_kind(draws)]));
   return list;
+}
+
+void attach_mass(Draws& draws, const Sizes& sizes, Json& friction) {
+  if (draws.chance(0.1)) friction.push_back(RandomLaws(draws, sizes).law(RandomLaws::beside));
 }
 
 }  // namespace dualdamp::crosscheck

@@ -9,6 +9,9 @@ namespace dualdamp::crosscheck {
 
 namespace {
 
+/// Seeds below were run before attached masses were drawn: their cases stay what they were.
+constexpr std::uint64_t first_with_attached_mass = 70;
+
 std::string frequency(double omega) { return core::format_number(omega) + " rad/s"; }
 
 double damping_ratio(Draws& draws, bool wide) {
@@ -136,6 +139,10 @@ Json random_scenario(std::uint64_t seed, std::uint32_t index) {
   }
   const Json drive = excitation(draws, sizes, !system.contains("damper_to"));
   system["friction"] = random_friction(draws, sizes);
+  if (seed >= first_with_attached_mass) {
+    Draws more(~seed, index);
+    attach_mass(more, sizes, system["friction"]);
+  }
   Json scenario = {{"schema", "dualdamp/1"}, {"system", system}, {"excitation", drive}};
   const bool is_free = drive.at("type") == "none";
   if (is_free || draws.chance(0.4)) {

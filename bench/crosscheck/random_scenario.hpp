@@ -33,11 +33,14 @@ struct Sizes {
   [[nodiscard]] double speed() const { return natural * length(); }
 };
 
-/// Case `index` of a campaign.
+/// Case `index` of a campaign. Seeds from 70 on also draw attached masses.
 [[nodiscard]] Json random_scenario(std::uint64_t seed, std::uint32_t index);
 
 /// One to four laws in parallel.
 [[nodiscard]] Json random_friction(Draws& draws, const Sizes& sizes);
+
+/// Beside these, in one case of ten: an oscillator attached to the mass.
+void attach_mass(Draws& draws, const Sizes& sizes, Json& friction);
 
 /// The same scenario as a file that people can read.
 [[nodiscard]] std::string yaml(const Json& scenario);

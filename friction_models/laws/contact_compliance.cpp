@@ -93,7 +93,9 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
     guards.push_back(break_away(memory, now, -1) + force);
   } else if (slider_stops_by_itself(now) || is_left_behind(side, direction)) {
     guards.push_back(slider_speed(memory, now));
-    if (memory.mode == side * creeping) guards.back().constant -= slowest_creep(now.force_limit_now(static_));
+    // Under a limit that falls the slider of a mass at rest creeps on, from no speed at its break-away.
+    const bool comes_to_rest = memory.mode == side * creeping && now.force_limit(kinetic_).rate >= 0.0;
+    if (comes_to_rest) guards.back().constant -= slowest_creep(now.force_limit_now(static_));
   }
 }
 

@@ -63,10 +63,13 @@ Instant ForceLimits::at(const ModifierCourse& course, double power, Instant now)
   double factor = course.drift_ended ? 0.0 : fluctuation(course);
   if (settings_.warms()) factor *= std::exp(-power / settings_.warming_power);
   const double drifted = 1.0 + settings_.drift * now.t;
-  const double angle = settings_.modulation_order * now.angle + settings_.modulation_phase;
-  const double modulated = 1.0 + settings_.modulation * std::cos(angle);
-  const double modulated_rate =
-      -settings_.modulation * settings_.modulation_order * now.angle_rate * std::sin(angle);
+  double modulated = 1.0;
+  double modulated_rate = 0.0;
+  if (settings_.modulation != 0.0) {
+    const double angle = settings_.modulation_order * now.angle + settings_.modulation_phase;
+    modulated += settings_.modulation * std::cos(angle);
+    modulated_rate = -settings_.modulation * settings_.modulation_order * now.angle_rate * std::sin(angle);
+  }
   double vanished = course.vanished == 0 ? -1.0 : nominal_[static_cast<std::size_t>(course.vanished) - 1];
   if (course.unloaded) vanished = infinity;
   now.modification = {

@@ -145,6 +145,7 @@ ExactEngine::~ExactEngine() = default;
 void ExactEngine::begin_motion() {
   drive_.reset(0.0);
   instant_scale_ = 0.0;
+  changed_law_.reset();
   if (tracking_) reset_sensitivity();
 }
 
@@ -301,11 +302,22 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
     crossing.by_position = watch.by_position;
     crossing.by_velocity = watch.by_velocity;
     // A guard that was violated from the start was not crossed: no perturbation delays it.
-    const bool forced = crossing_.s == 0.0 && core::at_start(mode_->basis(), guard.value) <
-                                                  -clearly * core::start_amplitude(mode_->basis(), guard.value);
-    crossing.slope = forced ? 0.0 : core::evaluate(mode_->basis(), guard.slope, crossing_.values);
+    crossing.slope = is_forced() ? 0.0 : core::evaluate(mode_->basis(), guard.slope, crossing_.values);
   }
   sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);
+}
+
+bool ExactEngine::is_forced() const {
+  const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
+  return crossing_.s == 0.0 && core::at_start(mode_->basis(), guard.value) <
+                                   -clearly * core::start_amplitude(mode_->basis(), guard.value);
+}
+
+/// Whether the event at once is none that the last one caused: two laws reach their guards at one instant. Each has
+/// a crossing of its own, which a perturbation delays by another time.
+bool ExactEngine::coincides() const {
+  const auto* guard = std::get_if<LawGuard>(&watches_[static_cast<std::size_t>(crossing_.guard)].ending);
+  return guard != nullptr && changed_law_ && guard->law != *changed_law_ && !is_forced();
 }
 
 core::SearchEnd ExactEngine::search(double horizon) {
@@ -332,7 +344,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
     return nullptr;
   }
   const bool at_once = find_violated();
-  if (tracking_) track_begin(begin, at_once);
+  if (tracking_) track_begin(begin, at_once && !coincides());
   if (!at_once && search(left) == core::SearchEnd::left_range) return nullptr;
   const core::Crossing& end = crossing_;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
@@ -346,8 +358,11 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
     leave_range();
     return nullptr;
   }
+  changed_law_.reset();
   if (end.found) {
-    interval_->ending = act(watches_[static_cast<std::size_t>(end.guard)].ending);
+    const Ending ending = watches_[static_cast<std::size_t>(end.guard)].ending;
+    if (const auto* guard = std::get_if<LawGuard>(&ending)) changed_law_ = guard->law;
+    interval_->ending = act(ending);
   } else if (by_schedule) {
     act_on_schedule(due);
     interval_->ending = EventKind::switching;

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/guard.hpp"
@@ -104,6 +105,8 @@ class ExactEngine final : public Engine {
   void track_begin(const friction::Instant& begin, bool at_once);
   void track_motion(const friction::Instant& begin, double s);
   void track_states(const friction::Instant& begin, double s, bool event);
+  [[nodiscard]] bool is_forced() const;
+  [[nodiscard]] bool coincides() const;
   void describe_interval(double begin);
   void begin_motion() override;
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
@@ -133,6 +136,7 @@ class ExactEngine final : public Engine {
   std::vector<friction::Affine> law_guards_;   ///< of all laws
   std::vector<std::size_t> law_guard_counts_;  ///< of each law
   core::Crossing crossing_;
+  std::optional<std::size_t> changed_law_;  ///< whose guard ended the interval before
 
   Sensitivity sensitivity_;
   std::vector<friction::Memory> memories_before_;  ///< at the start of the interval, while tracking

@@ -23,6 +23,9 @@ constexpr double slow = 0.01;
 constexpr double ladder = 100.0;
 constexpr double least_speed = 1e-40;
 
+/// Speeds below this part of the largest one are rounding.
+constexpr double rounded = 1e-13;
+
 /// A change of force by this part of it or more is not rounding.
 constexpr double resolved = 1e-11;
 
@@ -90,9 +93,25 @@ Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const 
   return now;
 }
 
+/// The force that `law` says, a function of the instant. The slope of a power of speed below 1 has no bound at
+/// rest: a mass that it nearly holds creeps at the tenth or the fiftieth power of the force. Of a law without
+/// states a speed within rounding makes that part of the force which it is of the slowest speed that is known.
+template <class Force>
+double Flow::resolved_force(std::size_t i, Instant now, const Force& law) const {
+  const double slowest = rounded * scales_[1];
+  if (count_[i] > 0 || direction_ == Direction::none || !(std::abs(now.v) < slowest)) return law(now);
+  const double part = friction::sign(direction_) * now.v / slowest;
+  now.v = 0.0;
+  const double at_rest = law(now);
+  now.v = friction::sign(direction_) * slowest;
+  return at_rest + part * (law(now) - at_rest);
+}
+
 double Flow::respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const {
   ++responses_;
-  return model_.friction[i].respond(memory(i, X), instant(i, X, t), direction_, rates);
+  return resolved_force(i, instant(i, X, t), [&](const Instant& now) {
+    return model_.friction[i].respond(memory(i, X), now, direction_, rates);
+  });
 }
 
 const Drive::Value& Flow::drive(double t) const {
@@ -180,7 +199,9 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
 double Flow::resisting(std::span<const double> X, double t) const {
   double force = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) {
-    force += model_.friction[i].force(memory(i, X), instant(i, X, t), direction_);
+    force += resolved_force(i, instant(i, X, t), [&](const Instant& now) {
+      return model_.friction[i].force(memory(i, X), now, direction_);
+    });
   }
   return force;
 }

@@ -62,6 +62,8 @@ class Flow final : public VectorField {
  private:
   [[nodiscard]] friction::Instant instant(std::size_t i, std::span<const double> X, double t) const;
   const friction::Memory& memory(std::size_t i, std::span<const double> X) const;
+  template <class Force>
+  double resolved_force(std::size_t i, friction::Instant now, const Force& law) const;
   double respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const;
   [[nodiscard]] double resisting(std::span<const double> X, double t) const;
   [[nodiscard]] const Drive::Value& drive(double t) const;

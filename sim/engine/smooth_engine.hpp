@@ -54,6 +54,7 @@ class SmoothEngine final : public Engine {
     Ending ending;
     std::array<double, points> values{};
     double scale = 0.0;  ///< its size, to judge rounding by
+    double parts = 0.0;  ///< of a law: what cancels in it at the begin of the interval
   };
   /// A guard that has crossed, and at which part of the step.
   struct Hit {
@@ -101,10 +102,10 @@ class SmoothEngine final : public Engine {
   void size_up_guards();
   void evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const;
   [[nodiscard]] double guard(std::size_t watch, double part) const;
-  [[nodiscard]] double guard_rate(std::size_t watch, std::span<const double> X, double t) const;
+  [[nodiscard]] double guard_rate(std::size_t watch, std::span<const double> X, double t, double length) const;
   void note_landing(const Hit& hit);
   [[nodiscard]] double level_at_start(const Watch& watch) const;
-  [[nodiscard]] bool goes_negative(std::size_t watch, double level) const;
+  [[nodiscard]] bool goes_negative(std::size_t watch, double value, double level) const;
   [[nodiscard]] bool find_violated(Hit& hit) const;
   [[nodiscard]] bool find_hit(Hit& hit);
   [[nodiscard]] double first_negative(std::size_t watch);

@@ -135,7 +135,7 @@ Eigen::RowVectorXd SmoothEngine::guard_gradient(std::size_t watch, double t, dou
 /// crossing no nearer as far as the guard changes with time alone.
 void SmoothEngine::carry_to_event(std::size_t watch) {
   const double t = local_time_ + taken_;
-  const double rate = guard_rate(watch, end_, t);
+  const double rate = guard_rate(watch, end_, t, taken_ > 0.0 ? taken_ : longest_step());
   // A guard that only touches zero has no crossing to shift.
   if (rate == 0.0) return drop_lead();
   double by_time = 0.0;

@@ -24,6 +24,10 @@ constexpr double shortest_part = 1e-15;
 constexpr double shortest_probe = 1e-20;
 /// Sums of forces within this part of their parts' sizes are equal.
 constexpr double equal = 1e-12;
+/// A guard that has grown by this part of what cancels in it has grown beyond rounding.
+constexpr double risen = 1e-14;
+/// The rate of a guard is a difference over this part of a step.
+constexpr double part_of_rate = 1e-5;
 
 }  // namespace
 
@@ -47,24 +51,27 @@ void SmoothEngine::lay_watches() {
   size_up_guards();
 }
 
-/// The size of a law's guard: its value and what the sizes of x, v and the states make of it.
+/// The size of a law's guard: its value and what the sizes of x, v and the states make of it; and the size of what
+/// cancels in it now.
 void SmoothEngine::size_up_guards() {
   constexpr double part = 1e-3;
   if (!some_modal_) return;
   std::vector<double> here;
   evaluate_guards(X_, local_time_, here);
-  const auto add = [&](const std::vector<double>& values, double factor) {
+  const auto add = [&](const std::vector<double>& values, double factor, double present) {
     for (std::size_t w = 0; w < watches_.size(); ++w) {
-      if (is<LawGuard>(watches_[w].ending)) watches_[w].scale += factor * std::abs(values[w]);
+      if (!is<LawGuard>(watches_[w].ending)) continue;
+      watches_[w].scale += factor * std::abs(values[w]);
+      watches_[w].parts += present * std::abs(values[w]);
     }
   };
-  add(here, 1.0);
+  add(here, 1.0, 1.0);
   probe_ = X_;
   for (std::size_t k = 0; k < X_.size(); ++k) {
     probe_[k] = X_[k] + part * flow_.scales()[k];
     evaluate_guards(probe_, local_time_, guard_values_);
     for (std::size_t w = 0; w < here.size(); ++w) guard_values_[w] -= here[w];
-    add(guard_values_, 1.0 / part);
+    add(guard_values_, 1.0 / part, std::abs(X_[k]) / (part * flow_.scales()[k]));
     probe_[k] = X_[k];
   }
 }
@@ -93,11 +100,11 @@ double SmoothEngine::guard(std::size_t watch, double part) const {
   return guard_values_[watch];
 }
 
-/// Its rate along the motion, by a central difference along the flow.
-double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, double t) const {
+/// Its rate along the motion, by a central difference along the flow over a small part of `length` [s].
+double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, double t, double length) const {
   flow_.evaluate(X, t, rates_);
   if (is<SlipEnd>(watches_[watch].ending)) return friction::sign(direction_) * rates_[1];
-  const double step = 1e-5 * (taken_ > 0.0 ? taken_ : longest_step());
+  const double step = part_of_rate * length;
   const auto value_after = [&](double s) {
     probe_.assign(X.begin(), X.end());
     for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += s * rates_[k];
@@ -112,8 +119,11 @@ double SmoothEngine::guard_rate(std::size_t watch, std::span<const double> X, do
 /// Runge-Kutta method leads, a longer one where the first leaves it within rounding. At a release velocity and
 /// acceleration may both be zero, so that a guard on the position begins with the third power of time, which a
 /// method of second order does not see. The first step is shorter than any decay of a law; one that is longer than
-/// a decay leads nowhere, which two steps of half the length show.
-bool SmoothEngine::goes_negative(std::size_t watch, double level) const {
+/// a decay leads nowhere, which two steps of half the length show. A guard that rises beyond the rounding of what
+/// cancels in it does not go negative at once, even if it stays within `level` of zero and falls later: a stiff
+/// bond that the mass relieves and stretches again may do so, and where it moves hardly at all only the slope shows
+/// it.
+bool SmoothEngine::goes_negative(std::size_t watch, double value, double level) const {
   const auto value_after = [&](double length, int steps) {
     const double s = length / steps;
     std::vector<double> X = X_;
@@ -137,11 +147,17 @@ bool SmoothEngine::goes_negative(std::size_t watch, double level) const {
     evaluate_guards(X, local_time_ + length, guard_values_);
     return guard_values_[watch];
   };
-  for (double part = shortest_probe; part < 0.1; part *= 100.0) {
-    const double length = part * longest_step();
+  const double rounding = risen * watches_[watch].parts;
+  const double longest = longest_step();
+  if (guard_rate(watch, X_, local_time_, longest) * part_of_rate * longest > rounding) return false;
+  for (double part = shortest_probe; part < 0.1; part *= 10.0) {
+    const double length = part * longest;
     const double later = value_after(length, 1);
-    if (std::abs(later) <= level) continue;
+    const bool rises = later - value > rounding;
+    if (std::abs(later) <= level && !rises) continue;
     const double again = value_after(length, 2);
+    if (rises && std::abs(later - again) <= 0.5 * (again - value)) return false;
+    if (std::abs(later) <= level) continue;
     return again < 0.0 && std::abs(later - again) <= 0.5 * std::abs(again);
   }
   return false;
@@ -170,7 +186,7 @@ bool SmoothEngine::find_violated(Hit& hit) const {
     if (is<SlipEnd>(watches_[w].ending)) continue;
     const double level = level_at_start(watches_[w]);
     if (values[w] > level) continue;
-    if (values[w] >= -level && (is<StickEnd>(watches_[w].ending) || !goes_negative(w, level))) continue;
+    if (values[w] >= -level && (is<StickEnd>(watches_[w].ending) || !goes_negative(w, values[w], level))) continue;
     hit = {w, 0.0};
     return true;
   }
@@ -321,7 +337,7 @@ bool SmoothEngine::land(const Hit& hit) {
     evaluate_guards(end_, local_time_ + h, guard_values_);
     const double value = guard_values_[hit.watch];
     if (std::abs(value) <= 0.1 * resolution * watches_[hit.watch].scale) break;
-    const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h);
+    const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h, h);
     if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) < 1e-16 * whole) break;
     h += correction;
   }

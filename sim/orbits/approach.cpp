@@ -115,12 +115,17 @@ bool Approach::is_time_to_tell() const {
 /// The motion has come back to rounding; after one forcing period whether the orbit attracts is not asked.
 std::optional<Orbit> Approach::closed(const State& state) {
   const int periods = recurrence_.shortest((has_past_ ? 1.0 : 10.0) * options_.tolerance);
-  if (periods == 0 || (periods > 1 && motions_ != Motions::may_part)) return std::nullopt;
+  if (periods == 0 || (periods > 1 && (motions_ != Motions::may_part || passed_ < next_closing_)))
+    return std::nullopt;
   // A motion that depends on its past has no state that could be displaced.
   const Monodromy monodromy = has_past_ ? Monodromy::without : Monodromy::with;
   Orbit orbit{solver_.patient_map_over(periods).from(state, monodromy), periods};
   // An own motion that nothing damps comes back too where the frequencies fit.
-  if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) return std::nullopt;
+  if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) {
+    // A motion that winds towards its orbit comes back so period after period: the next look is not at once.
+    next_closing_ = passed_ + 1 + passed_ / 8;
+    return std::nullopt;
+  }
   return orbit;
 }
 

@@ -66,8 +66,9 @@ class Approach {
   std::vector<Orbit> others_;
   long passed_ = 0;  ///< forcing periods since the start
   Patience patience_;
-  long begun_at_;        ///< work of the engine before
-  long next_trial_ = 0;  ///< when Newton's method is tried whatever the closure
+  long begun_at_;          ///< work of the engine before
+  long next_trial_ = 0;    ///< when Newton's method is tried whatever the closure
+  long next_closing_ = 0;  ///< when a motion that has come back over several periods is looked at again
   double divergence_ = 0.0;
   bool is_told_ = false;  ///< divergence_ was asked for
 };

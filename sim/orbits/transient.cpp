@@ -18,18 +18,43 @@ class Closing {
 
   /// Whether the transient has ended.
   bool add(double closure) {
-    constexpr std::size_t back = 8;  // an orbit that winds closes better and worse by turns
     closures_.push_back(closure);
-    const std::size_t count = closures_.size();
-    if (count <= back) return false;
-    const auto last = closures_.end() - static_cast<std::ptrdiff_t>(back);
-    const double largest = *std::max_element(last, closures_.end());
+    if (closures_.size() <= back) return false;
+    const double largest = largest_between(back, 0).value;
     if (largest <= rounding_) return true;
-    const double rate = std::pow(closure / closures_[count - 1 - back], 1.0 / static_cast<double>(back));
-    return rate < 1.0 && largest < settled_ && closure * rate / (1.0 - rate) < settled_;
+    const double rate = std::pow(closure / closures_[closures_.size() - 1 - back], 1.0 / static_cast<double>(back));
+    return rate < 1.0 && largest < settled_ && closure * rate / (1.0 - rate) < settled_ && has_settled(largest);
   }
 
  private:
+  static constexpr std::size_t back = 8;  // an orbit that winds closes better and worse by turns
+  struct Largest {
+    double value = 0.0;
+    std::size_t ago = 0;  ///< periods
+  };
+
+  /// Of the periods from `from` ago to `to` ago.
+  [[nodiscard]] Largest largest_between(std::size_t from, std::size_t to) const {
+    const auto place = [&](std::size_t ago) { return closures_.end() - static_cast<std::ptrdiff_t>(ago); };
+    const auto largest = std::max_element(place(from), place(to));
+    return {*largest, static_cast<std::size_t>(closures_.end() - largest) - 1};
+  }
+
+  /// One that winds slowly closes well for many periods where it turns: the same by the envelope of longer and
+  /// longer times, as far as the closure now may belong to it.
+  [[nodiscard]] bool has_settled(double now) const {
+    constexpr double deepest = 1e5;
+    for (std::size_t span = 2 * back; 2 * span <= closures_.size(); span *= 2) {
+      const Largest recent = largest_between(span, 0);
+      const double before = largest_between(2 * span, span).value;
+      if (before > deepest * now) break;
+      const double rate = std::pow(recent.value / before, 1.0 / static_cast<double>(span));
+      const double envelope = recent.value * std::pow(rate, static_cast<double>(recent.ago));
+      if (!(rate < 1.0) || !(envelope * rate / (1.0 - rate) < settled_)) return false;
+    }
+    return true;
+  }
+
   double rounding_;
   double settled_;
   std::vector<double> closures_;

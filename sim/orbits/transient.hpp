@@ -5,7 +5,9 @@
 ///
 /// The periods still to come add up to about d q/(1 - q), with the distance d by which the last period closes and
 /// the factor q by which this distance falls from period to period. The transient has settled when that is below
-/// `TransientOptions::settled` of the size of the motion. Cost: one pass of the engine per period.
+/// `TransientOptions::settled` of the size of the motion. A motion that winds about its orbit closes better and
+/// worse by turns: d and q are taken over 8, 16, 32 ... periods, and all must agree. Cost: one pass of the engine
+/// per period.
 
 #include <functional>
 #include <limits>

@@ -41,6 +41,24 @@ TEST_CASE("crosscheck: every case that is drawn is a valid file, and the same on
   }
 }
 
+TEST_CASE("crosscheck: attached masses are drawn by new seeds and change no case of an old one", "[crosscheck]") {
+  const auto attached = [](std::uint64_t seed) {
+    int count = 0;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+      const Json drawn = crosscheck::random_scenario(seed, i);
+      const Json& last = drawn.at("system").at("friction").back();
+      if (last.at("law") != "attached_mass") continue;
+      ++count;
+      CHECK_NOTHROW(scenarios::parse_scenario(crosscheck::yaml(drawn), "case"));
+    }
+    return count;
+  };
+  CHECK(attached(69) == 0);
+  const int count = attached(70);
+  CHECK(count > 15);
+  CHECK(count < 50);
+}
+
 TEST_CASE("crosscheck: other units and back give the same values", "[crosscheck]") {
   constexpr crosscheck::Scales there = {.force = 0.25, .length = 8.0, .time = 0.5};
   constexpr crosscheck::Scales back = {.force = 4.0, .length = 0.125, .time = 2.0};

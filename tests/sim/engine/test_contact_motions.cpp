@@ -15,6 +15,7 @@
 #include "friction_models/laws/iwan.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/standard_system.hpp"
 
@@ -270,6 +271,52 @@ TEST_CASE("A contact at its limit where the mass is released lets go once, howev
   const sim::History smooth = sim::simulate(model, {.duration = duration});
   REQUIRE(smooth.outcome.ok());
   CHECK(difference(exact.events, smooth.events, 1e-6) == "");
+}
+
+TEST_CASE("The slider of a damped contact beside a mass at rest creeps on while its limit falls", "[contacts]") {
+  // It starts from no speed, and ends at the speed at which its spring relaxes.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.friction = {
+      Law(Coulomb(2.0, 2.0)),
+      test::law("contact_compliance",
+                {{"kinetic", 1.0}, {"contact_stiffness", 1e4}, {"contact_damping", 1.0}, {"drift", -0.1}})};
+  model.initial = {.position = 0.022, .velocity = 0.0};
+  for (const SolverKind kind : {SolverKind::automatic, SolverKind::explicit_steps, SolverKind::implicit_steps}) {
+    model.solver = {kind, 1e-13};
+    const sim::History history = sim::simulate(model, {.duration = 9.9});
+    INFO(history.outcome.reason);
+    REQUIRE(history.outcome.ok());
+    REQUIRE(history.events.size() == 3);
+    const double rest = history.events[0].x;
+    CHECK(history.events[1].kind == EventKind::switching);
+    CHECK(history.events[1].t == Approx(10.0 * (1.0 - 1e4 * (0.022 - rest))).epsilon(1e-9));
+    // The slider's force is its limit again, less that of the damper at the speed 1e-5 m/s.
+    CHECK(history.events[2].kind == EventKind::release);
+    CHECK(history.events[2].t == Approx(10.0 * (3.0 - 100.0 * rest)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("A stiff bond at its limit that the mass relieves before it stretches again holds", "[contacts]") {
+  // The limit falls at t = 0.890793 s while the bond, which yields within 1e-10 m, is stretched backward and the
+  // mass moves forward. It turns back 3.6e-5 s later, before the guard has left what a step lands by.
+  sim::Model model;
+  model.oscillator = {.mass = 124.04029354253345, .stiffness = 156061.5231458529, .damping = 11530.58816591984};
+  const friction::ParameterValues fluctuation{
+      {"ratio", 0.3317359499913974}, {"correlation_time", 0.24075481556181189}, {"seed", 61.0}};
+  model.friction = {
+      test::law("reset_integrator", {{"kinetic", 1.169698657403106},
+                                     {"stiffness", 10758974877.351212},
+                                     {"fluctuation", std::vector<friction::ParameterValues>{fluctuation}}})};
+  model.initial = {.position = 0.3401401717867331, .velocity = 0.0};
+  const sim::History exact = sim::simulate(model, {.duration = 1.77});
+  for (const SolverKind kind : {SolverKind::explicit_steps, SolverKind::implicit_steps}) {
+    model.solver = {kind, 1e-13};
+    const sim::History smooth = sim::simulate(model, {.duration = 1.77});
+    INFO(smooth.outcome.reason);
+    REQUIRE(smooth.outcome.ok());
+    CHECK(smooth.final.x == Approx(exact.final.x).margin(1e-11));
+  }
 }
 
 TEST_CASE("A contact too stiff for double precision is refused, with a stiffness that would do", "[contacts]") {

@@ -173,6 +173,30 @@ TEST_CASE("limits: a sharper bouc_wen tends to contact_compliance as exponent^(-
   CHECK(order(bouc_wen, sharp, 40.0, 80.0) == Approx(-2.0).margin(0.1));
 }
 
+TEST_CASE("limits: a mass that a small power of speed nearly holds creeps, as its closed form says", "[limits]") {
+  // The speed is (pull/1 N)^20 m/s: 5e-7 of what the mass would have without friction, and far below rounding where
+  // the pull turns.
+  sim::Model model = test::standard_system(make("viscous_power", {{"coefficient", 1.0}, {"exponent", 0.05}}));
+  model.excitation.amplitude = 0.005;
+  const sim::SteadyState creep = sim::steady_state(model);
+  INFO(creep.outcome.reason);
+  REQUIRE(creep.outcome.ok());
+  const double stroke = std::pow(0.5, 20.0) * std::numbers::pi * 184756.0 / 1048576.0 / model.excitation.frequency;
+  CHECK(creep.peak == Approx(0.5 * stroke).epsilon(2e-4));
+  // Nearly Coulomb friction, of which the pull is 0.999 to 1.1 at most.
+  for (const double amplitude : {0.00999, 0.011}) {
+    for (const double exponent : {0.2, 0.1, 0.05, 0.02}) {
+      INFO(amplitude << " m, exponent " << exponent);
+      model.friction = {make("viscous_power", {{"coefficient", 1.0}, {"exponent", exponent}})};
+      model.excitation.amplitude = amplitude;
+      const sim::SteadyState state = sim::steady_state(model);
+      INFO(state.outcome.reason);
+      CHECK(state.outcome.ok());
+      CHECK(state.energy.defect == Approx(0.0).margin(1e-8 * state.energy.input));
+    }
+  }
+}
+
 TEST_CASE("limits: random and varying laws agree in both engines", "[limits]") {
   // The others that are affine: tests/sim/engine/test_smooth_engine.cpp.
   const auto noise = [](const std::string& correlation, double value) {

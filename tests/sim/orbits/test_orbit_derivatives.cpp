@@ -103,6 +103,30 @@ TEST_CASE("a release whose limit depends on position passes a perturbation on as
         1e-5 * period.monodromy.norm());
 }
 
+TEST_CASE("two contacts that let go at one instant pass a perturbation on each at its own") {
+  // Both at x = 1/128 m from where they stick, by the same bits.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
+  add_law(model, "contact_compliance", {{"kinetic", 0.5}, {"static", 1.0}, {"contact_stiffness", 128.0}});
+  add_law(model, "contact_compliance", {{"kinetic", 1.5}, {"static", 2.0}, {"contact_stiffness", 256.0}});
+  sim::PeriodMap map(model);
+  const ForcingPeriod period = map.from_start(0.0, 0.0, Monodromy::with);
+  REQUIRE(period.monodromy.cols() == 4);
+  for (Eigen::Index j = 0; j < period.monodromy.cols(); ++j) {
+    if (j == 1) continue;  // it starts from rest
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(period.monodromy.cols());
+    constexpr double step = 1e-8;
+    change[j] = step;
+    const ForcingPeriod above = map.from(sim::displaced(period.begin, change), Monodromy::without);
+    const ForcingPeriod below = map.from(sim::displaced(period.begin, -change), Monodromy::without);
+    const Eigen::VectorXd quotient = (sim::coordinates(above.end) - sim::coordinates(below.end)) / (2.0 * step);
+    INFO("column " << j << ": " << period.monodromy.col(j).transpose() << ", by differences "
+                   << quotient.transpose());
+    CHECK((quotient - period.monodromy.col(j)).norm() < 1e-5 * quotient.norm());
+  }
+}
+
 TEST_CASE("monodromy matrices of random systems are the difference quotients of their period maps") {
   test::Random random(20261122);
   int columns = 0;

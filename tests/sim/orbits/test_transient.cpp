@@ -65,6 +65,22 @@ TEST_CASE("transient: a subharmonic motion settles over its own period, not over
   CHECK(transient.trough == Approx(state.trough).epsilon(1e-9));
 }
 
+TEST_CASE("transient: a motion that winds slowly about its orbit has not settled where it turns", "[transient]") {
+  // Multipliers 0.9855 exp(+-0.0121 i): one turn takes 519 periods.
+  sim::Model winding;
+  winding.oscillator = {.mass = 18.51781894093475, .stiffness = 2466043.1789296954, .damping = 0.23379331987142407};
+  winding.excitation = {.type = sim::ExcitationType::base_harmonic,
+                        .amplitude = 0.00450114147373048,
+                        .frequency = 121084.48955011295,
+                        .phase = 2.7452865322734437};
+  winding.friction = {friction::Law(friction::Coulomb(80.74603083615801, 80.74603083615801))};
+  const Transient transient = follow_transient(winding);
+  REQUIRE(transient.settled);
+  const double amplitude = sim::steady_state(winding).amplitude;
+  CHECK(transient.peak == Approx(amplitude).epsilon(4e-9));
+  CHECK(transient.trough == Approx(-amplitude).epsilon(4e-9));
+}
+
 TEST_CASE("transient: a motion that grows does not settle", "[transient]") {
   // Undamped at resonance with F0 below pi/4 k Y.
   const Transient transient = follow_transient(model(0.0, 0.1), {.max_periods = 100});
