@@ -27,12 +27,12 @@ scenarios::Scenario load(const std::string& file, const std::vector<std::string>
                          const std::string& origin) {
   scenarios::LoadOptions options{.analyses = bench::analyses()};
   for (const std::string& assignment : set) options.set.push_back({assignment});
-  options.set.push_back({"analysis.seed=" + seed, origin});
   scenarios::Scenario scenario = scenarios::load_scenario(file, options);
   if (bench::stress_test_of(*scenario.question) == nullptr)
     refuse(file, "this scenario asks for no stress test", "analysis: {type: stress_test, ...}",
            scenario.analysis_name);
-  return scenario;
+  options.set.push_back({"analysis.seed=" + seed, origin});
+  return scenarios::load_scenario(file, options);
 }
 
 /// A seed that nobody can guess, and that a double holds.

@@ -34,7 +34,7 @@ NumberText without_digit(std::string_view text, std::size_t sign) {
   for (const std::string_view name : {"nan", "NaN", ".nan", ".NaN", "NAN", ".NAN", "inf", "Inf", ".inf", ".Inf",
                                       "INF", ".INF", "infinity", "Infinity"})
     if (rest.substr(0, word_length(rest)) == name) return refused("is not finite", word_length(text));
-  return refused("is missing", 0);
+  return refused(rest.empty() ? "is missing" : "does not begin with a digit", 0);
 }
 
 NumberText converted(std::string_view digits) {

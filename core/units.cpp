@@ -374,17 +374,17 @@ struct UnitAnswer {
   std::string fault;
 };
 
-UnitAnswer special_dimension(std::string_view unit, std::string_view si_unit) {
-  const std::optional<Factor> factor = si_unit == "rad" ? angle_factor(unit) : frequency_factor(unit);
-  if (factor) return {factor, {}};
+UnitAnswer frequency_unit(std::string_view unit) {
+  if (const std::optional<Factor> factor = frequency_factor(unit)) return {factor, {}};
   if (unit.empty()) return {std::nullopt, "a frequency needs its unit, because Hz and rad/s differ by 2 pi"};
-  return {std::nullopt, quoted(unit) + " is not a unit of " + (si_unit == "rad" ? "an angle" : "a frequency")};
+  return {std::nullopt, quoted(unit) + " is not a unit of a frequency"};
 }
 
 UnitAnswer factor_of(std::string_view text, std::string_view dimension_name, Coordinate coordinate) {
   const std::string unit = to_ascii(trimmed(text));
   const std::string si_unit = unit_for(coordinate, dimension_name);
-  if (si_unit == "rad" || dimension_name == "rad/s") return special_dimension(unit, si_unit);
+  if (dimension_name == "rad/s") return frequency_unit(unit);
+  if (const auto angle = si_unit == "rad" ? angle_factor(unit) : std::nullopt) return {angle, {}};
   if (unit.empty() || unit == si_unit) return {Factor{}, {}};
   constexpr std::size_t max_length = 64;
   if (unit.size() > max_length || !UnitGrammar(unit).accepts())

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <string_view>
 
 #include "core/numbers.hpp"
 #include "scenarios/results/cells.hpp"
@@ -25,6 +27,18 @@ Json whole_result(const RunResult& run) {
       rows.push_back(std::move(item));
     }
     result[table.key] = std::move(rows);
+  }
+  return result;
+}
+
+/// Each number in a text as a #: what points say of numbers of their own is one warning.
+std::string without_numbers(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = is_digit(text[at]) ? at + core::read_number(text.substr(at)).length : at;
+    result += end > at ? '#' : text[at];
+    at = std::max(end, at + 1);
   }
   return result;
 }
@@ -137,18 +151,27 @@ class SweepAnswer {
 
   /// Each warning once.
   void add_warnings(Answer& answer) const {
-    std::vector<std::string> texts;
-    std::map<std::string, std::vector<std::size_t>> found;
+    struct Group {
+      std::string text;  ///< of the first point
+      std::size_t first = 0;
+      std::size_t points = 0;
+      bool one_text = true;
+    };
+    std::vector<Group> groups;
+    std::map<std::string, std::size_t> found;
     for (std::size_t i = 0; i < points_.size(); ++i)
       for (const Json& warning : points_.at(i).value("warnings", Json::array())) {
         const auto text = warning.get<std::string>();
-        if (!found.contains(text)) texts.push_back(text);
-        found[text].push_back(i);
+        const auto place = found.emplace(without_numbers(text), groups.size());
+        if (place.second) groups.push_back({.text = text, .first = i});
+        Group& group = groups[place.first->second];
+        ++group.points;
+        group.one_text = group.one_text && text == group.text;
       }
-    for (const std::string& text : texts) {
-      const std::vector<std::size_t>& where = found.at(text);
-      const std::string count = where.size() > 1 ? std::to_string(where.size()) + " points; first " : "";
-      answer.warnings.push_back(text + " (" + count + describe_point(keys_, where.front()) + ")");
+    for (const Group& group : groups) {
+      const std::string others = group.one_text ? " points; first " : " points, with numbers of their own; first ";
+      const std::string count = group.points > 1 ? std::to_string(group.points) + others : "";
+      answer.warnings.push_back(group.text + " (" + count + describe_point(keys_, group.first) + ")");
     }
   }
 

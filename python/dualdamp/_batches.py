@@ -148,10 +148,14 @@ def steady_state(
         raise TypeError("steady_state takes one of Y and force")
     if (damping is None) == (zeta is None):
         raise TypeError("steady_state takes one of damping and zeta")
+    given = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
+    for name, value in given.items():
+        if value is not None and value.__class__ not in (float, int) and np.asarray(value).dtype.kind not in "fiu":
+            raise TypeError(f"without a system, {name} is a number or an array of numbers, in SI, not {value!r}")
     if damping is None:
-        damping = 2.0 * zeta * (mass * stiffness) ** 0.5 if _is_scalar(zeta, mass, stiffness) else 2.0 * np.asarray(zeta) * np.sqrt(np.multiply(mass, stiffness))
+        damping = _damping(zeta, mass, stiffness)
     if omega is None:
-        omega = (stiffness / mass) ** 0.5 if _is_scalar(mass, stiffness) else np.sqrt(np.divide(stiffness, mass))
+        omega = _natural_frequency(mass, stiffness)
     if damper_to not in ("ground", "base"):
         raise ValueError(f"damper_to is 'ground' or 'base', not {damper_to!r}")
     values = (mass, damping, stiffness, F0, F0 if static is None else static, drive, omega)
@@ -159,6 +163,22 @@ def steady_state(
     if states._outcome.__class__ is int and states._outcome != 0:
         raise NumericalFailure(f"there is no steady state: {states.outcome}")
     return states
+
+
+# Of a mass or a stiffness out of range any value will do: the core refuses the mass or the stiffness itself.
+
+
+def _damping(zeta, mass, stiffness):
+    if _is_scalar(zeta, mass, stiffness):
+        return 2.0 * zeta * abs(mass * stiffness) ** 0.5
+    return 2.0 * np.asarray(zeta) * np.sqrt(np.abs(np.multiply(mass, stiffness)))
+
+
+def _natural_frequency(mass, stiffness):
+    if _is_scalar(mass, stiffness):
+        return abs(stiffness / mass) ** 0.5 if mass != 0 else 1.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.sqrt(np.abs(np.divide(stiffness, mass)))
 
 
 def _is_scalar(*values):

@@ -27,7 +27,7 @@ class Input {
       return;
     }
     array_ = Numbers::ensure(value);
-    if (!array_) throw py::error_already_set();
+    if (!array_) throw py::type_error("a number or an array of numbers is needed");
     if (array_.ndim() == 0) number_ = *array_.data();
   }
 

@@ -1,5 +1,7 @@
 #include "scenarios/analyses/steady_state.hpp"
 
+#include <algorithm>
+
 #include "scenarios/results/motion.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
@@ -32,10 +34,17 @@ ResultFields fields() {
 
 std::unique_ptr<const Question> ask(CheckedValues&& /*values*/) { return std::make_unique<SteadyStateQuestion>(); }
 
+/// Of a period, for plots: as many in each of its forcing periods, so that orbits that begin with different ones
+/// can be compared.
+int orbit_samples(int periods) {
+  constexpr int least = 720;
+  constexpr int least_of_each = 24;
+  return periods * std::max(least_of_each, (least + periods - 1) / periods);
+}
+
 }  // namespace
 
 Answer SteadyStateQuestion::run(const RunContext& context) const {
-  constexpr int samples = 720;  // of one period, for plots
   const sim::Model& model = context.model;
   const sim::SteadyState state = sim::steady_state(model, context.steady_states());
   if (!state.outcome.ok()) return failed(state.outcome.reason);
@@ -70,7 +79,8 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
                                          column("duration", "s", state.sticks, &sim::Stick::duration),
                                          column("position", "m", state.sticks, &sim::Stick::position)},
                              .is_complete = true});
-  answer.tables.push_back(history_table("orbit", sim::one_period(model, state, samples), model.excitation));
+  answer.tables.push_back(
+      history_table("orbit", sim::one_period(model, state, orbit_samples(state.period_ratio)), model.excitation));
   return answer;
 }
 

@@ -54,6 +54,7 @@ std::vector<Field> signal_file(const std::string& column, const std::string& si)
       text("column", "what the file calls the signal, or its number; default: " + column),
       text("unit", "unit of the column where the file states none, such as that of " + si),
       text("time_column", "what the file calls the times, or their number; default: t"),
+      text("time_unit", "unit of the times where the file states none, such as ms; default: s"),
       text("scale", "what the numbers are multiplied by, such as the sensitivity of a sensor: 2.5 " + si + "/V"),
       words("decimal", {".", ","}, "decimal mark of a CSV file"),
       boolean("no_header", "the CSV file begins with numbers; the columns are named by theirs")};

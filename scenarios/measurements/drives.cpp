@@ -1,9 +1,11 @@
 #include "scenarios/measurements/drives.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,20 +34,25 @@ sim::Interpolation interpolation_of(const Json& section) {
 }
 
 /// What the readers of data files advise is for the command line.
-core::Diagnostic in_words_of_scenario(core::Diagnostic problem, std::string_view column) {
-  const std::string advice = "or as --unit " + std::string(column) + "=UNIT";
-  if (const std::size_t at = problem.allowed.find(advice); at != std::string::npos)
-    problem.allowed.replace(at, advice.size(), "or as 'unit' beside 'column'");
-  return problem;
+std::string in_words_of_scenario(std::string text, std::string_view column) {
+  const std::array<std::pair<std::string, std::string_view>, 4> words = {
+      {{"as --unit " + std::string(column) + "=UNIT", "as 'unit' beside 'column'"},
+       {"as --unit t=UNIT", "as 'time_unit'"},
+       {"--decimal ,", "decimal: ','"},
+       {"--no-header", "no_header: true"}}};
+  for (const auto& [option, key] : words)
+    if (const std::size_t at = text.find(option); at != std::string::npos) text.replace(at, option.size(), key);
+  return text;
 }
 
 /// A unit that is none is complained about where it stands.
-bool is_unit(CheckedFile& file, const std::string& path, const Json& section, std::string_view si) {
-  if (!section.contains("unit")) return true;
-  const auto unit = section.at("unit").get<std::string>();
+bool is_unit(CheckedFile& file, const std::string& path, const Json& section, const std::string& key,
+             std::string_view si) {
+  if (!section.contains(key)) return true;
+  const auto unit = section.at(key).get<std::string>();
   const core::QuantityText factor = core::unit_factor(unit, si, file.coordinate());
   if (factor.value) return true;
-  file.complain(path + ".unit", "'" + path + ".unit': " + factor.fault,
+  file.complain(path + "." + key, "'" + path + "." + key + "': " + factor.fault,
                 core::describe_dimension(si, file.coordinate()), unit, factor.suggestion);
   return false;
 }
@@ -147,7 +154,8 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
                                                     std::string_view column) {
   const std::string name(column);
   const std::string_view si = column == "force" ? "N" : "m";
-  if (!section.contains("file") || !is_unit(file, path, section, si)) return std::nullopt;
+  const bool are_units = is_unit(file, path, section, "unit", si) && is_unit(file, path, section, "time_unit", "s");
+  if (!section.contains("file") || !are_units) return std::nullopt;
   identify::ReadOptions options;
   options.name = section.at("file").get<std::string>();
   options.coordinate = file.coordinate();
@@ -157,6 +165,7 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
   take("column", options.columns, name);
   take("time_column", options.columns, "t");
   take("unit", options.units, name);
+  take("time_unit", options.units, "t");
   take("scale", options.scales, name);
   if (section.contains("decimal")) options.decimal = section.at("decimal").get<std::string>().front();
   options.no_header = section.value("no_header", false);
@@ -167,13 +176,16 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
     identify::MeasuredSignal signal = text == file.data_place().texts.end()
                                           ? identify::read_signal(*target, column, options)
                                           : identify::parse_signal(text->second, column, options);
-    std::ranges::copy(signal.warnings, std::back_inserter(file.warnings));
+    for (const std::string& warning : signal.warnings)
+      file.warnings.push_back(in_words_of_scenario(warning, column));
     if (std::ranges::find(file.sha256, signal.sha256) == file.sha256.end()) file.sha256.push_back(signal.sha256);
     return signal;
   } catch (const core::InputError& error) {
     std::vector<core::Diagnostic> problems;
-    for (const core::Diagnostic& problem : error.diagnostics())
-      problems.push_back(in_words_of_scenario(problem, column));
+    for (core::Diagnostic problem : error.diagnostics()) {
+      problem.allowed = in_words_of_scenario(std::move(problem.allowed), column);
+      problems.push_back(std::move(problem));
+    }
     file.take_over(problems);
     return std::nullopt;
   }

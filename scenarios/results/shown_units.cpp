@@ -28,6 +28,7 @@ constexpr std::array all_kinds = {"m", "rad", "rad/s", "m/s", "s",     "N",     
 
 std::string ask_for_units(std::string_view list, std::map<std::string, std::string>& written) {
   std::size_t number = 0;
+  ShownUnits taken;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
     std::string unit(list.substr(begin, end - begin));
@@ -36,6 +37,10 @@ std::string ask_for_units(std::string_view list, std::map<std::string, std::stri
     if (!unit.empty()) add(unit, all_kinds, true, known);
     if (known.empty())
       return "'" + unit + "' is no unit of a result; such as mm, um, Hz, rpm, ms, mm/s, deg, kN, N/mm";
+    for (const auto& [kind, shown] : known)
+      if (const auto before = taken.find(kind); before != taken.end())
+        return "'" + before->second.unit + "' and '" + unit + "' are two units of one quantity: state one of them";
+    taken.merge(known);
     written[std::string(asked) + std::to_string(number++) + "]"] = unit;
     begin = end + 1;
   }

@@ -157,6 +157,14 @@ double SmoothEngine::excess_error() const {
   return std::isfinite(largest) ? largest : infinity;
 }
 
+/// A softening spring pushes outward beyond sqrt(-k/k3), and the mass is infinitely far away within a finite time.
+bool SmoothEngine::has_run_away() const {
+  const Oscillator& rig = model_.oscillator;
+  constexpr double far = 10.0;
+  return rig.cubic_stiffness < 0.0 &&
+         std::abs(Engine::state().x) > far * std::sqrt(-rig.stiffness / rig.cubic_stiffness);
+}
+
 /// Of the oscillator and its drive [s].
 double SmoothEngine::shortest_period() const {
   double fastest = natural_frequency(model_.oscillator);
@@ -270,8 +278,12 @@ bool SmoothEngine::advance(double left) {
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
     if (h_ < 1e-40 * longest) break;
   }
-  outcome_ = {core::OutcomeKind::not_finite, "the equation of motion could not be integrated at t = " +
-                                                 std::to_string(time()) + " s: steps became too small"};
+  outcome_ = {
+      core::OutcomeKind::not_finite,
+      "the equation of motion could not be integrated at t = " + std::to_string(time()) +
+          " s: steps became too small" +
+          (has_run_away() ? ". The mass is far beyond the place from which a softening spring pushes outward"
+                          : "")};
   return false;
 }
 

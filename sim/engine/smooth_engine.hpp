@@ -84,6 +84,7 @@ class SmoothEngine final : public Engine {
   void lay_interval();
   void set_scales();
   void allow();
+  [[nodiscard]] bool has_run_away() const;
   [[nodiscard]] double first_step();
   [[nodiscard]] double shortest_period() const;
   [[nodiscard]] double longest_step() const;

@@ -174,7 +174,7 @@ bool Continuation::was_passed(const Node& node) const {
   constexpr double on_it = 0.05;  // of the distance of the two points
   const auto place = [&](double parameter, const State& state) {
     const VectorXd size = scale(node);
-    return Eigen::Vector3d(state.x / size[0], state.v / size[1], parameter / range_);
+    return Eigen::Vector3d(state.x / size[0], state.v / size[1], parameter / parameter_scale(node.parameter));
   };
   const Eigen::Vector3d here = place(node.parameter, node.period.begin);
   for (std::size_t i = 1; i + 1 < branch_.points.size(); ++i) {

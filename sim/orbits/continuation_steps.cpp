@@ -51,13 +51,16 @@ ForcingPeriod Continuation::period(double parameter, const State& start) const {
   return map.from(start, Monodromy::with);
 }
 
+/// The range may span decades: what happens at its lower end happens within a part of the parameter's value there.
+double Continuation::parameter_scale(double parameter) const { return std::min(range_, std::abs(parameter)); }
+
 /// Sizes of the coordinates and of the parameter.
 VectorXd Continuation::scale(const Node& node) const {
   const VectorXd z = coordinates(node.period.begin);
   const double size = std::max(node.period.size, std::abs(z[1]) / omega(node.parameter));
   VectorXd result = VectorXd::Constant(z.size() + 1, size);
   result[1] = size * omega(node.parameter);
-  result[z.size()] = range_;
+  result[z.size()] = parameter_scale(node.parameter);
   return result;
 }
 
@@ -159,9 +162,22 @@ bool Continuation::is_ahead(const Node& from, const Node& node, double step) con
   const VectorXd before = coordinates(from.period.begin);
   const VectorXd after = coordinates(node.period.begin);
   const Eigen::Vector3d change((after[0] - before[0]) / size[0], (after[1] - before[1]) / size[1],
-                               (node.parameter - from.parameter) / range_);
+                               (node.parameter - from.parameter) / parameter_scale(from.parameter));
   const Eigen::Vector3d along = common_part(from.tangent);
   return change.norm() <= farthest * step && change.dot(along) >= least * step * along.norm();
+}
+
+/// Between both points the branch turns by more than its tangents may tell: a tangent has no direction of its own,
+/// so that a step over a bend would turn it round.
+bool Continuation::turns_too_far(const Node& from, const Node& node, const VectorXd& tangent) const {
+  constexpr double least = 0.5;  // cosine of the angle
+  const VectorXd size = scale(from);
+  const Index n = size.size() - 1;
+  VectorXd chord(n + 1);
+  chord.head(n) = coordinates(node.period.begin) - coordinates(from.period.begin);
+  chord[n] = node.parameter - from.parameter;
+  chord = chord.cwiseQuotient(size).normalized();
+  return tangent.dot(from.tangent) < least || tangent.dot(chord) < least || from.tangent.dot(chord) < least;
 }
 
 /// The next point, with its tangent; shortens `step` as needed. None: the branch ends.
@@ -177,7 +193,7 @@ std::optional<Node> Continuation::advance(const Node& from, double& step) const 
     const VectorXd along = alike ? from.tangent : VectorXd(sense * VectorXd::Unit(n + 1, n));
     const std::optional<VectorXd> next = tangent(*node, along);
     if (!next) continue;
-    if (alike && next->dot(from.tangent) < 0.5 && step > 16.0 * options_.smallest_step) continue;
+    if (alike && step > 16.0 * options_.smallest_step && turns_too_far(from, *node, *next)) continue;
     node->tangent = *next;
     return node;
   }

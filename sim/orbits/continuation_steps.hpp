@@ -48,12 +48,14 @@ class Continuation {
   [[nodiscard]] Model at(double parameter) const;
   [[nodiscard]] ForcingPeriod period(double parameter, const State& start) const;
   [[nodiscard]] double omega(double parameter) const;
+  [[nodiscard]] double parameter_scale(double parameter) const;
   [[nodiscard]] Eigen::VectorXd scale(const Node& node) const;
   [[nodiscard]] std::optional<Eigen::VectorXd> by_parameter(const Node& node) const;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node, const Eigen::VectorXd& along) const;
   [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess) const;
   [[nodiscard]] std::optional<Node> correct(const Node& from, double step) const;
   [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step) const;
+  [[nodiscard]] bool turns_too_far(const Node& from, const Node& node, const Eigen::VectorXd& tangent) const;
   [[nodiscard]] bool is_ahead(const Node& from, const Node& node, double step) const;
   [[nodiscard]] bool was_passed(const Node& node) const;
   [[nodiscard]] std::optional<Node> advance(const Node& from, double& step) const;

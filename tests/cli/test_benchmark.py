@@ -123,6 +123,12 @@ class Benchmark(unittest.TestCase):
             rows.append(row)
         return rows
 
+    def test_a_scenario_without_stress_test_has_no_records(self):
+        curve = ROOT / "scenarios/examples/xy_curve.yaml"
+        told = self.call("stress", "export", curve, "--out", self.folder / "none", status=3).stderr
+        self.assertIn("this scenario asks for no stress test", told)
+        self.assertNotIn("seed", told)
+
     def test_a_built_in_method_that_enters_as_a_program_scores_as_itself(self):
         answers = self.write("answers.csv", self.reentered(), ["usable", "case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value"])
         out, _ = self.score(f"outside={answers}")

@@ -118,6 +118,9 @@ class Charts(Case):
         for wrong in ("foo", "mm,,Hz", "%"):
             self.assertIn("is no unit of a result", self.run_program("run", "curve.yaml", "--units", wrong, status=2).stderr)
 
+        for two in ("mm,um", "Hz,rad/s", "deg, N, mrad"):
+            self.assertIn("are two units of one quantity", self.run_program("run", "curve.yaml", "--units", two, status=2).stderr)
+
     def test_compare_names_units_of_bare_numbers(self):
         self.compare("system.friction.kinetic=1", "system.friction.kinetic=3")
         texts, _ = self.drawing("both/compare.svg")

@@ -164,6 +164,15 @@ class Sweep(Case):
         self.assertIn("'system.friction.kinetic' is out of range (so at 2 points)", result.stderr)
         self.assertFalse((self.folder / "results").exists())
 
+    def test_a_warning_with_numbers_of_each_point_is_told_once(self):
+        lugre = "{law: lugre, kinetic: 2 N, static: 3 N, stribeck_velocity: 0.05 m/s, sigma0: 10000 N/m, sigma1: 20 N.s/m}"
+        self.write("warned.yaml", SLOW.replace("{law: dahl, kinetic: 2 N, sigma0: 2000 N/m}", lugre).replace("count: 60", "count: 4"))
+        told = [line for line in self.run_program("run", "warned.yaml", "--out", "out").stderr.splitlines() if "warning" in line]
+        self.assertEqual(len(told), 1, told)
+        self.assertIn("= 100 N.s/m (3 points, with numbers of their own; first system.friction.kinetic = 0.5 N)", told[0])
+        points = json.loads((self.folder / "out/result.json").read_text())["result"]["sweep"]
+        self.assertEqual(len({point["warnings"][0] for point in points[:3]}), 3)
+
     def test_verify(self):
         self.write("two.yaml", TWO_KEYS)
         self.run_program("run", "two.yaml", "--out", "out", "--verify")

@@ -72,6 +72,10 @@ TEST_CASE("units: angles", "[core][units]") {
   CHECK(si("90\u00b0", "rad") == pi / 2.0);
   CHECK(si("180 deg", "rad") == pi);
   CHECK(si("1", "rad") == 1.0);
+  CHECK(si("0.25 turn", "rad") == Approx(pi / 2.0).epsilon(1e-15));
+  CHECK(si("30 arcmin", "rad") == Approx(pi / 360.0).epsilon(1e-15));
+  CHECK(fault("1 m", "rad").find("not a unit of an angle") != std::string::npos);
+  CHECK(fault("1 rev", "rad").find("not known") != std::string::npos);
   CHECK(fault("5 %", "rad").find("not a unit of an angle") != std::string::npos);
 }
 

@@ -78,6 +78,13 @@ def test_wrong_values():
         dd.steady_state(mass=[1, -1], stiffness=100, damping=0, F0=2, Y=0.1)
     with pytest.raises(dd.InvalidScenario, match="system.friction.static"):
         dd.steady_state(**RIG, F0=2, static=1, Y=0.1)
+    for name in ("mass", "stiffness"):
+        for value in (-1, 0, [1, -1], [0.0, 1.0]):
+            with pytest.raises(dd.InvalidScenario, match=f"system.{name}"):
+                dd.steady_state(**{"mass": 1, "stiffness": 100, name: value}, zeta=0.2, F0=2, Y=0.1)
+    for value in ("1 mm", ["1 mm", "2 mm"], 1j, True):
+        with pytest.raises(TypeError, match="Y is a number or an array of numbers, in SI"):
+            dd.steady_state(**RIG, F0=2, Y=value)
     for wrong, words in [
         ({"Y": 0.1}, "steady_state needs F0"),
         ({"F0": 1}, "steady_state needs Y or force"),

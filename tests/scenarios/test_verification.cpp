@@ -2,6 +2,7 @@
 
 #include "scenarios/verification.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -145,6 +146,20 @@ TEST_CASE("verification: a subharmonic motion may begin with another period", "[
   CHECK(scenarios::compare_answers(one, orbit({3.0, 4.0, 1.0, 2.0, 3.0}, 1.2), {}).agrees);
   CHECK_FALSE(scenarios::compare_answers(one, orbit({3.0, 4.0, 1.0, 2.0, 3.0}, 0.2), {}).agrees);
   CHECK_FALSE(scenarios::compare_answers(one, orbit({2.0, 3.0, 4.0, 1.0, 2.0}, 0.2), {}).agrees);
+}
+
+TEST_CASE("verification: an orbit of any period has as many samples in each of its forcing periods",
+          "[scenarios][verification]") {
+  // So that it can be laid over one that begins with another period: seven, of which 720 is no multiple.
+  const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0.1, friction: {law: coulomb, kinetic: 0.093, "
+      "static: 0.347}}\nexcitation: {type: base_harmonic, amplitude: 1, frequency: 0.4557 rad/s}\n"
+      "analysis: {type: steady_state}\n",
+      "test.yaml"));
+  REQUIRE(Json::parse(result.result).at("period_ratio") == 7);
+  const auto orbit = std::ranges::find(result.tables, "orbit", &scenarios::Table::name);
+  REQUIRE(orbit != result.tables.end());
+  CHECK((orbit->size() - 1) % 7 == 0);
 }
 
 TEST_CASE("verification: of a mass that never moves rounding is no number", "[scenarios][verification]") {

@@ -124,6 +124,24 @@ TEST_CASE("drives: what is wrong with a file is told where it stands", "[scenari
   CHECK(problem("t [s],y [m]\n0,1\n1,nan\n").place.line == 3);
 }
 
+TEST_CASE("drives: times without a unit are seconds unless the scenario says otherwise", "[scenarios][drives]") {
+  const Directory directory("t,y [mm]\n0,0\n500,2\n1000,-3\n");
+  const auto drive = [&](const std::string& more) {
+    return directory.scenario("{type: measured_base, file: data.csv" + more + "}",
+                              "{type: simulate, duration: 1 s}");
+  };
+  CHECK(drive(", time_unit: ms").model.excitation.samples->times().back() == Approx(1.0).epsilon(1e-15));
+  CHECK(drive(", time_unit: ms").warnings.empty());
+  const Scenario plain = drive("");
+  CHECK(plain.model.excitation.samples->times().back() == 1000.0);
+  REQUIRE(plain.warnings.size() == 1);
+  CHECK(plain.warnings.front() == "no unit is stated for t: read t in s; state another one as 'time_unit'");
+  CHECK(directory.problem("{type: measured_base, file: data.csv, time_unit: mm}")
+            .message.find("not a unit of a time") != std::string::npos);
+  const auto comma = Directory("t [s];y [mm]\n0,0;1,5\n1,0;2,5\n").problem("{type: measured_base, file: data.csv}");
+  CHECK(comma.allowed.find("for decimal commas decimal: ','") != std::string::npos);
+}
+
 TEST_CASE("drives: what a valid drive has to tell", "[scenarios][drives]") {
   const Directory directory("t [s],y [mm]\n0,0\n1,2\n2,-3\n");
   const auto warnings = [&](const std::string& more, const std::string& system = {}) {

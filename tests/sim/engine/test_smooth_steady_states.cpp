@@ -166,3 +166,12 @@ TEST_CASE("smooth engine: a rock that sticks and slips is followed, and a tighte
   REQUIRE(tight.outcome.ok());
   CHECK(motion.final.x == Approx(tight.final.x).epsilon(1e-7));
 }
+
+TEST_CASE("smooth engine: a softening spring that pushes the mass away is named", "[sim][smooth]") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1, .cubic_stiffness = -1.0};
+  model.initial = {.position = 1.5};
+  const sim::History motion = sim::simulate(model, {.duration = 20.0});
+  CHECK_FALSE(motion.outcome.ok());
+  CHECK(motion.outcome.reason.find("from which a softening spring pushes outward") != std::string::npos);
+}

@@ -120,6 +120,26 @@ TEST_CASE("the number of stops grows as the frequency falls, and every change is
   CHECK(stops == branch.points.back().state.stops_per_cycle);
 }
 
+TEST_CASE("over decades of frequency a branch passes every resonance, and turns nowhere where one orbit lives") {
+  // Below the resonance the amplitude rises and falls by a hundredth many times, each time within a tenth of the
+  // frequency. A step over such a bend had turned the branch round.
+  const sim::Branch branch =
+      continue_branch(coulomb_driven(0.4, 0.2, 1.0, 0.1), BranchParameter::frequency, 0.1, 30.0);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::range);
+  CHECK(count(branch, ChangeKind::fold) == 0);
+  CHECK(count(branch, ChangeKind::sticking) == 1);
+  double farthest = 1.0;
+  bool ascends = true;
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    const double growth = branch.points[i].parameter / branch.points[i - 1].parameter;
+    farthest = std::max(farthest, growth);
+    ascends = ascends && growth > 1.0;
+  }
+  CHECK(ascends);
+  CHECK(farthest < 1.05);
+}
+
 TEST_CASE("the response of a bilinear spring folds; the branch between is unstable") {
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.06};
