@@ -75,7 +75,8 @@ scenarios::Scenario scenario_of(const NextCommand& command) {
   options.data_anywhere = !from_scenario;
   if (from_scenario) options.set.push_back({"analysis.type=design", "next"});
   if (!from_scenario) options.set.push_back({"analysis.data=" + quoted(command.data), "DATA"});
-  if (!from_scenario) options.set.push_back({"excitation.type=base_harmonic", "next"});
+  if (!from_scenario && !command.frequency.empty())
+    options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
   for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},
                                             {"system.stiffness", &command.stiffness, "--stiffness"},
                                             {"excitation.frequency", &command.frequency, "--frequency"},

@@ -206,7 +206,7 @@ class Histories {
   }
 
   void add_relaxation(Assumption assumption, std::string test, const Way& way) {
-    relaxations_.push_back({assumption, std::move(test)});
+    relaxations_.push_back({assumption, std::move(test), way.term != nullptr && way.term->as_zero});
     ways_.push_back(way);
   }
 

@@ -90,22 +90,4 @@ double noise_of(const std::vector<double>& signal) {
   return std::max(level.deviation(), converter_step(signal) / std::sqrt(12.0));
 }
 
-double converter_step(std::vector<double> signal) {
-  if (signal.empty()) return 0.0;
-  std::ranges::sort(signal);
-  constexpr double last_bits = 1e-9;
-  const double least = last_bits * (signal.back() - signal.front());
-  double step = signal.back() - signal.front();
-  int levels = 1;
-  for (std::size_t i = 1; i < signal.size(); ++i) {
-    const double rise = signal[i] - signal[i - 1];
-    if (!(rise > least)) continue;
-    step = std::min(step, rise);
-    ++levels;
-  }
-  // A drive that switches between a few levels is no converter's.
-  constexpr int fewest = 32;
-  return levels < fewest ? 0.0 : step;
-}
-
 }  // namespace dualdamp::identify

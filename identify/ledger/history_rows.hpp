@@ -33,9 +33,6 @@ void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows);
 /// The number of the swings after that, and the place of the rest, jump with the parameters.
 [[nodiscard]] Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, double x_f);
 
-/// The smallest difference between values of a signal that are not alike: the step of a coarse converter.
-[[nodiscard]] double converter_step(std::vector<double> signal);
-
 /// Standard deviation of the noise of a signal, its rounding to the steps of a converter included.
 [[nodiscard]] double noise_of(const std::vector<double>& signal);
 

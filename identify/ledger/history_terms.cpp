@@ -46,7 +46,7 @@ constexpr std::array<HistoryTerm, 12> terms = {{
     {friction_velocity, "force at low speed", low_speed},
     {friction_displacement, "friction that builds up after a reversal", presliding},
     {friction_displacement, "slope over position", position_slope},
-    {symmetry, "friction force of its own in each direction", one_sided_friction},
+    {symmetry, "friction force of its own in each direction", one_sided_friction, true},
     {symmetry, "damping of its own in each direction", one_sided_damping},
 }};
 

@@ -20,6 +20,7 @@ struct HistoryTerm {
   Assumption assumption;
   std::string_view test;
   double (*force)(const SampledOscillator::Instant& at, const MotionScale& scale);
+  bool as_zero = false;  ///< a constant: to a linear spring what a zero of x is
 };
 
 /// The terms, by assumption.

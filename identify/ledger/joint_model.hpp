@@ -20,6 +20,8 @@ namespace dualdamp::identify {
 struct Relaxation {
   Assumption assumption = Assumption::constants;
   std::string test;  ///< "natural frequency free", ...: what is set free
+  bool as_zero =
+      false;  ///< of friction, but to the motion what a zero of x is: F0 stays the mean of both directions
 };
 
 /// What was read.

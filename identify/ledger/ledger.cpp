@@ -101,9 +101,14 @@ class Writer {
            std::abs(scale_.F0(test.F0_change)) >= options_.least_change || is_uneven(test);
   }
 
+ public:
+  [[nodiscard]] bool matters(const Departure& departure) const {
+    return std::ranges::any_of(departure.explanations, [&](const RelaxationTest& t) { return matters(t); });
+  }
+
+ private:
   void charge(const Departure& departure, Ledger& ledger) const {
-    const bool harms =
-        std::ranges::any_of(departure.explanations, [&](const RelaxationTest& t) { return matters(t); });
+    const bool harms = matters(departure);
     std::vector<Assumption> named;
     for (const RelaxationTest& test : departure.explanations) {
       LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
@@ -178,6 +183,19 @@ class Writer {
 bool is_of_friction(Assumption assumption) {
   return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
          assumption == Assumption::symmetry;
+}
+
+/// Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0. A zero of x and
+/// a friction force of its own in each direction are one and the same: either leaves zeta, and F0 as the mean of
+/// both.
+bool is_charged_to_friction(const Departure& departure, const JointModel& model) {
+  const auto relaxation = [&](const RelaxationTest& test) { return model.relaxations[test.index]; };
+  const bool zero = std::ranges::any_of(departure.explanations, [&](const RelaxationTest& test) {
+    return relaxation(test).assumption == Assumption::sensors;
+  });
+  return std::ranges::any_of(departure.explanations, [&](const RelaxationTest& test) {
+    return is_of_friction(relaxation(test).assumption) && !(zero && relaxation(test).as_zero);
+  });
 }
 
 /// The fit of the joint model with relaxations beside the base parameters.
@@ -296,9 +314,8 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Writer writer(model, tests, options);
   writer.write(ledger);
   writer.add_sight(ledger);
-  // Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0.
-  const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
-    return std::ranges::any_of(named, is_of_friction);
+  const bool is_friction = std::ranges::any_of(tests.departures, [&](const Departure& departure) {
+    return writer.matters(departure) && is_charged_to_friction(departure, model);
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
   if (is_friction || !has_spring) return ledger;

@@ -109,7 +109,25 @@ TableFile read_table(const std::string& path, const ReadOptions& options, Proble
   return {read_mat(path, options, problems, warnings), nullptr, core::sha256(bytes)};
 }
 
-MeasuredRecord assemble(TableFile file, Problems& problems, std::vector<std::string> warnings) {
+/// What is said of columns that the file does not have would be ignored.
+void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& problems) {
+  for (const auto& [option, map] : {std::pair{"unit", &options.units}, {"scale", &options.scales}})
+    for (const auto& [column, text] : *map) {
+      const KnownColumn* known = known_column(column);
+      if (known == nullptr || file.table.columns.empty() || file.table.find(known->name) != nullptr) continue;
+      std::vector<std::string> there;
+      for (const DataColumn& found : file.table.columns) there.emplace_back(found.known->name);
+      problems.add({{options.name, 0, 0, {}},
+                    std::string("a ") + option + " is stated for column " + column + ", and the file has none",
+                    "the columns that were read: " + core::joined(there, ", "),
+                    column + "=" + text,
+                    {}});
+    }
+}
+
+MeasuredRecord assemble(TableFile file, const ReadOptions& options, Problems& problems,
+                        std::vector<std::string> warnings) {
+  refuse_unused(file, options, problems);
   MeasuredRecord result;
   result.warnings = std::move(warnings);
   result.units = file.table.units;
@@ -167,7 +185,7 @@ MeasuredRecord parse_record(std::string_view text, const ReadOptions& options) {
   Problems problems;
   std::vector<std::string> warnings;
   TableFile file = parse_table(text, options, problems, warnings);
-  return assemble(std::move(file), problems, std::move(warnings));
+  return assemble(std::move(file), options, problems, std::move(warnings));
 }
 
 MeasuredRecord parse_record(std::string_view text, const std::string& name) {
@@ -180,7 +198,7 @@ MeasuredRecord read_record(const std::string& path, const ReadOptions& options) 
   Problems problems;
   std::vector<std::string> warnings;
   TableFile file = read_table(path, named, problems, warnings);
-  return assemble(std::move(file), problems, std::move(warnings));
+  return assemble(std::move(file), named, problems, std::move(warnings));
 }
 
 MeasuredSignal read_signal(const std::string& path, std::string_view column, const ReadOptions& options) {

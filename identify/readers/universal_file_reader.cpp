@@ -58,6 +58,7 @@ struct Function {
   std::string title;  ///< ID line 1
   int type = 0;
   std::string entity;
+  std::string place;  ///< node and direction of the response
   std::size_t count = 0;
   bool is_double = false;
   bool is_complex = false;
@@ -177,6 +178,7 @@ class Scanner {
     const std::string_view dof = next_line();
     f.type = field<int>(dof, 0, 5);
     f.entity = text_of(cut(dof, 31, 10));
+    f.place = text_of(cut(dof, 41, 14));
     read_form(f, next_line());
     f.abscissa = axis(next_line());
     f.ordinate = axis(next_line());
@@ -195,10 +197,7 @@ class Scanner {
       return std::nullopt;
     }
     if (f.is_complex) refuse("the time response holds complex numbers", "real numbers");
-    if (is_binary)
-      read_binary(f, head);
-    else
-      read_text(f);
+    is_binary ? read_binary(f, head) : read_text(f);
     return f;
   }
 
@@ -335,10 +334,16 @@ class Mapping {
     return "a response name, axis label or ID line x, y, v, a or force; or the caller's choice of the column";
   }
 
+  void refuse_set(const Function& f, std::string message, std::string wanted) {
+    problems_.add({{file_, f.line, 0, {}}, std::move(message), std::move(wanted), {}, {}});
+  }
+
   /// What a data set is called by, in messages too.
   static std::string name_of(const Function& f) {
     return !f.entity.empty() ? f.entity : !f.ordinate.label.empty() ? f.ordinate.label : f.title;
   }
+
+  static std::string called(const Function& f) { return "'" + name_of(f) + "' (node, direction " + f.place + ")"; }
 
   [[nodiscard]] const KnownColumn* signal_of(const std::vector<Function>& functions, std::size_t index) {
     const Function& f = functions[index];
@@ -371,13 +376,11 @@ class Mapping {
     }
     // The displacement of the base or of the mass: the file does not say which.
     for (const Function& other : functions) {
-      if (&other == &f || other.ordinate.quantity != f.ordinate.quantity || name_of(other) == name_of(f)) continue;
-      problems_.add({{file_, f.line, 0, {}},
-                     "data sets '" + name_of(f) + "' and '" + name_of(other) +
-                         "' are of the same kind, and nothing tells which of them is " + std::string(known->name),
-                     allowed(),
-                     {},
-                     {}});
+      if (other.ordinate.quantity != f.ordinate.quantity || called(other) == called(f)) continue;
+      refuse_set(f,
+                 called(f) + " and " + called(other) +
+                     " are of the same kind, and nothing tells which of them is " + std::string(known->name),
+                 allowed());
       return nullptr;
     }
     return known;
@@ -395,11 +398,8 @@ class Mapping {
       tests.emplace_back();
       tests.back().columns.push_back({time, std::move(times)});
     } else if (tests.back().columns.front().values != times) {
-      problems_.add({{file_, f.line, 0, {}},
-                     "data set '" + name_of(f) + "' is not sampled at the times of those before it",
-                     "signals of one test with the same number of values, start and step",
-                     {},
-                     {}});
+      refuse_set(f, "data set '" + name_of(f) + "' is not sampled at the times of those before it",
+                 "signals of one test with the same number of values, start and step");
       return;
     }
     std::vector<double> values = f.values;

@@ -92,7 +92,11 @@ class DecayReader {
     const auto [low, high] = std::minmax_element(x_.begin(), x_.end());
     constexpr double noises = 8.0;
     constexpr double rounding = 1e-9;
-    band_ = std::max(noises * noise_level(x_, 2), rounding * (*high - *low));
+    // At rest a converter hardly moves, and the noise over all samples is less than its step.
+    constexpr double steps = 2.5;
+    constexpr std::size_t fewest_levels = 6;
+    band_ = std::max({noises * noise_level(x_, 2), steps * converter_step(history_.x, fewest_levels),
+                      rounding * (*high - *low)});
     const std::vector<std::size_t> turns = zigzag(x_, band_);
     if (turns.size() < 3) return result;
     // Of the swings between turning points, whose ends are known best, the median.
@@ -190,7 +194,10 @@ class DecayReader {
     std::size_t first = x_.size();
     while (first > 0 && std::abs(x_[first - 1] - x_.back()) < band_) --first;
     const bool rests = static_cast<double>(x_.size() - first) > half_period_;
-    if (rests && first > 0 && turn + 1 >= first) put_mean(result, first, x_.size(), first);
+    if (!rests || first == 0 || turn + 1 < first) return;
+    put_mean(result, first, x_.size(), first);
+    // What a sensor is off by at one place, a hundred samples at rest repeat a hundred times.
+    result.last = std::min(x_.size(), first + 2 * static_cast<std::size_t>(half_period_));
   }
 
   /// Extremes of a free decay alternate, and their swings shrink. Before the release, or while a blow pushes the

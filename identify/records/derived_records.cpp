@@ -1,9 +1,11 @@
 #include "identify/records/derived_records.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/records/sensor_zero.hpp"
 
 namespace dualdamp::identify {
 
@@ -28,27 +30,32 @@ std::string keep_free_motion(const DerivedDecay& decay, History& history) {
 
 }  // namespace
 
-std::vector<std::string> complete(Record& record, double frequency) {
+std::vector<std::string> complete(Record& record, double frequency, double stiffness) {
   if (record.pairs || record.decay || record.histories.empty()) return {};
+  std::vector<std::string> warnings;
+  const auto warn = [&warnings](const History& history, const std::string& warning) {
+    if (!warning.empty())
+      warnings.push_back((history.sweep.empty() ? "" : "test '" + history.sweep + "': ") + warning);
+  };
+  for (History& history : record.histories) warn(history, remove_zero(history, stiffness));
   DerivedPairs driven = pairs_of(record.histories, frequency);
   if (!driven.record.pairs.empty()) {
     record.pairs = std::move(driven.record);
-    return std::move(driven.warnings);
+    std::ranges::move(driven.warnings, std::back_inserter(warnings));
+    return warnings;
   }
   const auto is_free = [](const History& history) {
     return !history.x.empty() && history.force.empty() && history.y.empty();
   };
-  if (!std::ranges::all_of(record.histories, is_free)) return {};
+  if (!std::ranges::all_of(record.histories, is_free)) return warnings;
   std::vector<DecayRecord> decays;
-  std::vector<std::string> warnings;
   for (History& history : record.histories) {
     DerivedDecay decay = decay_of(history);
-    const std::string test = history.sweep.empty() ? "" : "test '" + history.sweep + "': ";
-    for (const std::string& warning : decay.warnings) warnings.push_back(test + warning);
+    for (const std::string& warning : decay.warnings) warn(history, warning);
     if (decay.record.extremes.empty()) continue;
+    warn(history, keep_free_motion(decay, history));
+    warn(history, remove_zero(history, decay.record));
     decays.push_back(std::move(decay.record));
-    if (const std::string left_out = keep_free_motion(decay, history); !left_out.empty())
-      warnings.push_back(test + left_out);
   }
   if (!decays.empty()) record.decay = mean_decay(decays);
   if (decays.size() > 1) warnings.push_back(mean_decay_warning(decays.size(), record.decay->extremes.size()));

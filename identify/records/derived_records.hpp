@@ -52,7 +52,9 @@ struct DerivedDecay {
 
 /// Adds to a record that holds nothing but histories what can be derived from them: pairs where they are driven, a
 /// decay where there is a single one without drive. The histories of free vibrations then begin at their release,
-/// and end where something else pushes the mass. Returns warnings.
-[[nodiscard]] std::vector<std::string> complete(Record& record, double frequency = unknown);
+/// and end where something else pushes the mass, or soon after the mass has come to rest. A zero of x that is far
+/// off is subtracted (identify/records/sensor_zero.hpp). Returns warnings.
+[[nodiscard]] std::vector<std::string> complete(Record& record, double frequency = unknown,
+                                                double stiffness = unknown);
 
 }  // namespace dualdamp::identify

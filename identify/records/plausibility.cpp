@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -34,6 +35,48 @@ std::string times_off(double ratio) {
       std::ranges::find_if(factors, [size](double f) { return std::abs(std::log(size / f)) < near; });
   return (factor == factors.end() ? "about " + shown(size) : "about " + core::format_number(*factor, digits + 1)) +
          " times too " + (ratio > 1.0 ? "large" : "small");
+}
+
+/// x = (Y - b)/(2 zeta), where b > 0 is friction's, and the same with x and Y exchanged.
+struct ResonanceLine {
+  double zeta, intercept, other_zeta, other_intercept;
+};
+
+/// Of three pairs or more near resonance, at one frequency, on a straight line.
+std::optional<ResonanceLine> resonance_line(const std::vector<Pair>& pairs, const KnownConstants& constants) {
+  const double natural = std::sqrt(constants.stiffness / constants.mass);
+  const double n = static_cast<double>(pairs.size());
+  double x = 0.0;
+  double Y = 0.0;
+  for (const Pair& pair : pairs) {
+    const double r = frequency_of(pair, constants) / natural;
+    constexpr double near = 0.1;
+    if (!(std::abs(r - 1.0) < near) ||
+        !is_same_frequency(frequency_of(pair, constants), frequency_of(pairs[0], constants)))
+      return std::nullopt;
+    x += pair.x / n;
+    Y += pair.Y / n;
+  }
+  double xx = 0.0;
+  double xY = 0.0;
+  double YY = 0.0;
+  for (const Pair& pair : pairs) {
+    xx += (pair.x - x) * (pair.x - x);
+    xY += (pair.x - x) * (pair.Y - Y);
+    YY += (pair.Y - Y) * (pair.Y - Y);
+  }
+  constexpr double straight = 0.9;
+  if (pairs.size() < 3 || !(xY > 0.0) || xY * xY < straight * xx * YY) return std::nullopt;
+  const double zeta = 0.5 * YY / xY;
+  const double other = 0.5 * xx / xY;
+  return ResonanceLine{zeta, Y - 2.0 * zeta * x, other, x - 2.0 * other * Y};
+}
+
+/// A damping ratio that a unit wrong by 1000 makes, and hardly any rig.
+bool is_odd(double zeta) {
+  constexpr double least = 2e-4;
+  constexpr double most = 20.0;
+  return zeta < least || zeta > most;
 }
 
 class Check {
@@ -69,21 +112,26 @@ class Check {
     return history.force;
   }
 
-  /// Only factors that units of time make: a beat or noise moves the frequency of a motion, but not to a
-  /// thousandth.
-  bool refuse_times(double measured, double expected, const std::string& what) {
-    constexpr std::array<std::pair<double, const char*>, 4> units = {
-        {{1e-3, "ms"}, {1e-6, "us"}, {60.0, "min"}, {3600.0, "h"}}};
+  static std::string in_hertz(double omega) { return shown(omega / (2.0 * std::numbers::pi)) + " Hz"; }
+
+  /// Only factors that units of time make, where a beat or noise may move the frequency of a motion, though not to
+  /// a thousandth; `always`: any gross one.
+  bool refuse_times(double measured, double expected, const std::string& what, bool always = false) {
+    constexpr std::array<std::pair<double, const char*>, 5> units = {
+        {{1e-3, "ms"}, {1e-6, "us"}, {60.0, "min"}, {3600.0, "h"}, {86400.0, "day"}}};
     constexpr double near = 0.3;
-    for (const auto& [factor, unit] : units) {
-      // Milliseconds read as seconds make a motion of a thousandth of its frequency.
-      if (!(std::abs(std::log(measured / expected / factor)) < near)) continue;
-      refuse("by its times the motion repeats at " + shown(measured / (2.0 * std::numbers::pi)) + " Hz, and " +
-                 what + " is " + shown(expected / (2.0 * std::numbers::pi)) + " Hz",
-             std::string("times in seconds, or their unit; these may be in ") + unit + ": --unit t=" + unit);
-      return true;
-    }
-    return false;
+    // Milliseconds read as seconds make a motion of a thousandth of its frequency.
+    const auto* const unit = std::ranges::find_if(
+        units, [&](const auto& row) { return std::abs(std::log(measured / expected / row.first)) < near; });
+    if (unit == units.end() && !(always && is_gross(measured / expected))) return false;
+    refuse(
+        "by its times the motion repeats at " + in_hertz(measured) + ", and " + what + " is " + in_hertz(expected),
+        unit == units.end()
+            ? "times in seconds, not numbers of samples (--scale t=0.002 makes times of these); mass and stiffness "
+              "in their units"
+            : std::string("times in seconds, or their unit; these may be in ") + unit->second +
+                  ": --unit t=" + unit->second);
+    return true;
   }
 
   /// False after a fault.
@@ -101,7 +149,7 @@ class Check {
     if (decay.times.size() > 2) {
       const auto half_periods = static_cast<double>(decay.times.size() - 1);
       const double measured = std::numbers::pi * half_periods / (decay.times.back() - decay.times.front());
-      if (omega > 0.0 && refuse_times(measured, omega, "the natural frequency")) return;
+      if (omega > 0.0 && refuse_times(measured, omega, "the natural frequency", true)) return;
     }
     if (decay.extremes.empty()) return;
     const auto [low, high] = std::ranges::minmax(decay.extremes);
@@ -202,24 +250,38 @@ class Check {
     return balance;
   }
 
+  /// Too much force for the drive: near its resonance a mass takes little, so that a frequency or a constant that
+  /// is off looks like amplitudes that are.
+  void refuse_balance(const std::vector<Pair>& pairs, const Balance& balance, const std::string& swapped) {
+    const double omega = frequency_of(pairs.front(), constants_);
+    const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
+                              in_hertz(natural_frequency()) +
+                              ": spring and inertia of the motion x take more force than the base gives, k Y";
+    constexpr double turn = 2.0 * std::numbers::pi;
+    for (const auto& [factor, unit] : {std::pair{turn, "Hz, not rad/s"}, {1.0 / turn, "rad/s, not Hz"}}) {
+      std::vector<Pair> turned = pairs;
+      for (Pair& pair : turned) pair.omega = factor * frequency_of(pair, constants_);
+      if (balance_of(turned).too_much > 0) continue;
+      refuse("x, Y and the frequency do not belong together" + where,
+             std::string("the frequency in its unit: it may be in ") + unit);
+      return;
+    }
+    if (balance.swapped_too_much == 0)
+      refuse("columns x and Y seem to be swapped, or a constant to be off: in " + std::to_string(balance.too_much) +
+                 " of " + std::to_string(balance.pairs) + " pairs," + where,
+             swapped + "; mass, stiffness, frequency and times in their units");
+    else
+      refuse("column x is " + times_off(upper_median(balance.excess)) + " for Y" + where,
+             "both in their units, and mass, stiffness and frequency too: --unit x=mm, --unit Y=mm");
+  }
+
   void check_pairs(const std::vector<Pair>& pairs) {
     check_readings(pairs);
     if (!faults_.empty()) return;
     const Balance balance = balance_of(pairs);
     const std::string swapped =
         "x is the amplitude of the mass, Y that of the base; --column x=..., --column Y=...";
-    if (2 * balance.too_much > balance.pairs && balance.pairs > 0) {
-      if (balance.swapped_too_much == 0)
-        refuse("columns x and Y seem to be swapped: in " + std::to_string(balance.too_much) + " of " +
-                   std::to_string(balance.pairs) +
-                   " pairs spring and inertia of the motion x take more force than the base gives, k Y",
-               swapped);
-      else
-        refuse("column x is " + times_off(upper_median(balance.excess)) +
-                   " for Y: spring and inertia of the motion x take more force than the base gives, k Y",
-               "both in their units, and the frequency stated: --unit x=mm, --unit Y=mm");
-      return;
-    }
+    if (2 * balance.too_much > balance.pairs && balance.pairs > 0) return refuse_balance(pairs, balance, swapped);
     if (2 * balance.negative_work > balance.phases && balance.phases > 0) {
       refuse(
           "by the phases x goes ahead of the base in " + std::to_string(balance.negative_work) + " of " +
@@ -276,43 +338,17 @@ class Check {
              "their unit: --unit phase=rad");
   }
 
-  /// Near resonance, at one frequency, x = (Y - b)/(2 zeta), where b > 0 is friction's.
   void check_line(const std::vector<Pair>& pairs, const std::string& swapped) {
-    const double n = static_cast<double>(pairs.size());
-    double x = 0.0;
-    double Y = 0.0;
-    for (const Pair& pair : pairs) {
-      const double r = frequency_of(pair, constants_) / natural_frequency();
-      constexpr double near = 0.1;
-      if (!(std::abs(r - 1.0) < near) ||
-          !is_same_frequency(frequency_of(pair, constants_), frequency_of(pairs[0], constants_)))
-        return;
-      x += pair.x / n;
-      Y += pair.Y / n;
-    }
-    double xx = 0.0;
-    double xY = 0.0;
-    double YY = 0.0;
-    for (const Pair& pair : pairs) {
-      xx += (pair.x - x) * (pair.x - x);
-      xY += (pair.x - x) * (pair.Y - Y);
-      YY += (pair.Y - Y) * (pair.Y - Y);
-    }
-    constexpr double straight = 0.9;
-    if (pairs.size() < 3 || !(xY > 0.0) || xY * xY < straight * xx * YY) return;
-    const double zeta = 0.5 * YY / xY;
-    const double intercept = Y - 2.0 * zeta * x;  // b
+    const std::optional<ResonanceLine> line = resonance_line(pairs, constants_);
+    if (!line) return;
+    const auto& [zeta, intercept, other_zeta, other_intercept] = *line;
     // As it stands: zeta above 1 and friction below zero. With the columns exchanged: sound.
-    const double other_zeta = 0.5 * xx / xY;
-    const double other_intercept = x - 2.0 * other_zeta * Y;
     if (zeta > 1.0 && intercept < 0.0 && other_zeta < 1.0 && other_intercept > 0.0)
       refuse("columns x and Y seem to be swapped: as they stand zeta is " + shown(zeta) +
                  " and F0 below zero, exchanged zeta is " + shown(other_zeta),
              swapped);
-    constexpr double least = 2e-4;
-    constexpr double most = 20.0;
     const char* const who = is_assumed("x") ? "x" : is_assumed("Y") ? "Y" : nullptr;
-    if (faults_.empty() && who != nullptr && (zeta < least || zeta > most))
+    if (faults_.empty() && who != nullptr && is_odd(zeta))
       refuse("no unit is stated for " + std::string(who) + ", and as they stand x and Y make a damping ratio of " +
                  shown(zeta) + ": one of both is off by about 1000",
              std::string("the units of both: --unit x=mm, --unit Y=mm"));
@@ -330,6 +366,22 @@ class Check {
 std::vector<core::Diagnostic> gross_faults(const Record& record, const KnownConstants& constants,
                                            const std::vector<std::string>& assumed, const std::string& file) {
   return Check(record, constants, assumed, file).run();
+}
+
+std::vector<std::string> odd_readings(const Record& record, const KnownConstants& constants) {
+  double largest = 0.0;
+  for (const History& history : record.histories)
+    if (!history.x.empty())
+      largest = std::max(largest, 0.5 * (std::ranges::max(history.x) - std::ranges::min(history.x)));
+  constexpr double two_turns = 4.0 * std::numbers::pi;
+  if (constants.coordinate == core::Coordinate::angle && largest > two_turns)
+    return {"x swings by " + shown(largest) + " rad to each side, " + shown(0.5 * largest / std::numbers::pi) +
+            " turns: if these are degrees, forces are 57 times too large"};
+  if (!record.pairs) return {};
+  const std::optional<ResonanceLine> line = resonance_line(record.pairs->pairs, constants);
+  if (!line || !is_odd(line->zeta)) return {};
+  return {"x and Y make a damping ratio of " + shown(line->zeta) +
+          ", which few rigs have: if the unit of one of both is off by 1000, so are the results"};
 }
 
 }  // namespace dualdamp::identify

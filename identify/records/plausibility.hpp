@@ -2,7 +2,8 @@
 /// Gross faults of a record: what no measurement of this oscillator can be, whatever its friction.
 ///
 /// A wrong unit is off by 1000 or by 9.8, a wrong column by a sign: found without a model of friction, from
-/// * times against the stated or the natural frequency: seconds that are milliseconds or minutes;
+/// * times against the stated or the natural frequency: seconds that are milliseconds or minutes; of extremes of a
+///   free vibration also numbers of samples;
 /// * x, v and a at the main frequency of a history, |a| = w |v| = w^2 |x|, or at that of a pair, mean v^2 = (w
 /// x)^2/2;
 /// * the balance of forces, |k - m w^2| x <= k Y: dampers and friction act across it;
@@ -27,5 +28,9 @@ namespace dualdamp::identify {
 [[nodiscard]] std::vector<core::Diagnostic> gross_faults(const Record& record, const KnownConstants& constants,
                                                          const std::vector<std::string>& assumed,
                                                          const std::string& file);
+
+/// Warnings of what is unusual, though a rig may be so: pairs at resonance with a damping ratio below 2e-4 or above
+/// 20, angles beyond two turns.
+[[nodiscard]] std::vector<std::string> odd_readings(const Record& record, const KnownConstants& constants);
 
 }  // namespace dualdamp::identify

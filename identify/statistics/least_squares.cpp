@@ -156,6 +156,11 @@ LeastSquaresFit fit(const LeastSquaresProblem& problem) {
     result.outcome = {core::OutcomeKind::not_identifiable, "the model has no value where the fit begins"};
     return result;
   }
+  if (problem.start.size() == 0) {  // nothing is free: a record of steady states that a whole rig has to predict
+    result.jacobian.resize(problem.residuals, 0);
+    result.sum_of_squares = result.residuals.squaredNorm();
+    return result;
+  }
   const ceres::Solver::Summary summary = solve(problem, result.parameters);
 
   result.jacobian.resize(problem.residuals, problem.start.size());

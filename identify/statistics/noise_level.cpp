@@ -1,5 +1,6 @@
 #include "identify/statistics/noise_level.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -31,6 +32,22 @@ double noise_level(std::span<const double> signal, int order) {
     sum += difference * difference;
   }
   return std::sqrt(sum / ((order == 2 ? second_gain : fourth_gain) * static_cast<double>(count)));
+}
+
+double converter_step(std::vector<double> signal, std::size_t fewest) {
+  if (signal.empty()) return 0.0;
+  std::ranges::sort(signal);
+  constexpr double last_bits = 1e-9;
+  const double least = last_bits * (signal.back() - signal.front());
+  double step = signal.back() - signal.front();
+  std::size_t levels = 1;
+  for (std::size_t i = 1; i < signal.size(); ++i) {
+    const double rise = signal[i] - signal[i - 1];
+    if (!(rise > least)) continue;
+    step = std::min(step, rise);
+    ++levels;
+  }
+  return levels < fewest || 2 * levels > signal.size() ? 0.0 : step;
 }
 
 void RobustNoiseLevel::add(const std::vector<double>& signal) {

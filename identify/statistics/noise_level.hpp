@@ -4,6 +4,7 @@
 ///
 ///   s^2 = mean(d_i^2)/g,   d = (1, -2, 1), g = 6   or   d = (1, -4, 6, -4, 1), g = 70
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,12 @@ namespace dualdamp::identify {
 /// `order` is 2 or 4. 0 where there are not more than `order` samples. Cost: linear.
 [[nodiscard]] double noise_level(std::span<const double> signal, int order = 4);
 
-/// The same over several signals of one sensor that are smooth but for a few jumps: differences of fourth order,
-/// those that noise does not make left out.
+/// The smallest difference between values of a signal that are not alike: the step of a coarse converter. 0 where
+/// there are fewer than `fewest` levels, as of a drive that switches, or most values differ. Cost: n log n.
+[[nodiscard]] double converter_step(std::vector<double> signal, std::size_t fewest = 32);
+
+/// `noise_level` over several signals of one sensor that are smooth but for a few jumps: differences of fourth
+/// order, those that noise does not make left out.
 class RobustNoiseLevel {
  public:
   void add(const std::vector<double>& signal);

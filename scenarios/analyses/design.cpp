@@ -33,12 +33,18 @@ std::vector<Needs> needs() {
   const std::string base = "the states are those of a mass that its base drives";
   return {{"xy_curve", {"base_harmonic"}, {}, true, base},
           {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
-          {"data", {"base_harmonic"}, {"frequency"}, false, base}};
+          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
 }
 
 void check(CheckedFile& file) {
   check_measurement(file);
   read_data(file);
+  if (!file.data) return;
+  if (!file.data->record.pairs)
+    file.complain("analysis.data",
+                  file.data->record.decay ? "these are a free vibration" : "these histories give no steady states",
+                  "steady states: Y and x, or histories of x and y under a harmonic drive");
+  check_frequency(file, file.data->record);
 }
 
 std::unique_ptr<const Question> ask(CheckedValues&& values) {

@@ -75,6 +75,10 @@ sim::Model outlined_model(const CheckedFile& file) {
   const std::string type = file.text_at("excitation", "type");
   if (type == "base_harmonic") model.excitation.type = sim::ExcitationType::base_harmonic;
   if (type == "force_harmonic") model.excitation.type = sim::ExcitationType::force_harmonic;
+  const bool other = model.excitation.type == sim::ExcitationType::none && !type.empty() && type != "none";
+  if (other)
+    model.excitation.type = type.find("force") != std::string::npos ? sim::ExcitationType::force_samples
+                                                                    : sim::ExcitationType::base_samples;
   model.excitation.amplitude = file.number_at("excitation", "amplitude").value_or(0.0);
   if (file.text_at("excitation", "frequency").ends_with("rad/s"))
     model.excitation.frequency = *file.number_at("excitation", "frequency");
@@ -110,7 +114,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   Setup setup =
       setup_of(values.analysis, values.system, values.model, values.initial_is_stated, values.files, faults);
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = drive_warnings(values.model);
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
   return std::make_unique<FitQuestion>(std::move(setup.candidates), std::move(setup.data),

@@ -66,14 +66,6 @@ std::optional<identify::Record> outlined_record(const CheckedFile& file) {
   return file.data ? std::optional(file.data->record) : std::nullopt;
 }
 
-void check_frequency(CheckedFile& file, const identify::Record& record) {
-  const bool is_free = file.node("excitation") == nullptr || file.text_at("excitation", "type") == "none";
-  const auto lacks_frequency = [](const identify::Pair& pair) { return std::isnan(pair.omega); };
-  if (is_free && record.pairs && std::ranges::any_of(record.pairs->pairs, lacks_frequency))
-    file.complain("analysis.data", "x-Y pairs need the forcing frequency at which they were measured",
-                  "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency");
-}
-
 void check(CheckedFile& file) {
   check_measurement(file);
   read_data(file);

@@ -73,7 +73,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
       problems.push_back({.message = "'analysis." + fault.path + "': " + fault.message});
     throw core::InputError(std::move(problems));
   }
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = drive_warnings(values.model);
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
   Eigen::MatrixXd covariance = covariance_of(values.analysis, parameters.size());

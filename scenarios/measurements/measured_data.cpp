@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/plausibility.hpp"
+#include "identify/records/sine_fit.hpp"
 #include "identify/records/spikes.hpp"
 #include "scenarios/measurements/data_path.hpp"
 
@@ -70,13 +73,46 @@ Field for_columns(std::string name, std::string meaning, bool numbers_only) {
 }
 
 /// What the constants beside the data say of its units and columns.
-void refuse_gross_faults(CheckedFile& file, const identify::MeasuredRecord& data, double frequency,
+void refuse_gross_faults(CheckedFile& file, identify::MeasuredRecord& data, double frequency,
                          const std::string& name) {
   if (file.has("system", "damper_to") && file.text_at("system", "damper_to") == "base") return;
   const identify::KnownConstants constants{file.number_at("system", "mass").value_or(identify::unknown),
                                            file.number_at("system", "stiffness").value_or(identify::unknown),
                                            frequency, file.coordinate()};
   file.take_over(identify::gross_faults(data.record, constants, data.units.assumed, name));
+  for (std::string& warning : identify::odd_readings(data.record, constants))
+    data.warnings.push_back(std::move(warning));
+}
+
+std::string hertz(double omega) {
+  constexpr int digits = 4;
+  return core::format_number(omega / (2.0 * std::numbers::pi), digits) + " Hz";
+}
+
+/// A stated frequency that is not the drive's would be ignored: histories and pairs have their own.
+void check_stated_frequency(CheckedFile& file, identify::MeasuredRecord& data, double frequency) {
+  if (std::isnan(frequency)) return;
+  const auto far = [&](double omega) { return std::abs(omega / frequency - 1.0) > 0.01; };
+  if (data.record.pairs && data.record.histories.empty()) {
+    for (const identify::Pair& pair : data.record.pairs->pairs) {
+      if (std::isnan(pair.omega) || !far(pair.omega)) continue;
+      file.complain("excitation.frequency",
+                    "'excitation.frequency' is " + hertz(frequency) + ", and pair " + std::to_string(pair.number) +
+                        " of the file was measured at " + hertz(pair.omega),
+                    "leave out what the file states: it has a column omega (frequency)");
+      return;
+    }
+    return;
+  }
+  for (const identify::History& history : data.record.histories) {
+    const double measured =
+        history.y.empty() ? frequency : identify::guess_frequency(history.y, history.sample_rate);
+    if (!(measured > 0.0) || !far(measured) || data.record.pairs) continue;
+    data.warnings.push_back("at the stated frequency of " + hertz(frequency) +
+                            " the histories give no steady state: y moves mainly at " + hertz(measured) +
+                            ", and the methods take y as it is");
+    return;
+  }
 }
 
 /// The uncertainty that a scale states is that of a gain: "2.5 mm/V ± 1 %".
@@ -148,6 +184,34 @@ Field data_list(const std::string& name, std::string meaning) {
   return field;
 }
 
+namespace {
+
+/// A frequency that could not be resolved is still a word, and complained about elsewhere.
+double stated_frequency(const CheckedFile& file) {
+  const bool known = file.text_at("excitation", "frequency").ends_with("rad/s");
+  return known ? *file.number_at("excitation", "frequency") : identify::unknown;
+}
+
+/// The same readings again, read in the same way: they would count twice, or predict themselves.
+void refuse_repeated(CheckedFile& file, const std::string& key, const identify::MeasuredRecord& data,
+                     const Json& item) {
+  const auto without_name = [](Json keys) {
+    if (keys.is_object()) keys.erase("file");
+    return keys;
+  };
+  for (const DataFile& other : file.files) {
+    if (other.data.sha256 != data.sha256) continue;
+    const Json& list = file.values().at("analysis").at(other.key);
+    if (without_name(list.is_array() ? list[other.item] : list) != without_name(item)) continue;
+    file.complain(key, "'" + key + "' holds the same data as " + other.name + " of 'analysis." + other.key + "'",
+                  other.key == "data" && key.starts_with("analysis.validate") ? "a record that was not fitted"
+                                                                              : "each record once");
+    return;
+  }
+}
+
+}  // namespace
+
 void read_data_list(CheckedFile& file, const std::string& name) {
   if (!file.has("analysis", name)) return;
   Json list = file.values().at("analysis").at(name);
@@ -162,11 +226,25 @@ void read_data_list(CheckedFile& file, const std::string& name) {
     try {
       identify::MeasuredRecord data = read_by_units(file, *path, data_name, list[i]);
       file.note_units(data.units);
+      refuse_repeated(file, key, data, list[i]);
+      if (!list[i].value("loop", false)) refuse_gross_faults(file, data, stated_frequency(file), data_name);
       file.files.push_back({data_name, name, i, std::move(data)});
     } catch (const core::InputError& error) {
       file.take_over(error.diagnostics());
     }
   }
+}
+
+void check_frequency(CheckedFile& file, const identify::Record& record) {
+  const bool is_free = file.node("excitation") == nullptr || file.text_at("excitation", "type") == "none";
+  const auto lacks_frequency = [](const identify::Pair& pair) { return std::isnan(pair.omega); };
+  if (!is_free || !record.pairs || std::ranges::none_of(record.pairs->pairs, lacks_frequency)) return;
+  std::string ignored;
+  for (const std::string& warning : file.data ? file.data->warnings : std::vector<std::string>())
+    if (warning.ends_with("is not known and is ignored")) ignored += "; " + warning;
+  file.complain("analysis.data", "x-Y pairs need the forcing frequency at which they were measured" + ignored,
+                "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency, or --column "
+                "omega=NAME");
 }
 
 void read_data(CheckedFile& file) {
@@ -187,11 +265,11 @@ void read_data(CheckedFile& file) {
     const Json& analysis = file.values().at("analysis");
     for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
       data.warnings.push_back(std::move(sentence));
-    // A frequency that could not be resolved is still a word, and complained about elsewhere.
-    const bool known = file.text_at("excitation", "frequency").ends_with("rad/s");
-    const double frequency = known ? *file.number_at("excitation", "frequency") : identify::unknown;
-    for (std::string& warning : identify::complete(data.record, frequency))
+    const double frequency = stated_frequency(file);
+    for (std::string& warning : identify::complete(
+             data.record, frequency, file.number_at("system", "stiffness").value_or(identify::unknown)))
       data.warnings.push_back(std::move(warning));
+    check_stated_frequency(file, data, frequency);
     refuse_gross_faults(file, data, frequency, name);
     file.data = std::move(data);
   } catch (const core::InputError& error) {

@@ -20,4 +20,7 @@ void read_data_list(CheckedFile& file, const std::string& name);
 /// Reads the record of `analysis.data`, if it is there, into `file.data`.
 void read_data(CheckedFile& file);
 
+/// Complains where pairs were measured at a frequency that neither the file nor the scenario states.
+void check_frequency(CheckedFile& file, const identify::Record& record);
+
 }  // namespace dualdamp::scenarios

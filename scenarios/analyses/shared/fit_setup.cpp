@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/statistics/noise_level.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
+#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -146,6 +150,46 @@ std::string laws_text(const identify::Rig& rig) {
   return text.empty() ? "no friction" : text;
 }
 
+namespace {
+
+/// A drive that the file holds and the model lacks; empty where there is none.
+std::string idle_drive(const DataItem& item, const sim::Model& model) {
+  if (item.keys.value("loop", false) || model.excitation.type != sim::ExcitationType::none) return {};
+  const auto moves = [](const std::vector<double>& signal) {
+    return !signal.empty() && std::ranges::min(signal) < std::ranges::max(signal);
+  };
+  const auto drive = [&](const char* type, const char* column, const std::string& what) {
+    return item.file + ": the file holds " + what + ", and nothing drives the model: 'excitation: {type: " + type +
+           ", file: " + item.file + ", column: " + column +
+           ", interpolation: cubic}', on the command line --set excitation='{...}'";
+  };
+  for (const identify::History& history : item.data.record.histories) {
+    if (moves(history.y)) return drive("measured_base", "y", "y, the motion of the base");
+    if (moves(history.force)) return drive("measured_force", "force", "force") + "; or --loop for a friction loop";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> drive_warnings(const sim::Model& model) {
+  const auto& samples = model.excitation.samples;
+  if (!samples || samples->interpolation() != sim::Interpolation::linear) return {};
+  // A chord lies off a smooth curve by a twelfth of the second difference, on the mean; noise makes some too.
+  const std::vector<double>& y = samples->values();
+  const double noise = identify::noise_level(y);
+  const double second = std::sqrt(6.0) * identify::noise_level(y, 2);
+  const double smooth = std::sqrt(std::max(0.0, second * second - 6.0 * noise * noise)) / 12.0;
+  const double mean = std::reduce(y.begin(), y.end()) / static_cast<double>(y.size());
+  double square = 0.0;
+  for (const double value : y) square += (value - mean) * (value - mean) / static_cast<double>(y.size());
+  constexpr double least = 2e-4;
+  if (!(smooth > least * std::sqrt(square))) return {};
+  return {"straight lines between the samples of the drive are off it by " +
+          core::format_number(100.0 * smooth / std::sqrt(square), 2) +
+          " % on the mean, and the estimates by as much or more: interpolation: cubic, where the drive is smooth"};
+}
+
 identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                        const sim::Model& model, bool initial_is_known,
                                        std::vector<SetupFault>& faults) {
@@ -168,6 +212,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     identify::Experiments found = identify::experiments_of(items[i].data.record, options, fault);
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
     if (!fault.empty()) faults.push_back({place, items[i].file + ": " + fault});
+    if (std::string idle = idle_drive(items[i], model); !idle.empty()) faults.push_back({place, std::move(idle)});
     for (auto& experiment : found) {
       if (experiment->kind == identify::ExperimentKind::history && drive.is_harmonic() && !(drive.amplitude > 0.0))
         faults.push_back(

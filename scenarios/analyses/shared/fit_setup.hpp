@@ -44,6 +44,9 @@ struct Sought {
 /// "coulomb + viscous_power"
 [[nodiscard]] std::string laws_text(const identify::Rig& rig);
 
+/// What to tell of a drive that was sampled too coarsely for the straight lines between its samples.
+[[nodiscard]] std::vector<std::string> drive_warnings(const sim::Model& model);
+
 /// Experiments of all items; what cannot be used goes to `faults`, of item `index`.
 struct SetupFault {
   std::string path;  ///< below `analysis`

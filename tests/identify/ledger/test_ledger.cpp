@@ -256,3 +256,21 @@ TEST_CASE("At one frequency a wrong frequency and a further mode are named toget
   CHECK(ledger.is_violated(Assumption::one_mode));
   CHECK(holds_truth(ledger, 0.08, 2.842));
 }
+
+TEST_CASE("A zero of x that is off is named beside friction's symmetry, and the mean of both directions answers") {
+  int held = 0;
+  int named = 0;
+  constexpr int records = 6;
+  for (std::uint64_t seed = first_seed; seed < first_seed + records; ++seed) {
+    Measured m = measured(Kind::decay, seed);
+    for (double& x : m.record.histories[0].x) x += 3.0 * m.rig.x_f();
+    const Ledger ledger = ledger_of(m.record, m.constants);
+    CAPTURE(seed);
+    named += ledger.is_violated(Assumption::sensors) && ledger.is_violated(Assumption::symmetry) ? 1 : 0;
+    if (!ledger.joint || !ledger.joint->interval95) continue;
+    const ParameterIntervals& at = *ledger.joint->interval95;
+    held += at.zeta[0] <= m.rig.zeta && m.rig.zeta <= at.zeta[1] && at.F0[0] <= m.rig.F0 && m.rig.F0 <= at.F0[1];
+  }
+  CHECK(named >= 1);  // where it moves zeta or F0 by 2 % or more
+  CHECK(held >= records - 1);
+}

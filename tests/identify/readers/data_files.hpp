@@ -63,6 +63,7 @@ struct UniversalFunction {
   double start = 0.0, step = 1e-3;
   std::vector<double> values;
   int type = 1, abscissa = 17, kind = 2;  ///< response over time, real single precision
+  int node = 12;
 };
 
 template <typename... Arguments>
@@ -78,8 +79,8 @@ std::string print(const char* format, Arguments... arguments) {
 
 inline std::string header58(const UniversalFunction& f) {
   std::string text = print("%-80s\n", f.title.c_str()) + "NONE\n21-NOV-26 12:00:00\nNONE\nNONE\n";
-  text +=
-      print("%5d%10d%5d%10d %-10s%10d%4d %-10s%10d%4d\n", f.type, 1, 0, 0, f.entity.c_str(), 12, 3, "NONE", 0, 0);
+  text += print("%5d%10d%5d%10d %-10s%10d%4d %-10s%10d%4d\n", f.type, 1, 0, 0, f.entity.c_str(), f.node, 3, "NONE",
+                0, 0);
   text +=
       print("%10d%10d%10d%13.5E%13.5E%13.5E\n", f.kind, static_cast<int>(f.values.size()), 1, f.start, f.step, 0.0);
   text += print("%10d%5d%5d%5d %-20s %-20s\n", f.abscissa, 0, 0, 0, "Time", "s");

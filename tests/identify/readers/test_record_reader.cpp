@@ -230,6 +230,9 @@ TEST_CASE("Universal files: signals by name, label and kind") {
   UniversalFunction second{.title = "LVDT 2", .values = up};
   const std::string unnamed = uff58(first) + uff58(second);
   CHECK(mentions(refusal_of(unnamed), "nothing tells which of them is x"));
+  // Nor with one name at two nodes, as of an analyser that numbers its channels.
+  const UniversalFunction other{.values = up, .node = 13};
+  CHECK(mentions(refusal_of(uff58({.values = up}) + uff58(other)), "nothing tells which of them is x"));
   ReadOptions options{.name = "data.uff"};
   options.columns = {{"x", "LVDT 2"}, {"y", "1"}};
   options.units = {{"y", "cm"}};
@@ -315,4 +318,15 @@ TEST_CASE("Signals that drive nothing are refused") {
   CHECK(mentions(refused("t,y\n0,1\n"), "too few samples"));
   CHECK(mentions(refused("t,y\n0,1\n2,1\n1,2\n0.5,3\n"), "data.csv:4"));
   CHECK(mentions(refused("t,y\n0,1\n1,2\nt,y\n2,1\n3,2\n"), "several tests"));
+}
+
+TEST_CASE("What is said of a column that is not there is refused") {
+  ReadOptions options{.name = "data.csv"};
+  options.units = {{"phase", "deg"}};
+  const std::string text = "Y [mm],x [mm]\n1,2\n2,3\n";
+  CHECK_THROWS_AS(parse_record(text, options), core::InputError);
+  options.units = {{"x", "mm"}};
+  CHECK_NOTHROW(parse_record(text, options));
+  options.scales = {{"v", "2"}};
+  CHECK_THROWS_AS(parse_record(text, options), core::InputError);
 }

@@ -122,3 +122,36 @@ TEST_CASE("An angle without unit is refused in the words of angles") {
   CHECK(mentions(text, "--unit x=deg"));
   CHECK_FALSE(text.find("metres") != std::string::npos);
 }
+
+TEST_CASE("Numbers of samples for times, hertz for rad/s, and damping that hardly a rig has") {
+  std::mt19937_64 random(19);
+  Rig rig = random_rig(random, 0.95, 1.05);
+  while (rig.record.pairs[0].x < 8.0 * rig.record.pairs[0].Y) rig = random_rig(random, 0.95, 1.05);
+  const double half_period = pi / std::sqrt(rig.constants.stiffness / rig.constants.mass);
+  const auto faults_at = [&](double factor) {
+    Record record;
+    record.decay.emplace();
+    for (int i = 0; i < 8; ++i) {
+      record.decay->extremes.push_back((i % 2 == 0 ? 0.01 : -0.01) * std::pow(0.9, i));
+      record.decay->times.push_back(i * half_period * factor);
+    }
+    std::string text;
+    for (const core::Diagnostic& fault : gross_faults(record, rig.constants, {}, "data.csv"))
+      text += core::format(fault);
+    return text;
+  };
+  CHECK(faults_at(1.0).empty());
+  CHECK(faults_at(2.0).empty());  // damping may do that
+  CHECK(mentions(faults_at(500.0), "not numbers of samples"));
+  CHECK(mentions(faults_at(1.0 / 86400.0), "--unit t=day"));
+
+  Rig turned = rig;
+  turned.constants.frequency *= 2.0 * pi;
+  CHECK(mentions(faults_in(turned.record, turned.constants), "it may be in rad/s, not Hz"));
+  turned.constants.frequency = rig.constants.frequency / (2.0 * pi);
+  CHECK(mentions(faults_in(turned.record, turned.constants), "it may be in Hz, not rad/s"));
+
+  CHECK(odd_readings({.pairs = rig.record}, rig.constants).empty());
+  for (Pair& pair : rig.record.pairs) pair.Y *= 1e-4;
+  CHECK(odd_readings({.pairs = rig.record}, rig.constants).size() == 1);
+}

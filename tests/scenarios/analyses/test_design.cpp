@@ -1,8 +1,11 @@
 #include "scenarios/analyses/design.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdio>
+#include <fstream>
 #include <string>
 
+#include "core/diagnostics.hpp"
 #include "tests/scenarios/answers.hpp"
 
 using namespace dualdamp;
@@ -37,4 +40,23 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
     before = size;
   }
   CHECK(answer.at("advice") == candidates[0].at("text"));
+}
+
+TEST_CASE("design: data that state their own frequencies, and data without steady states", "[scenarios][design]") {
+  const auto write = [](const char* text) { std::ofstream("design_data.csv") << text; };
+  const auto read = [](const std::string& excitation) {
+    return scenarios::parse_scenario("schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m}\n" +
+                                         excitation + "analysis: {type: design, data: design_data.csv}\n",
+                                     "test.yaml");
+  };
+  write("frequency [Hz],Y [mm],x [mm]\n5.0,4,27.1\n5.0,5,37.3\n5.0,6,47.2\n5.0,7,57.3\n");
+  CHECK_NOTHROW(read(""));
+  // Stated twice, and differently: one of both would be ignored.
+  CHECK_THROWS_AS(read("excitation: {type: base_harmonic, frequency: 5.5 Hz}\n"), core::InputError);
+  CHECK_NOTHROW(read("excitation: {type: base_harmonic, frequency: 5.01 Hz}\n"));
+  write("Y [mm],x [mm]\n4,27.1\n5,37.3\n6,47.2\n7,57.3\n");
+  CHECK_THROWS_AS(read(""), core::InputError);
+  write("x [mm]\n30\n-28\n26\n-24\n22\n");
+  CHECK_THROWS_AS(read(""), core::InputError);
+  std::remove("design_data.csv");
 }

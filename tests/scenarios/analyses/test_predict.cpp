@@ -1,6 +1,8 @@
 #include "scenarios/analyses/predict.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -35,5 +37,67 @@ TEST_CASE("predict: a rig of too much friction is called wrong", "[scenarios][pr
   CHECK(wrong.at("wrong") == true);
   CHECK(wrong.at("error").get<double>() > 10.0 * wrong.at("attainable").get<double>());
   CHECK_THROWS_AS(parse_scenario(text("1 N", "covariance: [1e-6, 0]"), "test.yaml"), core::InputError);
+  std::remove(file.c_str());
+}
+
+TEST_CASE("predict: steady states, of which nothing is free", "[scenarios][predict]") {
+  const std::string file = "predict_pairs.csv";
+  {
+    // At resonance of zeta 0.05 and x_f 1 mm, x = (Y - 4/pi x_f)/(2 zeta) nearly.
+    std::ofstream out(file);
+    out << "Y [mm],x [mm]\n4,27.27\n5,37.27\n6,47.27\n7,57.27\n";
+  }
+  const scenarios::RunResult result = scenarios::run(parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 3.1623 N.s/m, friction: "
+      "{law: coulomb, kinetic: 1 N}}\nexcitation: {type: base_harmonic, frequency: natural}\n"
+      "analysis: {type: predict, data: predict_pairs.csv, free: kinetic, covariance: [1e-4]}\n",
+      "test.yaml"));
+  REQUIRE(result.failure.empty());
+  const nlohmann::json validation = testing::result_of(result).at("validation");
+  CHECK(validation.at("error").get<double>() < 0.01);
+  std::remove(file.c_str());
+}
+
+TEST_CASE("predict: a drive that the file holds and the model lacks", "[scenarios][predict]") {
+  const std::string file = "predict_driven.csv";
+  {
+    std::ofstream out(file);
+    out << "t [s],y [mm],x [mm]\n";
+    for (int i = 0; i < 200; ++i)
+      out << 0.01 * i << ',' << std::cos(0.3 * i) << ',' << 5.0 * std::sin(0.3 * i) << '\n';
+  }
+  const std::string system =
+      "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 3 N.s/m, friction: {law: coulomb, "
+      "kinetic: 1 N}}\n";
+  try {
+    static_cast<void>(
+        scenarios::run(parse_scenario(system + "analysis: {type: predict, data: " + file + "}\n", "a.yaml")));
+    FAIL("accepted");
+  } catch (const core::InputError& error) {
+    CHECK(std::string(error.what()).find("nothing drives the model") != std::string::npos);
+  }
+  CHECK_THROWS_AS(parse_scenario("schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, friction: {law: "
+                                 "coulomb}}\nanalysis: {type: fit, data: " +
+                                     file + "}\n",
+                                 "b.yaml"),
+                  core::InputError);
+  // The same readings count once, and do not predict themselves.
+  const std::string fit =
+      "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, friction: {law: coulomb}}\nexcitation: {type: "
+      "measured_base, file: " +
+      file + ", column: y}\nanalysis: {type: fit, ";
+  CHECK_NOTHROW(parse_scenario(fit + "data: " + file + "}\n", "d.yaml"));
+  CHECK_THROWS_AS(parse_scenario(fit + "data: [" + file + ", " + file + "]}\n", "e.yaml"), core::InputError);
+  CHECK_THROWS_AS(parse_scenario(fit + "data: " + file + ", validate: " + file + "}\n", "f.yaml"),
+                  core::InputError);
+  // Lines between 21 samples in a period are 0.75 % off it.
+  const scenarios::RunResult lines =
+      scenarios::run(parse_scenario(system + "excitation: {type: measured_base, file: " + file +
+                                        ", column: y}\nanalysis: {type: predict, data: " + file + "}\n",
+                                    "c.yaml"));
+  REQUIRE(lines.failure.empty());
+  const auto& warnings = lines.warnings;
+  CHECK(std::ranges::any_of(
+      warnings, [](const std::string& w) { return w.find("interpolation: cubic") != std::string::npos; }));
   std::remove(file.c_str());
 }
