@@ -223,6 +223,8 @@ Branch Continuation::run() {
       next = std::move(last);
     }
     record(node, *next);
+    if (left && next->parameter == from_ && from_ != to_)
+      return ended(BranchEnd::range, "the branch turns back and leaves the range where it began");
     if (left) return std::move(branch_);
     node = std::move(*next);
     step = std::min(1.5 * step, options_.largest_step);

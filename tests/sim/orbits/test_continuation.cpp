@@ -10,6 +10,7 @@
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/free_play.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
 using namespace dualdamp;
@@ -138,6 +139,22 @@ TEST_CASE("over decades of frequency a branch passes every resonance, and turns 
   }
   CHECK(ascends);
   CHECK(farthest < 1.05);
+}
+
+TEST_CASE("a branch that turns back and leaves the range where it began says so") {
+  // An asymmetric orbit meets its mirror image, and the branch goes on along that, back to smaller amplitudes.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.0706985835};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.141331223, .phase = 0.227782959};
+  model.friction.emplace_back(friction::FreePlay(0.389305694, 0.389305694, 0.402640675));
+  const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.506097402, 71.5044366);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::range);
+  CHECK(branch.points.back().parameter == branch.points.front().parameter);
+  CHECK(branch.points.back().state.peak == Approx(-branch.points.front().state.trough));
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings.front().find("leaves the range where it began") != std::string::npos);
 }
 
 TEST_CASE("the response of a bilinear spring folds; the branch between is unstable") {
