@@ -336,7 +336,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   describe_step();
   if (tracking_) {
     track_step();
-    if (found && !at_once) {
+    if (found && (!at_once || coincides(hit))) {
       carry_to_event(hit.watch);
     } else if ((is_over && by_schedule) || (at_once && !follows_event_)) {
       // A guard that an interval finds violated at its begin was not crossed: nothing delays that.

@@ -108,6 +108,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] double level_at_start(const Watch& watch) const;
   [[nodiscard]] bool goes_negative(std::size_t watch, double value, double level) const;
   [[nodiscard]] bool find_violated(Hit& hit) const;
+  [[nodiscard]] bool coincides(const Hit& hit) const;
   [[nodiscard]] bool find_hit(Hit& hit);
   [[nodiscard]] double first_negative(std::size_t watch);
   /// Three points of the last step, as parts of it, and a guard there: the lowest in the middle.

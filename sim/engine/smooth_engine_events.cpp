@@ -193,6 +193,15 @@ bool SmoothEngine::find_violated(Hit& hit) const {
   return false;
 }
 
+/// Whether the event at once is none that the last one caused: two laws reach their guards at one instant.
+bool SmoothEngine::coincides(const Hit& hit) const {
+  const Watch& watch = watches_[hit.watch];
+  const auto* guard = std::get_if<LawGuard>(&watch.ending);
+  if (guard == nullptr || !(landing_.error > 0.0) || guard->law == landing_.law) return false;
+  evaluate_guards(end_, local_time_, guard_values_);
+  return guard_values_[hit.watch] >= -level_at_start(watch);
+}
+
 /// The first crossing on the step taken last.
 bool SmoothEngine::find_hit(Hit& hit) {
   probe_.resize(end_.size());
