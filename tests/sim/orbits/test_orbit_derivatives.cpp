@@ -130,6 +130,27 @@ TEST_CASE("two contacts that let go at one instant pass a perturbation on each a
   }
 }
 
+TEST_CASE("the order of laws in parallel does not matter to the monodromy matrix") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 7.0};
+  add_law(model, "contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", 300.0}, {"contact_damping", 5.0}});
+  add_law(model, "coulomb", {{"kinetic", 1.0}});
+  sim::Model reversed = model;
+  std::ranges::reverse(reversed.friction);
+  const sim::SteadyState first = sim::steady_state(model);
+  const sim::SteadyState second = sim::steady_state(reversed);
+  REQUIRE(first.outcome.ok());
+  REQUIRE(second.outcome.ok());
+  REQUIRE(first.multipliers.size() == second.multipliers.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < first.multipliers.size(); ++i) {
+    CHECK(std::abs(first.multipliers[i] - second.multipliers[i]) < 1e-9);
+    largest = std::max(largest, std::abs(first.multipliers[i]));
+  }
+  CHECK(largest > 1e-3);
+}
+
 TEST_CASE("monodromy matrices of random systems are the difference quotients of their period maps") {
   test::Random random(20261122);
   int columns = 0;
