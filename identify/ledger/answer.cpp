@@ -121,8 +121,10 @@ std::string why_preferred(const Identification& all) {
   if (rivals == 0 && usable > 1)
     text += ", and " + std::to_string(usable) +
             " methods agree; the record has no more readings than parameters, so there is no interval";
-  text +=
-      rivals > 1 ? ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest" : "";
+  if (rivals > 1 && all.estimates[*all.answer].method == "joint_fit")
+    text += ", and it has all data; a narrower interval beside it is narrower by chance";
+  else if (rivals > 1)
+    text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
   if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
   return text;

@@ -22,6 +22,17 @@ function scenarioBox({ scenario }) {
   return make("section", {}, make("h2", {}, "The fitted rig as a scenario"), make("pre", { "data-path": "scenario" }, scenario));
 }
 
-views.fit = { charts: () => [...overlays("fit", "fitted"), ...overlays("prediction", "predicted")], after: (result) => [scenarioBox(result)] };
+/** What was sought, first of all: values with their intervals, and how large the residuals are. */
+function fittedNumbers({ parameters, residual }) {
+  const range = ([low, high]) => (low === null || high === null ? "–" : `${short(low, 5)} to ${short(high, 5)}`);
+  const rows = parameters.map((one, i) => [one.name,
+    { text: make("span", { "data-path": `parameters[${i}].value`, "data-value": JSON.stringify(one.value) }, short(one.value), make("small", { class: "under" }, range(one.interval95))), class: "text" },
+    { text: one.unit, class: "text" }, { text: one.reason ?? "", class: "long" }]);
+  const noise = residual.noise_units === null ? "" : `, ${short(residual.noise_units, 3)} times the noise`;
+  return [make("h2", {}, "Fitted numbers"), grid(["", "value (95 %)", "unit", ""], rows, { caption: "Fitted numbers" }),
+    make("p", { class: "soft" }, `Residuals: ${short(residual.rms, 4)} ${residual.unit}${noise}.`)];
+}
+
+views.fit = { shown: ["scenario", "residual"], before: fittedNumbers, charts: () => [...overlays("fit", "fitted"), ...overlays("prediction", "predicted")], after: (result) => [scenarioBox(result)] };
 
 views.predict = { charts: () => overlays("prediction", "predicted") };

@@ -51,8 +51,11 @@ const standings = {
   violated: ['✗ violated', 'bad'],
   untested: ['? untested', 'soft']
 };
-const shareOf = (value) =>
-    (value === null || value === undefined ? null : `${value < 0 ? '−' : '+'}${short(Math.abs(100 * value), 2)} %`);
+const shareOf = (value) => {
+  if (value === null || value === undefined) return null;
+  // What rounding leaves of nothing is nothing.
+  return Math.abs(value) < 1e-9 ? '0 %' : `${value < 0 ? '−' : '+'}${short(Math.abs(100 * value), 2)} %`;
+};
 
 /** One line of the ledger: it wraps on a narrow screen instead of running out of it. */
 function ledgerLine(entry) {

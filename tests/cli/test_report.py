@@ -54,6 +54,7 @@ EXAMPLES = {
     "identify_xy_curve": 3,
     "identify_free_decay": 3,
     "formula": 0,
+    "fit": 2,
     "sweep": 4,
     "sweep_curves": 1,
     "stepped_response": 3,
@@ -245,6 +246,14 @@ class Page(unittest.TestCase):
         wide = '[...document.querySelectorAll(".scroll")].filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth).length'
         self.assertEqual(self.ask("identify_xy_curve", wide, size="1280,900"), 0)
         self.assertLessEqual(self.ask("identify_xy_curve", "document.documentElement.scrollWidth - innerWidth", size="390,800"), 0)
+
+    def test_a_fit_opens_with_its_numbers(self):
+        """Not with the text of the fitted scenario in a card, and the residual in the unit that stands beside it."""
+        head = self.ask("fit", '[...document.querySelectorAll("h2")].map((e) => e.textContent)')
+        self.assertEqual(head[0], "Fitted numbers")
+        first = self.ask("fit", 'document.querySelector("[data-path=\'parameters[0].value\']").textContent')
+        self.assertRegex(first, r"^1\.000\d+.* to ")
+        self.assertEqual(self.ask("fit", 'document.querySelectorAll("dl [data-path=scenario]").length'), 0)
 
     def test_paper_is_light_and_says_where_the_numbers_come_from(self):
         light, open_, ground = self.ask("simulate", """(() => {
