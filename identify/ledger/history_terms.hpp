@@ -20,6 +20,8 @@ struct HistoryTerm {
   Assumption assumption;
   std::string_view test;
   double (*force)(const SampledOscillator::Instant& at, const MotionScale& scale);
+  int sign = 0;            ///< of the coefficient in such a departure; 0: either
+  bool one_sided = false;  ///< damping that one direction has more, and the other less
 };
 
 /// The terms, by assumption.

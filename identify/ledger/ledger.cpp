@@ -91,9 +91,14 @@ class Writer {
     entry.F0_change = scale_.F0(test.F0_change);
   }
 
-  /// No single F0 describes parts of the record that differ, though their mean stays.
+  /// By how much a part of the record is off the mean of all.
+  [[nodiscard]] double unevenness(const RelaxationTest& test) const {
+    return std::max(std::abs(scale_.F0(test.F0_part)), std::abs(scale_.zeta(test.zeta_part)));
+  }
+
+  /// No single zeta and F0 describe parts of the record that differ, though their mean stays.
   [[nodiscard]] bool is_uneven(const RelaxationTest& test) const {
-    return std::abs(scale_.F0(test.F0_part)) >= options_.least_change;
+    return unevenness(test) >= options_.least_change;
   }
 
   [[nodiscard]] bool matters(const RelaxationTest& test) const {
@@ -114,8 +119,8 @@ class Writer {
           harms ? alternatives(departure, test)
                 : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
       if (harms && is_uneven(test))
-        entry.reason +=
-            "; F0 of a part of the record is off its mean by " + in_percent(std::abs(scale_.F0(test.F0_part)));
+        entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
+                        " of a part of the record is off its mean by " + in_percent(unevenness(test));
       if (harms) named.push_back(assumption_of(test));
     }
     if (!named.empty()) ledger.departures.push_back(std::move(named));
@@ -218,7 +223,7 @@ void widen(std::array<double, 2>& interval, const std::array<double, 2>& other) 
 /// Is it a term of friction that a test of its own would reject, at a level at which the family of all tests must
 /// allow for chance?
 bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
-  constexpr double level = 0.15;
+  constexpr double level = 0.25;
   return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
 }
 
@@ -296,9 +301,10 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Writer writer(model, tests, options);
   writer.write(ledger);
   writer.add_sight(ledger);
-  // Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0.
+  // Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0. Those of both
+  // directions have a mean.
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
-    return std::ranges::any_of(named, is_of_friction);
+    return std::ranges::any_of(named, [](Assumption a) { return is_of_friction(a) && a != Assumption::symmetry; });
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
   if (is_friction || !has_spring) return ledger;
