@@ -84,7 +84,8 @@ class SteadyStates {
 
   [[nodiscard]] std::vector<Relaxation> relaxations() const {
     std::vector<Relaxation> list;
-    for (const AmplitudeTerm* term : terms_) list.push_back({term->assumption, std::string(term->test)});
+    for (const AmplitudeTerm* term : terms_)
+      list.push_back({term->assumption, std::string(term->test), term->sign});
     for (int j = 0; j < contrasts(); ++j)
       list.push_back({Assumption::stationarity, "friction force of sweep " + std::to_string(j + 1) + " free"});
     if (has_trend()) list.push_back({Assumption::stationarity, "friction force that drifts from sweep to sweep"});
@@ -382,12 +383,14 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, const Taken& rel
   for (Reading& reading : model.readings)
     if (reading.kind == ReadingKind::amplitude) reading.per_deviation *= unit;
   model.base = fit.rows.base;
+  model.deviance = fit.deviance;
   model.relaxations = states.relaxations();
   model.relaxed = fit.rows.relaxed;
   leave_out_unseen(states, fit.at.friction, relaxed, model);
   model.spent = states.with_phases() ? 1.0 : 0.0;
   model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
-  model.refit = [states, begin = fit.at.friction, hidden = model.hidden, unit, stated](const Taken& taken) {
+  model.refit = [states, begin = start_beside(fit.at.friction, states.points()), hidden = model.hidden, unit,
+                 stated](const Taken& taken) {
     const bool second_order =
         std::ranges::any_of(taken, [&](std::size_t j) { return std::ranges::find(hidden, j) != hidden.end(); });
     Fit best = best_fit(states, begin, taken);

@@ -49,6 +49,15 @@ PlainFriction first_guess(const std::vector<SteadyPoint>& points) {
   return best;
 }
 
+PlainFriction start_beside(const PlainFriction& plain, const std::vector<SteadyPoint>& points) {
+  const auto gain = [](const SteadyPoint& point) { return point.x / point.Y; };
+  const SteadyPoint& most = *std::ranges::max_element(points, {}, gain);
+  const double viscous = most.Y / (2.0 * most.x);
+  constexpr double edge = 0.1;
+  if (plain.zeta > edge * viscous && plain.x_f > 0.0) return plain;
+  return {0.5 * viscous, 0.5 * std::numbers::pi / 4.0 * most.Y};
+}
+
 namespace {
 
 template <auto force>
@@ -93,8 +102,8 @@ constexpr std::array<AmplitudeTerm, 13> terms = {{
     {friction_velocity, "quadratic term over speed", false, with_force<drag>},
     {friction_velocity, "cubic term over speed", false, with_force<cubic_damping>},
     {friction_velocity, "force at low speed", false, with_force<low_speed>},
-    {friction_displacement, "deflection before sliding", false, with_force<presliding>},
-    {friction_displacement, "restoring force before sliding", false, with_force<presliding_stiffness>},
+    {friction_displacement, "deflection before sliding", false, with_force<presliding>, -1},
+    {friction_displacement, "restoring force before sliding", false, with_force<presliding_stiffness>, 1},
     {friction_displacement, "slope over position", true, with_force<position_slope>},
 }};
 

@@ -40,11 +40,16 @@ struct SteadyPoint {
 /// Where a fit begins: the best of a grid in zeta and x_f.
 [[nodiscard]] PlainFriction first_guess(const std::vector<SteadyPoint>& points);
 
+/// Where fits with a relaxation begin: at the plain fit, but that may have ended where the plain model is absurd,
+/// far from all others. Then half of the drive of the largest gain is viscous, and half is Coulomb's.
+[[nodiscard]] PlainFriction start_beside(const PlainFriction& plain, const std::vector<SteadyPoint>& points);
+
 struct AmplitudeTerm {
   Assumption assumption;
   std::string_view test;
   bool several_frequencies;  ///< at one frequency it is another term, or none
   std::complex<double> (*drive)(const PlainFriction& friction, double x, double r, double g);
+  int sign = 0;  ///< of g in such a departure; 0: either
 };
 
 /// A natural frequency other than stated, or a forcing frequency: alike but for F0 = k x_f.

@@ -50,6 +50,7 @@ struct DecayTerm {
   std::string_view test;
   double (*loss)(const Swing& swing);
   double (*lasting)(double X);
+  int sign = 0;  ///< of the coefficient in such a departure; 0: either
 };
 
 double no_loss(const Swing& /*swing*/) { return 0.0; }
@@ -79,8 +80,8 @@ constexpr std::array<DecayTerm, 9> terms = {{
     {friction_velocity, "quadratic term over speed", square, no_lasting},
     {friction_velocity, "cubic term over speed", cube, no_lasting},
     {friction_velocity, "force at low speed", at_low_speed, no_lasting},
-    {friction_displacement, "deflection before sliding", deflection, no_lasting},
-    {friction_displacement, "restoring force before sliding", no_loss, stiff_contact},
+    {friction_displacement, "deflection before sliding", deflection, no_lasting, -1},
+    {friction_displacement, "restoring force before sliding", no_loss, stiff_contact, 1},
     {symmetry, "damping of its own in each direction", one_sided, no_lasting},
 }};
 
@@ -179,11 +180,19 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
   model.relaxed.resize(model.residuals.size(), at.g.size());
   for (Eigen::Index j = 0; j < at.g.size(); ++j) {
     const DecayTerm& term = *setting.terms[static_cast<std::size_t>(j)];
-    model.relaxations.push_back({term.assumption, std::string(term.test)});
+    model.relaxations.push_back({term.assumption, std::string(term.test), term.sign});
     model.relaxed.col(j) = slope([&](Decay& decay, double h) { decay.g[j] += h; });
     // At a constant F0 = k x_f.
     if (term.test == stiffness_free) model.relaxed.col(j) += 2.0 * at.x_f * model.base.col(1);
   }
+  // What takes g X from the swings of one side, and gives it to those of the other, is a damping of its own in
+  // each.
+  const double root = (1.0 - at.zeta) * (1.0 + at.zeta);
+  const double decrement = std::exp(-std::numbers::pi * at.zeta / std::sqrt(root));
+  model.zeta_parts = Eigen::VectorXd::Zero(at.g.size());
+  for (Eigen::Index j = 0; j < at.g.size(); ++j)
+    if (setting.terms[static_cast<std::size_t>(j)]->assumption == symmetry)
+      model.zeta_parts[j] = std::pow(root, 1.5) / (std::numbers::pi * decrement);
   const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
   model.scale_freedom = amplitudes.freedom;
   add_readings(model, ReadingKind::extreme, setting.count, amplitudes.deviation * setting.unit);

@@ -123,8 +123,13 @@ class Histories {
     model.constants = {force.m, force.k, constants_.frequency};
     model.scale_freedom = static_cast<double>(model.residuals.size());
     model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ways_.size()));
-    for (std::size_t j = 0; j < ways_.size(); ++j)
-      if (ways_[j].kind == Way::Kind::friction_of_test) model.F0_parts[static_cast<Eigen::Index>(j)] = 1.0;
+    model.zeta_parts = model.F0_parts;
+    for (std::size_t j = 0; j < ways_.size(); ++j) {
+      const auto own = static_cast<Eigen::Index>(j);
+      if (ways_[j].kind == Way::Kind::friction_of_test) model.F0_parts[own] = 1.0;
+      if (ways_[j].term != nullptr && ways_[j].term->one_sided)
+        model.zeta_parts[own] = unit_force_ / scale_.speed / (2.0 * std::sqrt(force.m * force.k));
+    }
     return model;
   }
 
@@ -206,7 +211,7 @@ class Histories {
   }
 
   void add_relaxation(Assumption assumption, std::string test, const Way& way) {
-    relaxations_.push_back({assumption, std::move(test), way.term != nullptr && way.term->as_zero});
+    relaxations_.push_back({assumption, std::move(test), way.term == nullptr ? 0 : way.term->sign});
     ways_.push_back(way);
   }
 

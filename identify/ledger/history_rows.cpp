@@ -79,8 +79,11 @@ Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, doubl
   constexpr double least = 3.0;
   Eigen::Index last = x.size();
   while (last > 0 && !(std::abs(x[last - 1]) > least * x_f)) --last;
-  // A vibration that is small from the start is all there is.
-  return last < x.size() / 8 ? x.size() : last;
+  // A vibration that is small from the start is all there is; a long record of the rest after it changes nothing.
+  constexpr int fewest = 4;
+  int crossings = 0;
+  for (Eigen::Index i = 1; i < last; ++i) crossings += x[i - 1] * x[i] < 0.0 ? 1 : 0;
+  return crossings < fewest ? x.size() : last;
 }
 
 double noise_of(const std::vector<double>& signal) {

@@ -44,10 +44,10 @@ constexpr std::array<HistoryTerm, 12> terms = {{
     {friction_velocity, "quadratic term over speed", drag},
     {friction_velocity, "cubic term over speed", cubic_damping},
     {friction_velocity, "force at low speed", low_speed},
-    {friction_displacement, "friction that builds up after a reversal", presliding},
+    {friction_displacement, "friction that builds up after a reversal", presliding, 1},
     {friction_displacement, "slope over position", position_slope},
-    {symmetry, "friction force of its own in each direction", one_sided_friction, true},
-    {symmetry, "damping of its own in each direction", one_sided_damping},
+    {symmetry, "friction force of its own in each direction", one_sided_friction},
+    {symmetry, "damping of its own in each direction", one_sided_damping, 0, true},
 }};
 
 }  // namespace

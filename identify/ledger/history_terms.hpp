@@ -20,7 +20,8 @@ struct HistoryTerm {
   Assumption assumption;
   std::string_view test;
   double (*force)(const SampledOscillator::Instant& at, const MotionScale& scale);
-  bool as_zero = false;  ///< a constant: to a linear spring what a zero of x is
+  int sign = 0;            ///< of the coefficient in such a departure; 0: either
+  bool one_sided = false;  ///< damping that one direction has more, and the other less
 };
 
 /// The terms, by assumption.

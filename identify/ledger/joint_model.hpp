@@ -20,8 +20,7 @@ namespace dualdamp::identify {
 struct Relaxation {
   Assumption assumption = Assumption::constants;
   std::string test;  ///< "natural frequency free", ...: what is set free
-  bool as_zero =
-      false;  ///< of friction, but to the motion what a zero of x is: F0 stays the mean of both directions
+  int sign = 0;      ///< that the coefficient of such a departure has; 0: either
 };
 
 /// What was read.
@@ -44,11 +43,13 @@ struct JointModel {
   /// By how much the friction force of a part of the record is off the mean, F0, for a unit of each relaxation [N];
   /// empty: none sets one free.
   Eigen::VectorXd F0_parts = {};
+  Eigen::VectorXd zeta_parts = {};  ///< the same of the damping ratio
   /// Relaxations without a column, which change the record in the second order only: not tested, and fitted where a
   /// departure is to be explained.
   std::vector<std::size_t> hidden = {};
   /// Degrees of freedom that went into the residuals beside the columns: deviations of channels.
   double spent = 0.0;
+  double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
   ParameterSet value;          ///< of the fit
   KnownConstants constants;    ///< as stated, or as fitted

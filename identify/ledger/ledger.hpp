@@ -7,7 +7,7 @@
 /// assumption whose relaxation explains it best, and to those that explain it as well. It violates the assumption
 /// where it moves zeta or F0 by `least_change` or more; a smaller one is told and does no harm.
 ///
-/// A term of friction that a test of its own would reject at 15 %, though the family must allow for chance, is not
+/// A term of friction that a test of its own would reject at 25 %, though the family must allow for chance, is not
 /// charged: the intervals of the joint estimate reach over the estimate with that term free.
 ///
 /// Cost: that of the joint model; a history of 20,000 samples takes 0.2 s.

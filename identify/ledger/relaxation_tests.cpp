@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/random.hpp"
@@ -69,29 +70,56 @@ Eigen::VectorXd statistics(const Eigen::VectorXd& along, double squares, double 
 
 double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, freedom); }
 
-/// By how much each test may be stricter than others, as a factor on |t|. Where the least change of zeta or F0 that
-/// matters lies many standard errors off, a test sees it at a strict level as well; the level that it does not use
-/// is left to those that need it.
-Eigen::VectorXd strictness_of(const JointModel& model, const Projection& projection, double deviation,
-                              double least_change) {
-  constexpr double most = 1.6;
-  constexpr double usual = 3.0;  // |t| that is significant for a family
-  constexpr double seen = 2.0;   // and that it reaches beyond with a probability of 0.98
-  Eigen::VectorXd strictness = Eigen::VectorXd::Ones(projection.lengths.size());
-  for (Eigen::Index j = 0; j < strictness.size(); ++j) {
-    const double unit = deviation / projection.lengths[j];
-    const double zeta = std::abs(projection.shifts(0, j)) * unit / std::abs(model.value.zeta);
+/// The share of the level that each test gets, as a weight: the standard error of what its departure does to zeta
+/// or F0, relative. What is told exactly is found at a strict level as well, and leaves the level to the tests that
+/// need it.
+Eigen::VectorXd weights_of(const JointModel& model, const Projection& projection, double deviation,
+                           double least_change) {
+  constexpr double sharp = 0.15;  // times the least change: it lies seven standard errors off
+  constexpr double blunt = 15.0;  // what only a far larger departure shows
+  const auto part = [](const Eigen::VectorXd& parts, Eigen::Index j) { return parts.size() > 0 ? parts[j] : 0.0; };
+  Eigen::VectorXd weights(projection.lengths.size());
+  for (Eigen::Index j = 0; j < weights.size(); ++j) {
     const auto own = static_cast<Eigen::Index>(projection.indices[static_cast<std::size_t>(j)]);
-    const double part = model.F0_parts.size() > 0 ? model.F0_parts[own] : 0.0;
-    const double F0 = std::max(std::abs(projection.shifts(1, j)), part) * unit / std::abs(model.value.F0);
-    const double errors = least_change / std::max({zeta, F0, 1e-12});
-    if (std::isfinite(errors)) strictness[j] = std::clamp((errors - seen) / usual, 1.0, most);
+    const double unit = deviation / projection.lengths[j];
+    const double zeta = std::max(std::abs(projection.shifts(0, j)), std::abs(part(model.zeta_parts, own)));
+    const double F0 = std::max(std::abs(projection.shifts(1, j)), std::abs(part(model.F0_parts, own)));
+    const double change = unit * std::max(zeta / std::abs(model.value.zeta), F0 / std::abs(model.value.F0));
+    weights[j] = std::isfinite(change) ? std::clamp(change, sharp * least_change, blunt * least_change)
+                                       : blunt * least_change;
   }
-  return strictness;
+  return weights;
 }
 
-/// The largest |t| over its strictness of draws under the base model, ascending.
-std::vector<double> largest_statistics(const Projection& projection, const Eigen::VectorXd& strictness) {
+/// Is the estimate of a coefficient one that its departure can have?
+bool is_possible(const JointModel& model, std::size_t relaxation, double estimate) {
+  const int sign = model.relaxations[relaxation].sign;
+  return sign == 0 || sign * estimate > 0.0;
+}
+
+/// What the tests of a record are compared by: twice the gain of the log-likelihood and twice the log of the
+/// weight.
+class Scores {
+ public:
+  Scores(Eigen::VectorXd weights, double freedom) : weights_(std::move(weights)), freedom_(freedom) {}
+
+  [[nodiscard]] double operator()(Eigen::Index j, double t) const {
+    return freedom_ * std::log1p(t * t / (freedom_ - 1.0)) + 2.0 * std::log(weights_[j]);
+  }
+
+  /// The |t| that a test needs for a score.
+  [[nodiscard]] double t_for(Eigen::Index j, double score) const {
+    const double gain = std::max(0.0, score - 2.0 * std::log(weights_[j]));
+    return std::sqrt((freedom_ - 1.0) * std::expm1(gain / freedom_));
+  }
+
+ private:
+  Eigen::VectorXd weights_;
+  double freedom_;
+};
+
+/// The largest score of draws under the base model, ascending.
+std::vector<double> largest_scores(const JointModel& model, const Projection& projection, const Scores& scores) {
   constexpr std::size_t draws = 2000;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projection.unit);
   const auto rank = std::min<Eigen::Index>(qr.rank(), static_cast<Eigen::Index>(projection.scale_freedom));
@@ -114,21 +142,25 @@ std::vector<double> largest_statistics(const Projection& projection, const Eigen
       squares += beside * std::max(0.0, root * root * root);
     }
     const Eigen::VectorXd t = statistics(directions * z, squares, projection.scale_freedom);
-    largest.push_back(t.cwiseQuotient(strictness).cwiseAbs().maxCoeff());
+    double most = -std::numeric_limits<double>::infinity();
+    for (Eigen::Index j = 0; j < t.size(); ++j)
+      if (is_possible(model, projection.indices[static_cast<std::size_t>(j)], t[j]))
+        most = std::max(most, scores(j, t[j]));
+    largest.push_back(most);
   }
   std::ranges::sort(largest);
   return largest;
 }
 
-double family_p_value(double t, double strictness, double freedom, const std::vector<double>& largest) {
-  const auto above = largest.end() - std::ranges::lower_bound(largest, std::abs(t) / strictness);
+double family_p_value(const Scores& scores, Eigen::Index j, double t, double freedom,
+                      const std::vector<double>& largest) {
+  const auto above = largest.end() - std::ranges::lower_bound(largest, scores(j, t));
   constexpr int enough = 20;  // fewer of the draws say little
   const auto draws = static_cast<double>(largest.size());
   if (above >= enough) return static_cast<double>(above) / draws;
   // Beyond them the tail falls as that of one test.
-  const double last = largest[largest.size() - enough];
-  const double tail = two_sided(std::abs(t) / strictness, freedom) / two_sided(last, freedom);
-  return enough / draws * std::min(1.0, tail);
+  const double last = scores.t_for(j, largest[largest.size() - enough]);
+  return enough / draws * std::min(1.0, two_sided(t, freedom) / two_sided(last, freedom));
 }
 
 /// Tests of all relaxations beside those taken.
@@ -140,22 +172,27 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   const Eigen::VectorXd along = projection.unit.transpose() * projection.residuals;
   const Eigen::VectorXd t = statistics(along, squares, projection.freedom);
   const double deviation = std::sqrt(squares / projection.freedom);
-  const Eigen::VectorXd strictness = strictness_of(model, projection, deviation, least_change);
-  const std::vector<double> largest = largest_statistics(projection, strictness);
+  const Scores scores(weights_of(model, projection, deviation, least_change), projection.scale_freedom);
+  const std::vector<double> largest = largest_scores(model, projection, scores);
   for (Eigen::Index j = 0; j < t.size(); ++j) {
     RelaxationTest test;
     test.index = projection.indices[static_cast<std::size_t>(j)];
     test.t = t[j];
-    test.p_value = family_p_value(t[j], strictness[j], projection.scale_freedom - 1.0, largest);
-    test.p_alone = two_sided(t[j], projection.scale_freedom - 1.0);
-    const double rows = projection.freedom + static_cast<double>(model.base.cols());
-    test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
+    if (is_possible(model, test.index, t[j])) {
+      const double sides = model.relaxations[test.index].sign == 0 ? 1.0 : 0.5;
+      test.p_value = family_p_value(scores, j, t[j], projection.scale_freedom - 1.0, largest);
+      test.p_alone = sides * two_sided(t[j], projection.scale_freedom - 1.0);
+      const double rows = projection.freedom + static_cast<double>(model.base.cols());
+      test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
+    }
     const double gain = along[j] / projection.lengths[j];
     const double error =
         std::sqrt((squares - along[j] * along[j]) / (projection.freedom - 1.0)) / projection.lengths[j];
     test.zeta_change = projection.shifts(0, j) * gain;
     test.F0_change = projection.shifts(1, j) * gain;
-    if (model.F0_parts.size() > 0) test.F0_part = gain * model.F0_parts[static_cast<Eigen::Index>(test.index)];
+    const auto own = static_cast<Eigen::Index>(test.index);
+    if (model.F0_parts.size() > 0) test.F0_part = gain * model.F0_parts[own];
+    if (model.zeta_parts.size() > 0) test.zeta_part = gain * model.zeta_parts[own];
     test.zeta_blind = found_at * std::abs(projection.shifts(0, j)) * error;
     test.F0_blind = found_at * std::abs(projection.shifts(1, j)) * error;
     tests.push_back(test);
@@ -164,13 +201,13 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
 }
 
 /// Relaxations that may explain the departure, best first: two of an assumption at most. Far from the fit one that
-/// explains half as much as the best may be it, and a constant that explains little: a motion out of step with the
-/// model's is far away.
+/// explains half as much as the best may be it, and a constant in any case: a motion out of step with the model's
+/// is far away.
 std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests) {
   std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
   std::vector<RelaxationTest> list;
   for (const RelaxationTest& test : tests) {
-    const double share = model.relaxations[test.index].assumption == Assumption::constants ? 0.05 : 0.5;
+    const double share = model.relaxations[test.index].assumption == Assumption::constants ? 0.0 : 0.5;
     const double least = std::min(tests.front().explained - equal_likelihood, share * tests.front().explained);
     if (test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) continue;
     const Assumption assumption = model.relaxations[test.index].assumption;
@@ -191,7 +228,7 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
 /// What the model fitted with a candidate beside those taken leaves to the others.
 struct Rest {
   double p_value = 1.0;
-  double largest = 0.0;
+  double misfit = 0.0;  ///< of the fit; where its likelihood is not known, what one more relaxation would gain
   ParameterSet value;
 };
 
@@ -202,8 +239,9 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
   rest.value = fitted.value;
   for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken), least_change)) {
     rest.p_value = std::min(rest.p_value, test.p_value);
-    rest.largest = std::max(rest.largest, test.explained);
+    rest.misfit = std::max(rest.misfit, test.explained);
   }
+  if (!std::isnan(fitted.deviance)) rest.misfit = fitted.deviance;
   return rest;
 }
 
@@ -227,13 +265,13 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < list.size(); ++i)
-    if (!is_hidden(i) && rests[i].largest < rests[best].largest - equal_likelihood) best = i;
+    if (!is_hidden(i) && rests[i].misfit < rests[best].misfit - equal_likelihood) best = i;
   Departure departure{{list[best]}};
   const Assumption charged = model.relaxations[list[best].index].assumption;
   const bool of_friction = charged == Assumption::friction_velocity || charged == Assumption::friction_displacement;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (is_hidden(i) && !of_friction) continue;
-    const bool as_well = rests[i].largest <= rests[best].largest + equal_likelihood &&
+    const bool as_well = rests[i].misfit <= rests[best].misfit + equal_likelihood &&
                          (rests[i].p_value >= family_level || rests[best].p_value < family_level);
     if (i != best && as_well) departure.explanations.push_back(list[i]);
   }

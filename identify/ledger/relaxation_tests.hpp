@@ -4,9 +4,10 @@
 /// The t statistic of a relaxation is that of its coefficient beside the base parameters. Statistics of one record
 /// are correlated, so the family is controlled by the distribution of their maximum under the base model, which is
 /// simulated with the correlations as they are (westfall1993): the family-wise p-value of a test is how often the
-/// maximum is as large. A test that would see all that matters at a far stricter level is held to one: its |t|
-/// counts divided by up to 1.6, and the level that it leaves is that of the tests that need it. Where one is below
-/// the level, the relaxation that explains most is taken into the model and the others are tested again beside it,
+/// maximum is as large. The level is shared out by weights, the standard errors of what the departures do to zeta
+/// or F0 (genovese2006): a test that tells its departure exactly is held to a stricter level, and what it leaves is
+/// that of the tests that need it. A departure that has but one sign is tested on that side. Where one is below the
+/// level, the relaxation that explains most is taken into the model and the others are tested again beside it,
 /// until none is left.
 ///
 /// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
@@ -34,6 +35,7 @@ struct RelaxationTest {
   double zeta_change = 0.0;  ///< of the damping ratio when relaxed; of c where there is no spring
   double F0_change = 0.0;    ///< N
   double F0_part = 0.0;      ///< by which the friction force of a part of the record is off the mean [N]
+  double zeta_part = 0.0;    ///< by which the damping ratio of a part of the record is off the mean
   double zeta_blind = 0.0;   ///< change that a departure may make and be missed in one record of five
   double F0_blind = 0.0;
 };

@@ -41,6 +41,11 @@ Found ledgers(Kind kind, int records, Assumption assumption, void (*alter)(Rig&)
   return found;
 }
 
+Ledger ledger_for(Kind kind, std::uint64_t seed, void (*alter)(Rig&)) {
+  const Measured m = measured(kind, seed, alter);
+  return ledger_of(m.record, m.constants);
+}
+
 }  // namespace
 
 TEST_CASE("True Coulomb and viscous friction violates nothing but by chance") {
@@ -214,6 +219,52 @@ TEST_CASE("Where a term of friction is nearly seen the intervals reach over the 
   }
   CHECK(near > 0);
   CHECK(near <= answered);
+}
+
+TEST_CASE("Where the plain fit of a response ends without viscous friction the constants are still found") {
+  for (const std::uint64_t seed : {300003u, 300023u}) {
+    CAPTURE(seed);
+    const Measured m = measured(Kind::response, seed, nullptr, {.stiffness = 0.02});
+    const Ledger ledger = ledger_of(m.record, m.constants);
+    CHECK(ledger.plain.zeta < 0.01 * m.rig.zeta);
+    CHECK(ledger.is_violated(Assumption::constants));
+    CHECK_FALSE(ledger.is_violated(Assumption::friction_velocity));
+    CHECK_FALSE(ledger.is_violated(Assumption::friction_displacement));
+    CHECK(holds_truth(ledger, m.rig.zeta, m.rig.F0));
+  }
+}
+
+TEST_CASE("A contact that would make the rig softer is no explanation of a second mode") {
+  const auto alter = [](Rig& rig) { rig.second_mass = 0.05; };
+  for (std::uint64_t seed = 300000; seed < 300008; ++seed)
+    CHECK_FALSE(ledger_for(Kind::response, seed, alter).is_violated(Assumption::friction_displacement));
+}
+
+TEST_CASE("Damping of its own in each direction is charged to symmetry, and the answer is the mean") {
+  const auto alter = [](Rig& rig) { rig.asymmetry = 0.5; };
+  int named = 0;
+  int held = 0;
+  constexpr int records = 8;
+  for (std::uint64_t seed = first_seed; seed < first_seed + records; ++seed) {
+    const Measured m = measured(Kind::extremes, seed, alter);
+    const Ledger ledger = ledger_of(m.record, m.constants);
+    named += ledger.is_violated(Assumption::symmetry) ? 1 : 0;
+    held += ledger.joint && holds_truth(ledger, m.rig.zeta, m.rig.F0) ? 1 : 0;
+  }
+  CHECK(named >= records - 1);
+  CHECK(held >= records - 2);
+}
+
+TEST_CASE("The rest after a vibration is left out, however long it was recorded") {
+  constexpr double x_f = 1.0;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(10'000);
+  for (Eigen::Index i = 0; i < 500; ++i)
+    x[i] = (40.0 - 0.08 * static_cast<double>(i)) * std::cos(0.2 * static_cast<double>(i));
+  const Eigen::Index moving = moving_rows({}, x, x_f);
+  CHECK(moving > 400);
+  CHECK(moving < 500);
+  x *= 0.01;
+  CHECK(moving_rows({}, x, x_f) == x.size());  // small from the start: there is nothing else
 }
 
 TEST_CASE("Where friction drifts from sweep to sweep the answer is the mean over the sweeps") {

@@ -1,6 +1,7 @@
 #include "identify/ledger/relaxation_tests.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -55,6 +56,22 @@ TEST_CASE("A departure is charged to the relaxation that explains it, and what i
   // The mean of u^2 over the points is 0.356: so much the constant falls when the square is set free.
   CHECK(test.F0_change == Approx(-5.0 * 0.356).epsilon(0.35));
   CHECK(std::abs(test.zeta_change) < 1e-9);
+}
+
+TEST_CASE("A departure that has but one sign is tested on that side alone") {
+  JointModel model = line_with(5.0, 0);
+  const auto square = [&](int sign) {
+    model.relaxations[0].sign = sign;
+    const RelaxationTests found = test_relaxations(model);
+    REQUIRE_FALSE(found.departures.empty());
+    return std::ranges::any_of(found.departures, [](const Departure& departure) {
+      return std::ranges::any_of(departure.explanations, [](const RelaxationTest& t) { return t.index == 0; });
+    });
+  };
+  CHECK(square(1));
+  model.relaxations[1].sign = 0;
+  model.residuals += model.relaxed.col(1) * 6.0;  // another departure beside it
+  CHECK_FALSE(square(-1));
 }
 
 TEST_CASE("A relaxation that is a base parameter in another guise is not tested") {

@@ -48,6 +48,7 @@ std::vector<Row> rows() {
   const std::vector<Kind> driven = {Kind::forced, Kind::beat, Kind::ramp, Kind::random};
   add("exact", nullptr, {}, all);
   add("stiffness 2 %", nullptr, {.stiffness = 0.02}, all);
+  add("stiffness -2 %", nullptr, {.stiffness = -0.02}, pairs);
   add("cubic spring", [](Rig& rig) { rig.cubic = 0.03; }, {}, all);
   add("second mode", [](Rig& rig) { rig.second_mass = 0.05; }, {}, all);
   add("delay 1 %", nullptr, {.delay = 0.01},
@@ -121,8 +122,13 @@ std::vector<std::string> known_departures(const Measured& measured) {
     const Eigen::VectorXd step = inverse * (columns.transpose() * model->residuals);
     const double freedom = static_cast<double>(columns.rows() - base - 1) - model->spent;
     const double variance = (model->residuals - columns * step).squaredNorm() / freedom;
-    const double t = std::abs(step[base]) / std::sqrt(variance * inverse(base, base));
-    if (t > quantile95(freedom)) rejected.push_back(model->relaxations[j].test);
+    const double t = step[base] / std::sqrt(variance * inverse(base, base));
+    const int sign = model->relaxations[j].sign;
+    const double sides = sign == 0 ? 1.0 : 0.5;
+    const bool possible = sign == 0 || sign * t > 0.0;
+    constexpr double level = 0.05;
+    if (possible && sides * f_test_p_value(t * t, 1.0, freedom) < level)
+      rejected.push_back(model->relaxations[j].test);
   }
   return rejected;
 }
