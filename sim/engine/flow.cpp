@@ -94,17 +94,20 @@ Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const 
 }
 
 /// The force that `law` says, a function of the instant. The slope of a power of speed below 1 has no bound at
-/// rest: a mass that it nearly holds creeps at the tenth or the fiftieth power of the force. Of a law without
-/// states a speed within rounding makes that part of the force which it is of the slowest speed that is known.
+/// rest: a mass that it nearly holds creeps at the tenth or the fiftieth power of the force. Where a force without
+/// states rises with speed, a speed within rounding makes that part of the rise which it is of the slowest speed
+/// that is known. A force that falls lets the mass go at once, however steeply: it is as its law says.
 template <class Force>
 double Flow::resolved_force(std::size_t i, Instant now, const Force& law) const {
   const double slowest = rounded * scales_[1];
   if (count_[i] > 0 || direction_ == Direction::none || !(std::abs(now.v) < slowest)) return law(now);
-  const double part = friction::sign(direction_) * now.v / slowest;
-  now.v = 0.0;
-  const double at_rest = law(now);
-  now.v = friction::sign(direction_) * slowest;
-  return at_rest + part * (law(now) - at_rest);
+  Instant other = now;
+  other.v = 0.0;
+  const double at_rest = law(other);
+  other.v = friction::sign(direction_) * slowest;
+  const double rise = law(other) - at_rest;
+  if (!(friction::sign(direction_) * rise > 0.0)) return law(now);
+  return at_rest + friction::sign(direction_) * now.v / slowest * rise;
 }
 
 double Flow::respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const {

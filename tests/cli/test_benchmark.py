@@ -421,28 +421,6 @@ class Benchmark(unittest.TestCase):
         result = self.call("stress", "export", ROOT / "scenarios/examples/coulomb.yaml", "--out", self.folder / "x", status=3)
         self.assertNotEqual(result.stderr, "")
 
-    def test_the_programs_own_answer_is_that_of_identify_without_a_range_over_laws(self):
-        own = [SCENARIO, "--set", "analysis.answer=true", "--set", "analysis.severities=[0.3]", "--set", "analysis.seeds=1",
-               "--set", "expect=[{value: cases.failed, equals: 0}]"]
-        export, out = self.folder / "own", self.folder / "scored"
-        self.call("stress", "export", *own, "--out", export, "--seed", 7)
-        self.call("run", *own, "--set", "analysis.seed=7", "--out", out, "--quiet")
-        lines = [json.loads(line) for line in (out / "cases.jsonl").read_text().splitlines()[1:]]
-        self.assertIn("answer", [row["method"] for row in table(out / "ranking.csv")])
-        answered_by = []
-        for place, row in zip(json.loads((export / "key.json").read_text())["numbers"], table(export / "constants.csv")):
-            data = export / f"cases/{int(row['case']):06d}.csv"
-            constants = ["--mass", f"{row['mass [kg]']} kg", "--stiffness", f"{row['stiffness [N/m]']} N/m"]
-            answer = json.loads(self.call("identify", data, *constants, "--out", self.folder / row["case"], "--json").stdout)["result"]["answer"]
-            estimate = lines[place]["estimates"][-1]
-            answered_by.append(answer["method"] if answer else None)
-            stands_by_one = answer is not None and answer["method"] != "any_law"
-            self.assertEqual((estimate["method"], estimate["usable"]), ("answer", stands_by_one))
-            if stands_by_one:
-                self.assertEqual([estimate["zeta"], estimate["F0"], estimate["zeta95"]], [answer["zeta"], answer["F0"], answer["interval95"]["zeta"]])
-        self.assertIn("any_law", answered_by)
-        self.assertGreater(len(answered_by), 2 * answered_by.count("any_law"))
-
     def test_nobody_answers(self):
         out, _ = self.score(f"silent={self.write('silent.csv', [], ['case'])}")
         row = next(row for row in table(out / "ranking.csv") if row["method"] == "silent")
