@@ -31,6 +31,7 @@ scenarios::Scenario load(const std::string& file, const std::vector<std::string>
   if (bench::stress_test_of(*scenario.question) == nullptr)
     refuse(file, "this scenario asks for no stress test", "analysis: {type: stress_test, ...}",
            scenario.analysis_name);
+  // Only now: of another analysis the reader would refuse the seed, and not say why.
   options.set.push_back({"analysis.seed=" + seed, origin});
   return scenarios::load_scenario(file, options);
 }

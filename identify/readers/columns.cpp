@@ -106,6 +106,16 @@ const KnownColumn* named_column(Heading& heading) {
   return nullptr;
 }
 
+namespace {
+constexpr std::string_view not_known = "' is not known and is ignored";
+}
+
+std::string ignored(std::string_view what, const std::string& name) {
+  return std::string(what) + " '" + name + std::string(not_known);
+}
+
+bool is_of_ignored(std::string_view warning) { return warning.ends_with(not_known); }
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -53,6 +53,9 @@ struct Heading {
 /// [mm]`; longer names in any case.
 [[nodiscard]] const KnownColumn* named_column(Heading& heading);
 
+/// The warning of a column, variable or field that is none of the known ones; `is_of_ignored` knows it again.
+[[nodiscard]] std::string ignored(std::string_view what, const std::string& name);
+
 /// "a, b and c"
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

@@ -147,8 +147,7 @@ class HeaderReader {
                                                                 "Note", "Remark",  "comment"};
     if (known == nullptr || is_left_alone) {
       field.may_be_missing = std::ranges::find(remarks, heading.name) != remarks.end();
-      if (!heading.text.empty() && !is_left_alone)
-        warnings_.push_back("column '" + excerpt(heading.text) + "' is not known and is ignored");
+      if (!heading.text.empty() && !is_left_alone) warnings_.push_back(ignored("column", excerpt(heading.text)));
     } else if (find_for(options_.columns, *known) != nullptr) {
       warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
     } else if (!well_formed) {

@@ -94,7 +94,7 @@ class Reader {
       const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
       listing_.push_back(name + " (" + describe(*variable) + ")");
       if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
-        if (options_.only.empty()) warnings_.push_back("variable '" + name + "' is not known and is ignored");
+        if (options_.only.empty()) warnings_.push_back(ignored("variable", name));
         continue;
       }
       if (size_of(*variable) > most_mat_values)
@@ -229,8 +229,7 @@ class Reader {
       if (is_sampling(entry.name)) {
         if (const auto value = scalar(entry)) step = entry.name == "dt" ? *value : 1.0 / *value;
       } else if (known == nullptr) {
-        if (options_.only.empty())
-          warnings_.push_back("field '" + to_utf8(entry.name) + "' is not known and is ignored");
+        if (options_.only.empty()) warnings_.push_back(ignored("field", to_utf8(entry.name)));
       } else if (known->unit.empty()) {
         take_label(entry, result);
       } else {

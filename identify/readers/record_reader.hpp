@@ -64,6 +64,9 @@ struct MeasuredRecord {
 /// With `name` for the file in messages.
 [[nodiscard]] MeasuredRecord parse_record(std::string_view text, const std::string& name);
 
+/// Whether a warning names a column, variable or field that the reader does not know.
+[[nodiscard]] bool is_of_ignored(std::string_view warning);
+
 /// One signal over its own times, as it stands in the file: what drives an oscillator, or a motion beside a
 /// simulated one. The times need not be evenly spaced.
 struct MeasuredSignal {

@@ -197,7 +197,8 @@ class Scanner {
       return std::nullopt;
     }
     if (f.is_complex) refuse("the time response holds complex numbers", "real numbers");
-    is_binary ? read_binary(f, head) : read_text(f);
+    if (is_binary) read_binary(f, head);
+    if (!is_binary) read_text(f);
     return f;
   }
 
@@ -390,13 +391,12 @@ class Mapping {
     const auto holds = [&known](const TestColumns& test) {
       return std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; });
     };
-    const KnownColumn* const time = known_column("t");
     std::vector<double> times = f.times;
     for (std::size_t i = 0; f.is_even && i < f.count; ++i)
       times.push_back(f.start + static_cast<double>(i) * f.step);
     if (tests.empty() || holds(tests.back())) {
       tests.emplace_back();
-      tests.back().columns.push_back({time, std::move(times)});
+      tests.back().columns.push_back({known_column("t"), std::move(times)});
     } else if (tests.back().columns.front().values != times) {
       refuse_set(f, "data set '" + name_of(f) + "' is not sampled at the times of those before it",
                  "signals of one test with the same number of values, start and step");

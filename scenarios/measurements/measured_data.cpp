@@ -241,7 +241,7 @@ void check_frequency(CheckedFile& file, const identify::Record& record) {
   if (!is_free || !record.pairs || std::ranges::none_of(record.pairs->pairs, lacks_frequency)) return;
   std::string ignored;
   for (const std::string& warning : file.data ? file.data->warnings : std::vector<std::string>())
-    if (warning.ends_with("is not known and is ignored")) ignored += "; " + warning;
+    if (identify::is_of_ignored(warning)) ignored += "; " + warning;
   file.complain("analysis.data", "x-Y pairs need the forcing frequency at which they were measured" + ignored,
                 "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency, or --column "
                 "omega=NAME");
