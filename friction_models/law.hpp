@@ -6,14 +6,14 @@
 /// v are continuous across every event, and the direction of slip stays the same in an interval, from one event to
 /// the next.
 ///
-///   force       F(memory, now, direction) [N], F > 0 opposes v > 0. A law writes `direction` for sgn v, so that
-///   the
-///               formula stays smooth across the event that ends the interval.
+///   force       F(memory, now, direction) [N], F > 0 opposes v > 0. A law writes `direction` for sgn v:
+///               so the formula stays smooth across the event that ends
+///               the interval.
 ///   guards      values that are > 0 while the law's mode holds; the mode ends when one reaches 0 from above.
 ///   jump        the mode change: at a guard of the law (`trigger` = its index), when the mass reverses, stops or
-///   is
-///               released (`Trigger::direction_change`), or at a time of the law's own schedule. It is called again
-///               while a guard is violated in the new mode. It decides by the mode and the trigger, not by values.
+///               is released (`Trigger::direction_change`), or at a time of the law's own schedule. It is called
+///               again while a guard is violated in the new mode. It decides by the mode and the trigger, not by
+///               values.
 ///
 /// Sticking belongs to the driver: a law that can make the mass stick says how far its force can go from that of
 /// direction none, its static limit. Of a law that holds equally in both directions the force of direction none is

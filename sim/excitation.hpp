@@ -3,10 +3,10 @@
 ///
 /// harmonic:  A cos(w t + phi) + sum_j A_j cos(n_j (w t) + phi_j), plus a constant for a force
 /// ramp:      y = V t, or f = R t
-/// noise:     band-limited white: y or f is linear between nodes at n h, h = pi/w_b (1/(2 B) with the bandwidth B
-/// in
-///            Hz), with values sqrt(D/h) times normal draw n of stream `noise_stream` of the seed. The spectral
-///            density, two-sided, is D (sin(w h/2)/(w h/2))^4: D [m^2.s or N^2.s] at low frequencies, 0.3 dB below
+/// noise:     band-limited white: y or f is linear between nodes at n h, h = pi/w_b (1/(2 B) with B
+///            the bandwidth in Hz), with values sqrt(D/h) times normal draw n of stream `noise_stream`
+///            of the seed. The spectral density, two-sided, is D (sin(w h/2)/(w h/2))^4:
+///            D [m^2.s or N^2.s] at low frequencies, 0.3 dB below
 ///            it at w_b/5 and 7.8 dB at w_b. (An analyser's one-sided density for each Hz is 2 D.)
 /// chirp:     A cos(phi(t)), the frequency phi'(t) going from w_0 to w_1 within T, linearly or exponentially; by
 ///            cubics between nodes of the exact value and slope, within 1e-9 A (and 2e-7 A phi' of the rate). Then

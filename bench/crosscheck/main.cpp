@@ -1,6 +1,6 @@
 // dualdamp-crosscheck N SEED [--jobs J] [--first I] [--out DIR]
-//   runs N random cases and prints the table; each disagreement goes to stderr when it is found, its scenario to
-//   DIR
+//   runs N random cases and prints the table; each disagreement goes to stderr when it is found, and its scenario
+//   to DIR
 // dualdamp-crosscheck --case SEED:INDEX
 //   runs one case and prints its scenario
 //

@@ -19,9 +19,8 @@
 /// Discretisation: `count` elements take the cells of a grid over phi and one takes S. The first cell reaches from
 /// 0 to smallest phi_max, the edges of the others grow by the same ratio q to phi_max. An element has the stiffness
 /// and the limit of its cell, so that
-///   * what sliding takes from the first loading, K_T x - F, is exact where x is an edge and between edges too
-///   small
-///     by the part (exponent + 1)(exponent + 2)(ln q)^2/8 at most;
+///   * what sliding takes from the first loading, K_T x - F, is exact where x is an edge, and between edges it is
+///     too small by the part (exponent + 1)(exponent + 2)(ln q)^2/8 at most;
 ///   * the work of a loop is too large by the part
 ///         (exponent + 2)(ln q)^2/12 + (smallest phi_max/A)^(exponent+3)/(exponent+2)
 ///     where A is an edge;

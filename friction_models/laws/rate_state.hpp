@@ -6,10 +6,9 @@
 ///   psi' = -(|v|/Dc) (ln(|v|/V0) + psi)            slip: contacts change with slip only
 ///
 /// N = normal_force, Dc = slip_distance, V0 = reference_velocity; psi = ln(V0 theta/Dc) for the state theta of the
-/// papers. It starts at 0, that is with steady sliding at V0. asinh makes the logarithm odd and finite at v = 0;
-/// for v
-/// >> V0 exp(-mu0/a), F = N (mu0 + a ln(v/V0) + b psi). In steady sliding psi = -ln(|v|/V0) and F = N (mu0 + (a -
-/// b) ln(v/V0)). With b > a steady friction falls with speed: slip driven at V through a spring then becomes
+/// papers. It starts at 0, that is with steady sliding at V0. asinh makes the logarithm odd and finite at v = 0.
+/// Where v >> V0 exp(-mu0/a), F = N (mu0 + a ln(v/V0) + b psi). In steady sliding psi = -ln(|v|/V0) and F = N (mu0
+/// + (a - b) ln(v/V0)). With b > a steady friction falls with speed: slip driven at V through a spring then becomes
 /// stick-slip below the stiffness N (b - a)/Dc (1 + m V^2/(N a Dc)).
 ///
 /// The mass never sticks, it creeps: near v = 0 the law is a dashpot of a N/(2 V0) exp((mu0 + b psi)/a), which for

@@ -7,9 +7,8 @@
 /// * Gaps: steps above 1.5 of the usual one; the longest part between them is used, if it is even.
 /// * Bursts: many stamps stand there several times, as when a serial line hands over what has gathered. The samples
 ///   are taken as even when all stamps lie within one and a half bursts of a straight line.
-/// * Jitter: either the samples are even and their stamps late, or they were taken when the stamps say. The one
-/// under
-///   which the signal is smoother holds; in the second case it is interpolated at even times.
+/// * Jitter: either the samples are even and their stamps late, or they were taken when the stamps say. That one
+///   holds under which the signal is smoother; in the second case it is interpolated at even times.
 /// What is none of these is refused.
 ///
 /// The step between even samples is that of all stamps: by the two at the ends, each off by its rounding or by a

@@ -3,9 +3,8 @@
 ///
 /// Function types 1 (time response) and 0 (general) over time are read, others are left out with a warning. Which
 /// signal a data set holds follows, in this order, from
-/// * the caller: the name of the column and the data set's response entity name, ordinate axis label, first ID
-/// line,
-///   or number among the data sets read, from 1;
+/// * the caller: the name of the column and the data set's response entity name, ordinate axis label, first line
+///   of its ID, or number among the data sets read, from 1;
 /// * a response entity name, ordinate axis label or first ID line that is a column's name;
 /// * the type of its ordinate: 8 displacement (x), 11 velocity (v), 12 acceleration (a), 9 and 13 force.
 /// Two data sets for one signal with the same samples are two tests only where the whole set of signals repeats.

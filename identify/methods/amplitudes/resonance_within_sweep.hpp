@@ -9,9 +9,8 @@
 /// sweeps.
 ///
 /// Holds for small zeta near w = wn, without sticking, with errors in x alone and a friction that stays the same
-/// within a sweep; at least two sweeps of two pairs. Uncertainty: b from the scatter about the parallel lines, N -
-/// J
-/// - 1 degrees of freedom for N pairs in J sweeps (or from `sigma_x`, `sigma_Y`); the mean friction from the
+/// within a sweep; at least two sweeps of two pairs. Uncertainty: b from the scatter about the parallel lines, of
+/// N - J - 1 degrees of freedom for N pairs in J sweeps (or from `sigma_x`, `sigma_Y`); the mean friction from the
 /// scatter of the sweeps, J - 1 degrees of freedom, and from b, the two combined after welch1947. Diagnostics:
 /// pairs that stick are left out, an F test of a friction quadratic in x, an F test of separate slopes. Source:
 /// liang2004identifying (the drift, section 4); the fit is the analysis of covariance, draper1998. Errors:
