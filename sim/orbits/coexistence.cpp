@@ -87,8 +87,10 @@ class HarmonicBalance {
   double friction_ = 0.0;  ///< N
 };
 
-/// Where the orbit would be that never sticks, with the static limits lowered to the kinetic ones.
-std::optional<State> sliding_start(const Model& model) {
+/// Where the orbit would be that never sticks, with the static limits lowered to the kinetic ones; a guess for
+/// both engines.
+std::optional<State> sliding_start(Model model) {
+  model.solver.kind = SolverKind::automatic;
   std::optional<OscillatorBatch> batch = batch_of(model, 1);
   if (!batch || batch->static_level == batch->kinetic) return std::nullopt;
   batch->static_level = batch->kinetic;
@@ -116,7 +118,7 @@ std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vec
   }
   if (const std::optional<State> sliding = sliding_start(model)) guesses.push_back(*sliding);
   for (const State& guess : guesses) {
-    if (std::optional<Orbit> found = solver.near(guess, 1)) met.push_back(std::move(*found));
+    if (std::optional<Orbit> found = solver.near_motion_from(guess)) met.push_back(std::move(*found));
   }
   std::vector<Orbit> others;
   for (Orbit& candidate : met) {

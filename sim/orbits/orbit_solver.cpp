@@ -57,6 +57,19 @@ std::optional<Orbit> OrbitSolver::near(const State& state, int periods) {
   return orbit;
 }
 
+std::optional<Orbit> OrbitSolver::near_motion_from(State state) {
+  constexpr int trials = 4;
+  constexpr int between = 8;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::optional<Orbit> orbit = near(state, 1);
+    if (orbit && orbit->period.moves) return orbit;
+    PeriodMap& map = map_over(1);
+    for (int i = 0; i < between && work_ + map.engine().work() < most_work_; ++i)
+      state = map.from(state, Monodromy::without).end;
+  }
+  return std::nullopt;
+}
+
 Orbit OrbitSolver::later(const Orbit& orbit, long periods) {
   if (periods == 0) return orbit;
   State state = orbit.period.begin;

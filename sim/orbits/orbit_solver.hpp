@@ -27,6 +27,9 @@ class OrbitSolver {
 
   /// An orbit that attracts, of its shortest period, which divides `periods`.
   [[nodiscard]] std::optional<Orbit> near(const State& state, int periods);
+  /// An orbit of one forcing period that moves, near the state or near where the motion from it is some periods
+  /// later: Newton's method from far off may end at a rest, or nowhere.
+  [[nodiscard]] std::optional<Orbit> near_motion_from(State state);
   /// The orbit from the state on that it reaches after `periods`.
   [[nodiscard]] Orbit later(const Orbit& orbit, long periods);
   /// Both are met at the same time.

@@ -76,7 +76,7 @@ class OrbitFinder {
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
   [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
   void list_others(const std::vector<Orbit>& others, SteadyState& result);
-  void add_mirror_image(SteadyState& result);
+  void add_mirror_images(SteadyState& result);
 
   const Model& model_;
   SteadyStateOptions options_;
@@ -149,7 +149,7 @@ void OrbitFinder::describe(SteadyState& result) {
     searched_ += map.engine().count();
     result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
-  add_mirror_image(result);
+  add_mirror_images(result);
   // Beside a mass that never moves other rests are no news.
   if (result.peak == result.trough)
     std::erase_if(result.others, [](const OtherState& other) { return other.peak == other.trough; });
@@ -170,18 +170,30 @@ void OrbitFinder::list_others(const std::vector<Orbit>& others, SteadyState& res
   }
 }
 
-/// In a symmetric model the mirror image of an orbit is an orbit.
-void OrbitFinder::add_mirror_image(SteadyState& result) {
+/// Whether both are the same motion, perhaps mirrored in x = 0 where `side` is -1.
+bool are_same(const OtherState& a, const OtherState& b, int side) {
   constexpr double rounding = 1e-6;
-  const bool is_its_own = std::abs(result.peak + result.trough) <= rounding * result.amplitude;
-  if (is_its_own || result.amplitude == 0.0 || motions_ != Motions::may_part || !is_symmetric(model_)) return;
-  const auto is_mirror = [&](const OtherState& other) {
-    return std::abs(other.peak + result.trough) + std::abs(other.trough + result.peak) <=
-           rounding * result.amplitude;
-  };
-  if (std::ranges::none_of(result.others, is_mirror))
-    result.others.push_back({-result.trough, -result.peak, result.period_ratio});
-  result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
+  const double peak = side > 0 ? b.peak : -b.trough;
+  const double trough = side > 0 ? b.trough : -b.peak;
+  return std::abs(a.peak - peak) + std::abs(a.trough - trough) <= rounding * 0.5 * (a.peak - a.trough);
+}
+
+/// In a symmetric model the mirror image of an orbit is an orbit.
+void OrbitFinder::add_mirror_images(SteadyState& result) {
+  std::vector<OtherState> states = {{result.peak, result.trough, result.period_ratio}};
+  states.insert(states.end(), result.others.begin(), result.others.end());
+  const auto has_other_image = [](const OtherState& a) { return a.peak != a.trough && !are_same(a, a, -1); };
+  if (motions_ != Motions::may_part || std::ranges::none_of(states, has_other_image) || !is_symmetric(model_))
+    return;
+  if (has_other_image(states.front()))
+    result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const OtherState of = states[i];
+    const auto is_image = [&](const OtherState& a) { return are_same(a, of, -1); };
+    if (!has_other_image(of) || std::ranges::any_of(states, is_image)) continue;
+    states.push_back({-of.trough, -of.peak, of.period_ratio});
+    result.others.push_back(states.back());
+  }
 }
 
 void OrbitFinder::find(SteadyState& result) {

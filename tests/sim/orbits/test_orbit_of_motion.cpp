@@ -72,6 +72,28 @@ TEST_CASE("where two orbits attract, the steady state is the one that the motion
   CHECK_FALSE(state.warnings.empty());
 }
 
+TEST_CASE("beside a mass at rest both engines list both asymmetric motions that attract others") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.0776};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.8, .frequency = 0.459};
+  model.friction.emplace_back(friction::Coulomb(0.1375, 0.87));
+  for (const sim::SolverKind solver : {sim::SolverKind::automatic, sim::SolverKind::explicit_steps}) {
+    model.solver.kind = solver;
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.amplitude == 0.0);
+    REQUIRE(state.others.size() == 2);
+    for (const sim::OtherState& other : state.others) {
+      sim::Model there = model;
+      there.initial.position = other.peak;
+      const sim::SteadyState reached = sim::steady_state(there);
+      CHECK(reached.peak - reached.trough == Approx(1.59407 + 0.91956).epsilon(1e-4));
+    }
+    CHECK(state.others[0].peak == Approx(-state.others[1].trough).epsilon(1e-6));
+    CHECK(state.others[0].trough == Approx(-state.others[1].peak).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("24 starts of a bistable oscillator end where their motions do") {
   test::Random random(20261123);
   int large = 0;
