@@ -4,13 +4,23 @@
 
 namespace dualdamp::sim {
 
-bool same_mode(const State& a, const State& b) {
-  return a.direction == b.direction &&
-         std::equal(a.memories.begin(), a.memories.end(), b.memories.begin(), b.memories.end(),
+namespace {
+
+bool same_law_modes(const State& a, const State& b) {
+  return std::equal(a.memories.begin(), a.memories.end(), b.memories.begin(), b.memories.end(),
                     [](const friction::Memory& m, const friction::Memory& n) {
                       return m.mode == n.mode && m.indices == n.indices && m.course == n.course &&
                              m.state.size() == n.state.size();
                     });
+}
+
+}  // namespace
+
+bool same_mode(const State& a, const State& b) { return a.direction == b.direction && same_law_modes(a, b); }
+
+bool are_comparable(const State& a, const State& b) {
+  const bool both_slip = a.direction != friction::Direction::none && b.direction != friction::Direction::none;
+  return (both_slip || a.direction == b.direction) && same_law_modes(a, b);
 }
 
 }  // namespace dualdamp::sim

@@ -21,5 +21,8 @@ struct State {
 
 /// Both lie in the same mode, so that their difference is one of continuous states.
 [[nodiscard]] bool same_mode(const State& a, const State& b);
+/// The same, or slips in both directions: their difference is one of continuous states too, but of a map with a
+/// kink.
+[[nodiscard]] bool are_comparable(const State& a, const State& b);
 
 }  // namespace dualdamp::sim

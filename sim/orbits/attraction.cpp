@@ -42,7 +42,7 @@ Attraction::Attraction(const ForcingPeriod& orbit, double omega, double resoluti
 /// Scaled, of the free coordinates; empty where the motion is in another mode, or what the orbit leaves as it is
 /// stands elsewhere.
 VectorXd Attraction::from_orbit(const State& state) const {
-  if (!same_mode(state, orbit_)) return {};
+  if (!are_comparable(state, orbit_)) return {};
   const VectorXd all = (coordinates(state) - coordinates(orbit_)).cwiseQuotient(scale_);
   VectorXd free = all(free_);
   for (Index i = 0; i < all.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 
+#include "friction_models/laws/attached_mass.hpp"
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/motion/simulate.hpp"
@@ -152,6 +153,26 @@ TEST_CASE("a linear oscillator with damping has exactly one steady state") {
     const std::complex<double> response = 0.1 / std::complex<double>(1.0 - c.r * c.r, 2.0 * c.zeta * c.r);
     // The period map determines the orbit to its rounding over 1 - exp(-2 pi zeta/r).
     CHECK(state.amplitude == Approx(std::abs(response)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE(
+    "a linear oscillator beside an own motion that takes thousands of periods to decay has its steady state") {
+  sim::Model model;
+  model.oscillator = {.mass = 3.0, .stiffness = 80.0};
+  constexpr double m = 0.04;
+  constexpr double k = 5.669;
+  constexpr double c = 0.06;
+  model.friction.emplace_back(friction::AttachedMass(m, k, c));
+  for (const double w : {3.0, 5.3, 8.96, 11.0}) {
+    CAPTURE(w);
+    model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.01, .frequency = w};
+    const std::complex<double> bond(k, c * w);
+    const std::complex<double> attached = -bond * m * w * w / (bond - m * w * w);
+    const double x = std::abs(80.0 * 0.01 / (80.0 - 3.0 * w * w + attached));
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.amplitude == Approx(x).epsilon(1e-6));
   }
 }
 
