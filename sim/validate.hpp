@@ -17,6 +17,10 @@
 
 namespace dualdamp::sim {
 
+/// Laws in parallel, where the elements of a law that takes modifiers one by one are laws of their own (`iwan`).
+/// The cost of a motion grows with the square of their number.
+inline constexpr std::size_t max_laws = 256;
+
 /// All that is wrong with the model; empty: valid.
 [[nodiscard]] std::vector<core::Diagnostic> validate(const Model& model);
 
