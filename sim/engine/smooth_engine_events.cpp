@@ -351,12 +351,16 @@ bool SmoothEngine::land(const Hit& hit) {
     end_ = X_;
     return true;
   }
+  // A law judges by the terms of its own force, which may be far below the size of the motion: a mass that rests
+  // near the origin after it was far away.
+  const Watch& watch = watches_[hit.watch];
+  const double size = is<LawGuard>(watch.ending) ? std::min(watch.scale, watch.parts) : watch.scale;
   for (int i = 0; i < 5; ++i) {
     if (!stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_) || excess_error() > 1.0) return false;
     taken_ = h;
     evaluate_guards(end_, local_time_ + h, guard_values_);
     const double value = guard_values_[hit.watch];
-    if (std::abs(value) <= 0.1 * resolution * watches_[hit.watch].scale) break;
+    if (std::abs(value) <= 0.1 * resolution * size) break;
     const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h, h);
     if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) < 1e-16 * whole) break;
     h += correction;
