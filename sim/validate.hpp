@@ -26,6 +26,7 @@ inline constexpr std::size_t max_laws = 256;
 
 /// Throws `core::InputError` with what validate() says; else returns the model.
 const Model& valid(const Model& model);
+const Model& valid(const Model&& model) = delete;
 
 /// The same, and the excitation must be harmonic. `analysis`: who needs that, for the message.
 const Model& valid_harmonic(const Model& model, std::string_view analysis);

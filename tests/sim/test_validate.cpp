@@ -98,7 +98,8 @@ bool is_replaced(const std::string& path, std::size_t entrance) {
 TEST_CASE("A sound model has no problems") {
   CHECK(sim::validate(sound()).empty());
   CHECK(sim::validate(Model{}).empty());
-  CHECK_NOTHROW(sim::valid(sound()));
+  const Model model = sound();
+  CHECK_NOTHROW(sim::valid(model));
 }
 
 TEST_CASE("Each fault of a model is named as in a scenario file, with what is allowed") {
