@@ -19,6 +19,7 @@
 #include "scenarios/sweep.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -97,6 +98,18 @@ std::vector<friction::Law> friction_of(const Json& section) {
   std::vector<friction::Law> result;
   for (const Json& item : section) std::ranges::copy(laws(item), std::back_inserter(result));
   return result;
+}
+
+/// Laws whose elements become laws of their own can be too many where the list of the file is not.
+void refuse_many_laws(const sim::Model& model, const Document& document, const Reading& reading) {
+  const std::size_t found = model.friction.size();
+  if (found <= sim::max_laws) return;
+  throw core::InputError(
+      core::Diagnostic{document.locate(reading.places.at("system.friction")),
+                       "'system.friction' has too many laws: under modifiers each element is a law of its own",
+                       "1 to " + std::to_string(sim::max_laws) + " in all",
+                       std::to_string(found),
+                       {}});
 }
 
 /// What there is to know of structural damping.
@@ -201,6 +214,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   if (values.contains("title")) scenario.title = values.at("title").get<std::string>();
   if (values.contains("system")) scenario.model = model(values, !sought);
   scenario.model.excitation.samples = checked.drive;
+  refuse_many_laws(scenario.model, document, reading);
   if (!sought && values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"), scenario.model.oscillator.coordinate);
   std::ranges::move(checked.warnings, std::back_inserter(scenario.warnings));

@@ -14,7 +14,6 @@ namespace {
 using core::Diagnostic;
 using friction::Range;
 
-constexpr std::size_t max_laws = 16;
 constexpr int max_order = 1000;
 constexpr Range any{};
 constexpr Range tolerances{.low = 1e-15, .high = 1e-3};

@@ -17,11 +17,16 @@
 
 namespace dualdamp::sim {
 
+/// Laws in parallel, where the elements of a law that takes modifiers one by one are laws of their own (`iwan`).
+/// The cost of a motion grows with the square of their number.
+inline constexpr std::size_t max_laws = 256;
+
 /// All that is wrong with the model; empty: valid.
 [[nodiscard]] std::vector<core::Diagnostic> validate(const Model& model);
 
 /// Throws `core::InputError` with what validate() says; else returns the model.
 const Model& valid(const Model& model);
+const Model& valid(const Model&& model) = delete;
 
 /// The same, and the excitation must be harmonic. `analysis`: who needs that, for the message.
 const Model& valid_harmonic(const Model& model, std::string_view analysis);

@@ -137,6 +137,7 @@ class TreeBuilder final : public YAML::EventHandler {
       check_quote(where, first);
     } else if (first == '|' || first == '>') {
       node.quoted = true;
+      node.text.erase(node.text.find_last_not_of('\n') + 1);
     } else if (first != '!' && first != '&' && text_.compare(where, value.size(), value) != 0) {
       complain(where, "this value runs on into the next line",
                "a value on one line: check the indentation and the ':' of the next line, or put text in quotes");
@@ -144,6 +145,10 @@ class TreeBuilder final : public YAML::EventHandler {
     } else if (!awaits_key() && follows_comma_in_number(where) &&
                value.find_first_not_of("0123456789.eE+-") != std::string::npos) {
       complain(where, std::string(decimal_comma));
+    }
+    if (node.text.find('\n') != std::string::npos) {
+      complain(where, "this text has several lines", "a text on one line");
+      node.kind = Node::Kind::null;
     }
     if (awaits_key())
       begin_entry(std::move(node), where);

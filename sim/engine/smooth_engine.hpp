@@ -106,6 +106,8 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] double guard_rate(std::size_t watch, std::span<const double> X, double t, double length) const;
   void note_landing(const Hit& hit);
   [[nodiscard]] double level_at_start(const Watch& watch) const;
+  [[nodiscard]] double landing_error(const Watch& watch) const;
+  [[nodiscard]] bool is_clearly_positive(const Watch& watch, double value) const;
   [[nodiscard]] bool goes_negative(std::size_t watch, double value, double level) const;
   [[nodiscard]] bool find_violated(Hit& hit) const;
   [[nodiscard]] bool coincides(const Hit& hit) const;

@@ -170,7 +170,8 @@ Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
   const std::vector<double> sizes = sizes_of(change.law, change.before);
   for (std::size_t k = 0; k < sizes.size(); ++k)
     part = std::max(part, std::abs(states[static_cast<Eigen::Index>(k)]) / sizes[k]);
-  const double step = part > 0.0 ? displacement / part : 0.0;
+  // A column that has died out is a subnormal number, by which nothing can be divided.
+  const double step = part >= std::numeric_limits<double>::min() ? displacement / part : 0.0;
   const auto after = [&](double by) {
     friction::Memory memory = change.before;
     for (std::size_t k = 0; k < memory.state.size(); ++k)

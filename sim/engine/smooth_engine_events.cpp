@@ -172,9 +172,20 @@ void SmoothEngine::note_landing(const Hit& hit) {
 
 /// Values within it of zero are zero at the start of the interval.
 double SmoothEngine::level_at_start(const Watch& watch) const {
-  const double level = equal * watch.scale;
+  return std::max(equal * watch.scale, landing_error(watch));
+}
+
+/// What the step before this interval left of a guard of the law that changed its mode there; of others 0.
+double SmoothEngine::landing_error(const Watch& watch) const {
   const auto* guard = std::get_if<LawGuard>(&watch.ending);
-  return guard != nullptr && guard->law == landing_.law ? std::max(level, landing_.error) : level;
+  return guard != nullptr && guard->law == landing_.law ? landing_.error : 0.0;
+}
+
+/// Whether a guard has its zero ahead, however near, so that a step finds it: a law asked to change its mode before
+/// would see forces that do not belong together yet. Zero itself is known to the rounding of what cancels.
+bool SmoothEngine::is_clearly_positive(const Watch& watch, double value) const {
+  if (value > level_at_start(watch)) return true;
+  return is<LawGuard>(watch.ending) && value > std::max(resolution * watch.parts, landing_error(watch));
 }
 
 /// A guard that is negative at the start of the interval, or zero and going to be.
@@ -184,8 +195,8 @@ bool SmoothEngine::find_violated(Hit& hit) const {
   for (std::size_t w = 0; w < watches_.size(); ++w) {
     // The direction of a slip was decided by the forces.
     if (is<SlipEnd>(watches_[w].ending)) continue;
+    if (is_clearly_positive(watches_[w], values[w])) continue;
     const double level = level_at_start(watches_[w]);
-    if (values[w] > level) continue;
     if (values[w] >= -level && (is<StickEnd>(watches_[w].ending) || !goes_negative(w, values[w], level))) continue;
     hit = {w, 0.0};
     return true;
@@ -340,12 +351,16 @@ bool SmoothEngine::land(const Hit& hit) {
     end_ = X_;
     return true;
   }
+  // A law judges by the terms of its own force, which may be far below the size of the motion: a mass that rests
+  // near the origin after it was far away.
+  const Watch& watch = watches_[hit.watch];
+  const double size = is<LawGuard>(watch.ending) ? std::min(watch.scale, watch.parts) : watch.scale;
   for (int i = 0; i < 5; ++i) {
     if (!stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_) || excess_error() > 1.0) return false;
     taken_ = h;
     evaluate_guards(end_, local_time_ + h, guard_values_);
     const double value = guard_values_[hit.watch];
-    if (std::abs(value) <= 0.1 * resolution * watches_[hit.watch].scale) break;
+    if (std::abs(value) <= 0.1 * resolution * size) break;
     const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h, h);
     if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) < 1e-16 * whole) break;
     h += correction;

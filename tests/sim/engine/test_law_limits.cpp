@@ -220,3 +220,19 @@ TEST_CASE("limits: random and varying laws agree in both engines", "[limits]") {
     CHECK(std::abs(smooth.final.x - exact.final.x) < 1e-9);
   }
 }
+
+TEST_CASE("limits: elements that are laws of their own under a vanishing drift move like one law", "[limits]") {
+  // The limits change by 1e-13 of themselves in 1.26 s. 60 elements: more than a system has laws in its file.
+  ParameterValues values{{"stiffness", 1e3}, {"limit", 2.0}, {"count", 60.0}};
+  sim::Model model = test::standard_system(make("iwan", values));
+  const sim::History together = sim::simulate(model, {.duration = 1.26});
+  values.set("drift", 1e-13);
+  const friction::LawEntry& entry = *friction::find_law("iwan");
+  REQUIRE(friction::complete(entry, values).empty());
+  model.friction = entry.make(values);
+  REQUIRE(model.friction.size() == 60);
+  const sim::History apart = sim::simulate(model, {.duration = 1.26});
+  REQUIRE(apart.outcome.ok());
+  CHECK(std::abs(apart.final.x - together.final.x) < 1e-12);
+  CHECK(std::abs(apart.final.v - together.final.v) < 1e-11);
+}

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/engine/engine.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "tests/support/make_law.hpp"
 
@@ -147,4 +148,44 @@ TEST_CASE("smooth engine: a mode change is differentiated along each perturbatio
   const Eigen::VectorXd expected = quotient(map, period, heat, 1e-9);
   CAPTURE(period.monodromy.col(heat).transpose(), expected.transpose());
   CHECK((period.monodromy.col(heat) - expected).norm() < 1e-5 * expected.norm());
+}
+
+TEST_CASE("smooth engine: a perturbation that has died out to a subnormal number passes a mode change",
+          "[sim][smooth][derivative]") {
+  // That of the speed of a slider dies out while it slides, to numbers by which nothing can be divided; at which
+  // positions is a matter of rounding.
+  sim::Model model;
+  model.oscillator = {.mass = 1.446, .stiffness = 256.156, .damping = 45.93, .damper_to = sim::DamperTo::base};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 7.384e-3,
+                      .frequency = 49.292,
+                      .harmonics = {{4, 2.08e-4, 4.672},
+                                    {5, 1.244e-4, 3.701},
+                                    {6, 3.46e-3, 4.44},
+                                    {8, 1.833e-3, 6.19},
+                                    {13, 8.748e-4, 1.117}}};
+  add_law(model, "normal_vibration",
+          {{"mu", 0.547},
+           {"weight", 0.33},
+           {"static_approach", 2.495e-6},
+           {"normal_mass", 7.182},
+           {"normal_damping_ratio", 0.4573},
+           {"lift_velocity", 0.0289},
+           {"lift", 1.535}});
+  add_law(model, "contact_compliance",
+          {{"kinetic", 0.2083}, {"static", 0.2706}, {"contact_stiffness", 2.2e6}, {"contact_damping", 0.1534}});
+  const auto engine = sim::make_engine(model);
+  engine->start(0.00173, 0.2267);
+  sim::State sliding = engine->state();
+  sliding.memories[1] = {.mode = 1, .state = {0.0}};
+  engine->track_sensitivity(true);
+  for (int i = 0; i < 20; ++i) {
+    sliding.x += 1e-6;
+    engine->restart(sliding);
+    engine->reset_sensitivity();
+    while (engine->next(0.02) != nullptr) continue;
+    CAPTURE(sliding.x);
+    CHECK(engine->outcome().ok());
+    CHECK(engine->sensitivity().allFinite());
+  }
 }

@@ -1,0 +1,69 @@
+/// When the smooth engine asks a law to change its mode: guards at the begin of an interval.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+
+#include "sim/motion/simulate.hpp"
+#include "tests/support/make_law.hpp"
+
+namespace {
+
+using namespace dualdamp;
+using test::law;
+
+/// A rate of force that pulls a mass on two stiff contacts, 2e8 times as far from the origin as they yield.
+sim::Model far_from_the_origin(double sign) {
+  sim::Model model;
+  model.oscillator = {.mass = 0.4604051369455579, .stiffness = 656.3990647806602, .damping = -6.95216605897345};
+  model.excitation = {.type = sim::ExcitationType::force_ramp, .slope = sign * 71.91650109581133};
+  model.friction = {law("normal_vibration", {{"mu", 0.25177030343458695},
+                                             {"weight", 0.0006476562672013205},
+                                             {"static_approach", 4.7519506462020065e-05},
+                                             {"normal_mass", 0.00010649268853514345},
+                                             {"normal_damping_ratio", 0.4286850890827293},
+                                             {"lift_velocity", 1.8603742993975692},
+                                             {"lift", 0.0001086298073847181}}),
+                    law("iwan", {{"stiffness", 4291824297.705205}, {"limit", 2.7668776787519214}, {"count", 16.0}}),
+                    law("contact_compliance", {{"kinetic", 0.14808344997588832},
+                                               {"contact_stiffness", 619776325.0803677},
+                                               {"contact_damping", 959.2650110258569}})};
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("smooth engine: a contact is asked to slip at its limit, not just before", "[sim][smooth]") {
+  // A step ends 1.1e-6 s before the contact reaches its limit, at 4e-13 of the terms that cancel in its force. A
+  // slider that is let go there has the wrong sign of speed, by the damper of 959 N.s/m, and stops at once.
+  const sim::History forward = sim::simulate(far_from_the_origin(1.0), {.duration = 0.2});
+  const sim::History backward = sim::simulate(far_from_the_origin(-1.0), {.duration = 0.2});
+  INFO(forward.outcome.reason << backward.outcome.reason);
+  REQUIRE(forward.outcome.ok());
+  REQUIRE(backward.outcome.ok());
+  CHECK(std::abs(forward.final.x + backward.final.x) < 1e-7 * std::abs(forward.final.x));
+}
+
+TEST_CASE("smooth engine: a step lands on a guard by the law's own forces, however large the motion was before",
+          "[sim][smooth]") {
+  // From 4 m to rest at 6 mm, beside a drive of random force. To a part of the contact's force at 4 m the guard is
+  // known to 4e-12 N; the damper makes 6e-8 m/s of it, by which the slider would run backward and stop at once.
+  sim::Model model;
+  model.oscillator = {.mass = 0.00537, .stiffness = 0.0309, .damping = 0.00187};
+  model.excitation.type = sim::ExcitationType::force_noise;
+  model.friction = {law("contact_compliance",
+                        {{"kinetic", 0.0023127}, {"contact_stiffness", 87.4758}, {"contact_damping", 6.651e-5}})};
+  model.initial = {.position = 4.374};
+  for (const std::uint64_t seed : {1U, 3U, 4U}) {
+    CAPTURE(seed);
+    model.excitation.noise = {.intensity = 8.7e-6, .bandwidth = 25.86, .seed = seed};
+    model.solver = {};
+    const sim::History exact = sim::simulate(model, {.duration = 26.0});
+    model.solver = {sim::SolverKind::implicit_steps, 1e-11};
+    const sim::History smooth = sim::simulate(model, {.duration = 26.0});
+    INFO(smooth.outcome.reason);
+    REQUIRE(smooth.outcome.ok());
+    CHECK(smooth.events.size() == exact.events.size());
+    CHECK(std::abs(smooth.final.x - exact.final.x) < 1e-8);
+  }
+}
