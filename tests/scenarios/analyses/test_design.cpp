@@ -49,7 +49,7 @@ TEST_CASE("design: laws that are left out take no part", "[scenarios][design]") 
     return testing::result_of(scenarios::run(scenarios::parse_scenario(text, "test.yaml")));
   };
   const auto all = answer_with("");
-  const auto some = answer_with("without: [position_slope, wide_stribeck], ");
+  const auto some = answer_with("without: [free_play, partial_play], ");
   CHECK(some.at("power_now") != all.at("power_now"));
 }
 
