@@ -4,7 +4,8 @@
 ///
 ///   hull      the union of the 95 % regions of all laws that the record does not reject at 5 %
 ///   average   the 2.5 and 97.5 % points of the mixture of the same laws, which count alike; within a law its
-///             severities count by their likelihood and a prior of standard deviation `severity_deviation` about zero
+///             severities count by their likelihood and a prior of standard deviation `severity_deviation` about
+///             zero
 ///
 /// No law is the rig's: laws err by `law_error` of what the departure does to the readings, beside the noise. Plain
 /// friction does not err, nor does a law that leaves more than half of what plain friction leaves.
