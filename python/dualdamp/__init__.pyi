@@ -594,6 +594,7 @@ def identify(
     forgetting: Quantity | None = None,
     free_natural_frequency: bool | None = None,
     largest_severity: Quantity | None = None,
+    law_error: Quantity | None = None,
     least_speed: Quantity | None = None,
     pairs: Sequence[int] | None = None,
     profile: bool | None = None,

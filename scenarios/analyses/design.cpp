@@ -50,9 +50,8 @@ void check(CheckedFile& file) {
 std::unique_ptr<const Question> ask(CheckedValues&& values) {
   const auto options =
       identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(method_options(values.analysis)));
-  return std::make_unique<DesignQuestion>(
-      record_question(std::move(values)), options,
-      identify::LawIntervalOptions{options.largest_severity, options.severity_deviation});
+  return std::make_unique<DesignQuestion>(record_question(std::move(values)), options,
+                                          identify::interval_options(options));
 }
 
 Json shrinkage_json(const identify::Shrinkage& shrinkage) {

@@ -63,6 +63,13 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
 
 }  // namespace
 
+LawIntervalOptions interval_options(const AnyLawOptions& options) {
+  return {.largest_severity = options.largest_severity,
+          .severity_deviation = options.severity_deviation,
+          .law_error = options.law_error,
+          .without = options.without};
+}
+
 Estimate any_law(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   Estimate estimate;
   estimate.method = any_law_method.name;
@@ -78,10 +85,7 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
     return estimate;
   }
   const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
-  std::variant<LawStudy, std::string> found = study_laws(model, constants,
-                                                         {.largest_severity = options.largest_severity,
-                                                          .severity_deviation = options.severity_deviation,
-                                                          .without = options.without});
+  std::variant<LawStudy, std::string> found = study_laws(model, constants, interval_options(options));
   if (const auto* why = std::get_if<std::string>(&found)) {
     refuse(estimate, *why);
     return estimate;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "identify/method.hpp"
+#include "identify/methods/any_law/library.hpp"
 
 namespace dualdamp::identify {
 
@@ -30,6 +31,14 @@ inline constexpr Option severity_deviation_option{
     .otherwise = "0.1",
     .meaning = "standard deviation of the prior of the severity in any_law's average over laws"};
 
+inline constexpr Option law_error_option{
+    .name = "law_error",
+    .kind = OptionKind::number,
+    .unit = "1",
+    .range = {.low = 0.0, .high = 1.0},
+    .otherwise = "0.25",
+    .meaning = "what a law of any_law leaves of a departure like it, over what the departure does to the readings"};
+
 /// Names of the laws that the library can hold.
 [[nodiscard]] std::vector<std::string> library_names();
 
@@ -43,15 +52,20 @@ inline constexpr Option without_option{.name = "without",
 struct AnyLawOptions : KnownDeviations {
   double largest_severity = 0.3;
   double severity_deviation = 0.1;
+  double law_error = 0.25;
   std::vector<std::string> without{};
 
   static constexpr auto declared() {
     return std::tuple_cat(KnownDeviations::declared(),
                           std::tuple{Use{&largest_severity_option, &AnyLawOptions::largest_severity},
                                      Use{&severity_deviation_option, &AnyLawOptions::severity_deviation},
+                                     Use{&law_error_option, &AnyLawOptions::law_error},
                                      Use{&without_option, &AnyLawOptions::without}});
   }
 };
+
+/// What of them the library and its intervals go by.
+[[nodiscard]] LawIntervalOptions interval_options(const AnyLawOptions& options);
 
 [[nodiscard]] Estimate any_law(const Record& record, const KnownConstants& constants,
                                const AnyLawOptions& options = {});

@@ -52,7 +52,7 @@ double quantile(const std::vector<Component>& mixture, double share) {
   return std::midpoint(low, high);
 }
 
-/// Likelihood of chi2 less the least of all, with the deviation known or estimated (Student).
+/// Likelihood of chi2 less the least of the law, with the deviation known or estimated (Student).
 double likelihood(double above, double scale, double freedom) {
   if (std::isinf(freedom)) return std::exp(-0.5 * above / scale);
   return std::pow(1.0 + above / scale / freedom, -0.5 * (freedom + 1.0));
@@ -85,10 +85,26 @@ class Summary {
     return std::max(rows - own, 1.0);
   }
 
+  /// What a law errs by counts where it is like the departure: it leaves at most half of what plain friction
+  /// leaves. Another one is judged by the noise alone, as plain friction is.
+  [[nodiscard]] double misfit_of(const Profile& profile) const {
+    constexpr double like = 0.5;
+    if (profile.law->law.departure == nullptr) return plain_.own_chi2;
+    if (profile.least <= like * plain_.fit.chi2) return profile.least;
+    const SeverityFit& best = profile.law->best();
+    const Index rows = model_.readings().size();
+    double own = best.residuals.tail(best.residuals.size() - rows).squaredNorm();
+    for (Index i = 0; i < rows; ++i) {
+      const auto channel = static_cast<std::size_t>(model_.channels()[static_cast<std::size_t>(i)]);
+      own += std::pow(best.residuals[i] * plain_.noise.deviations[channel] / plain_.own_deviations[channel], 2);
+    }
+    return profile.least * own / best.chi2;
+  }
+
   [[nodiscard]] double p_value(const Profile& profile) const {
     const double freedom = freedom_of(profile);
     const double denominator = std::min(plain_.noise.freedom, 1e8);
-    return f_test_p_value(profile.least / scale_ / freedom, freedom, denominator);
+    return f_test_p_value(misfit_of(profile) / scale_ / freedom, freedom, denominator);
   }
 
   /// Raises the noise until the best law is not rejected.
@@ -97,7 +113,7 @@ class Summary {
     for (const Profile& profile : profiles_) best = std::max(best, p_value(profile));
     if (best >= level) return;
     double least = infinity;
-    for (const Profile& profile : profiles_) least = std::min(least, profile.least / freedom_of(profile));
+    for (const Profile& profile : profiles_) least = std::min(least, misfit_of(profile) / freedom_of(profile));
     scale_ = std::max(least, 1.0);
     result.inflation = std::sqrt(scale_);
   }
@@ -122,29 +138,26 @@ class Summary {
     return answer;
   }
 
+  /// Laws that are not rejected count alike: how much better one of two wrong laws fits says nothing of which errs
+  /// less in zeta and F0.
   void weigh(LawIntervals& result) const {
-    double least = infinity;
-    for (const Profile& profile : profiles_) least = std::min(least, profile.least);
+    const auto allowed = std::ranges::count_if(result.laws, [](const LawAnswer& law) { return !law.rejected; });
     std::vector<Component> zeta;
     std::vector<Component> F0;
-    double sum = 0.0;
     for (std::size_t i = 0; i < profiles_.size(); ++i) {
-      const std::vector<double> prior = prior_of(profiles_[i]);
-      for (std::size_t j = 0; j < prior.size(); ++j) {
+      if (result.laws[i].rejected) continue;
+      result.laws[i].weight = 1.0 / static_cast<double>(allowed);
+      const std::vector<double> shares = posterior_of(profiles_[i]);
+      for (std::size_t j = 0; j < shares.size(); ++j) {
         const SeverityPoint& node = profiles_[i].points[j];
-        const double weight = prior[j] * likelihood(node.chi2 - least, scale_, plain_.noise.freedom) *
-                              std::exp(node.log_volume - plain_volume());
-        result.laws[i].weight += weight;
-        sum += weight;
+        const double weight = result.laws[i].weight * shares[j];
         zeta.push_back({weight, zeta_of(node.c), zeta_of(node.c_deviation) * std::sqrt(scale_)});
         F0.push_back({weight, node.F0, node.F0_deviation * std::sqrt(scale_)});
       }
     }
-    for (LawAnswer& law : result.laws) law.weight /= sum;
     for (auto [mixture, mean, std, interval] :
          {std::tuple{&zeta, &result.mean.zeta, &result.std.zeta, &result.zeta_average},
           std::tuple{&F0, &result.mean.F0, &result.std.F0, &result.F0_average}}) {
-      for (Component& part : *mixture) part.weight /= sum;
       double square = 0.0;
       for (const Component& part : *mixture) *mean += part.weight * part.value;
       for (const Component& part : *mixture)
@@ -159,8 +172,18 @@ class Summary {
     }
   }
 
-  [[nodiscard]] double plain_volume() const {
-    return 0.5 * std::log(std::max(plain_.fit.covariance.determinant(), std::numeric_limits<double>::min()));
+  /// Of each node of a law: prior times likelihood, in all 1.
+  [[nodiscard]] std::vector<double> posterior_of(const Profile& profile) const {
+    std::vector<double> shares = prior_of(profile);
+    double sum = 0.0;
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+      const SeverityPoint& node = profile.points[j];
+      shares[j] *= likelihood(node.chi2 - profile.least, scale_, plain_.noise.freedom) *
+                   std::exp(node.log_volume - profile.points.front().log_volume);
+      sum += shares[j];
+    }
+    for (double& share : shares) share /= sum;
+    return shares;
   }
 
   /// Of each node: the normal density of its severity, by the trapezoidal rule, in all 1.
@@ -232,6 +255,7 @@ class Summary {
 std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const KnownConstants& constants,
                                                const LawIntervalOptions& options) {
   std::optional<PlainFit> plain = plain_fit(model);
+  if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
   if (!plain) return "no Coulomb and viscous friction has steady states like these";
   LawStudy study{.plain = std::move(*plain)};
   study.laws = fit_library(model, options, study.plain);

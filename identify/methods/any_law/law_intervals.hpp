@@ -3,9 +3,12 @@
 /// over its severity, and two ranges are drawn.
 ///
 ///   hull      the union of the 95 % regions of all laws that the record does not reject at 5 %
-///   average   the 2.5 and 97.5 % points of the mixture of all laws, weighted by their likelihood and by a prior:
-///             laws alike, severity with the standard deviation `severity_deviation` about zero
+///   average   the 2.5 and 97.5 % points of the mixture of the same laws, which count alike; within a law its
+///             severities count by their likelihood and a prior of standard deviation `severity_deviation` about
+///             zero
 ///
+/// No law is the rig's: laws err by `law_error` of what the departure does to the readings, beside the noise. Plain
+/// friction does not err, nor does a law that leaves more than half of what plain friction leaves.
 /// zeta and F0 of a law are those of the Coulomb + viscous friction that it departs from (identify/rigs/rigs.hpp):
 /// what remains as its severity goes to zero. When every law is rejected the noise is raised until the best one is
 /// not, and `inflation` says by how much (birge1932). Source: brynjarsdottir2014, pasquier2015. Docs:

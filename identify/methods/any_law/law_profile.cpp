@@ -244,6 +244,28 @@ std::optional<PlainFit> plain_fit(const ReadingModel& model) {
   const std::optional<SeverityFit> fit = fit_law(model, {}, plain.noise, start, *near);
   if (!fit) return std::nullopt;
   plain.fit = *fit;
+  plain.own_chi2 = fit->chi2;
+  plain.own_deviations = plain.noise.deviations;
+  return plain;
+}
+
+std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain, double share) {
+  const std::size_t channels = plain.noise.deviations.size();
+  std::vector<double> square(channels, 0.0);
+  std::vector<double> count(channels, 0.0);
+  for (std::size_t i = 0; i < model.channels().size(); ++i) {
+    const auto channel = static_cast<std::size_t>(model.channels()[i]);
+    square[channel] += std::pow(plain.fit.residuals[static_cast<Index>(i)], 2);
+    count[channel] += 1.0;
+  }
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    const double beyond = square[channel] / std::max(count[channel], 1.0) - 1.0;
+    plain.noise.deviations[channel] *= std::sqrt(1.0 + share * share * std::max(beyond, 0.0));
+  }
+  const std::unique_ptr<NearbyOrbits> near = model.no_orbits(plain.noise.deviations);
+  const std::optional<SeverityFit> fit = fit_law(model, {}, plain.noise, {.unknowns = plain.fit.unknowns}, *near);
+  if (!fit) return std::nullopt;
+  plain.fit = *fit;
   return plain;
 }
 

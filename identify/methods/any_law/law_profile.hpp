@@ -48,10 +48,16 @@ struct LawStart {
 /// viscous friction. `plain`: that fit; it is repeated until its weights are those of the noise. Nothing where it
 /// has none.
 struct PlainFit {
-  ChannelNoise noise;
+  ChannelNoise noise;  ///< and what laws err by
   SeverityFit fit;
+  std::vector<double> own_deviations;  ///< of the noise alone
+  double own_chi2 = 0.0;               ///< by the noise alone: plain friction does not err, it holds or not
 };
 [[nodiscard]] std::optional<PlainFit> plain_fit(const ReadingModel& model);
+
+/// Adds to the noise what laws that are not exact leave of the readings: `share` of what plain friction leaves
+/// beyond the noise, channel by channel, as a standard deviation. The fit of plain friction with it, or nothing.
+[[nodiscard]] std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain, double share);
 
 /// Fits over the severities of one departure, the mildest first; `plain` stands for severity zero. Ends where a law
 /// explains the readings so much worse than a milder one that no region reaches it. Negative `largest`: the other

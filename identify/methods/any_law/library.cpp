@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -41,6 +42,15 @@ sim::Model partial_play(const rigs::RigBase& base, rigs::RigValues p) {
   return rigs::with_law(rigs::with_coulomb(rigid), "free_play", {{"kinetic", share * base.F0}, {"play", p[0]}});
 }
 
+/// Friction falls from F0 (1 + s) at rest to F0 at the peak speed, and further beyond.
+sim::Model wide_stribeck(const rigs::RigBase& base, rigs::RigValues p) {
+  const double fallen = 1.0 - std::exp(-1.0);
+  return rigs::with_law(base.model, "stribeck",
+                        {{"kinetic", (1.0 + p[0] - p[0] / fallen) * base.F0},
+                         {"static", (1.0 + p[0]) * base.F0},
+                         {"stribeck_velocity", base.reference.speed()}});
+}
+
 /// Laws that a record may have and that the stress test does not play.
 const std::vector<rigs::Rig>& further_laws() {
   static const std::vector<rigs::Rig> list = {
@@ -60,7 +70,15 @@ const std::vector<rigs::Rig>& further_laws() {
        .largest = 0.5,
        .values_at = [](const rigs::RigBase& base,
                        double s) { return std::vector{2.0 * s * base.reference.amplitude}; },
-       .family = rigs::Family::presliding}};
+       .family = rigs::Family::presliding},
+      {.name = "wide_stribeck",
+       .meaning = "friction falls over the whole range of speeds",
+       .parameters = {},
+       .build = wide_stribeck,
+       .severity = "excess of friction at rest over F0, that of the peak speed",
+       .largest = 1.0,
+       .values_at = [](const rigs::RigBase&, double s) { return std::vector{s}; },
+       .family = rigs::Family::velocity}};
   return list;
 }
 

@@ -13,6 +13,8 @@ namespace dualdamp::identify {
 struct LawIntervalOptions {
   double largest_severity = 0.3;
   double severity_deviation = 0.1;  ///< of the prior of a severity, about zero
+  /// Of what a departure does to the readings: the share that laws like it leave, as a standard deviation.
+  double law_error = 0.25;
   /// Departures that stay out of the library.
   std::vector<std::string> without{};
 };

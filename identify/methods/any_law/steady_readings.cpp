@@ -171,7 +171,10 @@ class SteadyReadings final : public ReadingModel {
     readings_.resize(count);
     channels_.assign(static_cast<std::size_t>(count), 0);
     const Index columns = several_ ? 6 : 3;
-    smooth_curve_.setZero(count, phases_ > 0 ? 2 * columns : columns);
+    // What yields before it slides turns the phase most where the motion is small.
+    constexpr Index enough = 6;
+    const Index phase_columns = phases_ < enough ? columns : columns + 1;
+    smooth_curve_.setZero(count, phases_ > 0 ? columns + phase_columns : columns);
     Index phase_row = amplitudes();
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const Pair& state = states_[i];
@@ -186,7 +189,8 @@ class SteadyReadings final : public ReadingModel {
       if (!has_phase(state)) continue;
       readings_[phase_row] = state.phase;
       channels_[static_cast<std::size_t>(phase_row)] = 1;
-      smooth_curve_.row(phase_row).tail(columns) = curve;
+      smooth_curve_.row(phase_row).segment(columns, columns) = curve;
+      if (phase_columns > columns) smooth_curve_(phase_row, 2 * columns) = 1.0 / x;
       ++phase_row;
     }
     // An error of Y looks like one of x, by the slope of x over Y.

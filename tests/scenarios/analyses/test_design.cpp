@@ -42,6 +42,17 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
   CHECK(answer.at("advice") == candidates[0].at("text"));
 }
 
+TEST_CASE("design: laws that are left out take no part", "[scenarios][design]") {
+  const auto answer_with = [](const std::string& keys) {
+    std::string text = scenario;
+    text.replace(text.find("sigma_x"), 0, keys);
+    return testing::result_of(scenarios::run(scenarios::parse_scenario(text, "test.yaml")));
+  };
+  const auto all = answer_with("");
+  const auto some = answer_with("without: [free_play, partial_play], ");
+  CHECK(some.at("power_now") != all.at("power_now"));
+}
+
 TEST_CASE("design: data that state their own frequencies, and data without steady states", "[scenarios][design]") {
   const auto write = [](const char* text) { std::ofstream("design_data.csv") << text; };
   const auto read = [](const std::string& excitation) {

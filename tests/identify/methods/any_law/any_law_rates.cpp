@@ -74,9 +74,11 @@ std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig&
   return best;
 }
 
-/// What a law of the library is called that plays this departure, of either sign.
+/// What a law of the library is called that plays this departure, of either sign. A drag beside the damper is the
+/// negative side of a film beside it.
 std::vector<std::string> without(const identify::rigs::Rig& departure) {
   static const std::map<std::string, std::string> twins = {{"detuned_below", "detuning"},
+                                                           {"quadratic_drag", "film_beside_damper"},
                                                            {"softening_spring", "cubic_spring"},
                                                            {"viscous_power_below", "viscous_power"}};
   const std::string name(departure.name);
@@ -195,6 +197,49 @@ void print(const std::string& name, const identify::rigs::Rig* departure, const 
   std::fflush(stdout);
 }
 
+/// Means over departures: each counts alike, where it has records and a value of its own to hold.
+class Means {
+ public:
+  void add(const identify::rigs::Rig& departure, const Row& row) {
+    if (row.records == 0) return;
+    records_ += row.records;
+    const std::array own = {departure.has_zeta, departure.has_F0};
+    const std::array rows = {&row.hull, &row.average, &row.plain, &row.single};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (std::size_t j = 0; j < 2; ++j) {
+        if (!own[j]) continue;
+        const Tally& tally = (*rows[i])[j];
+        held_[i][j].push_back(100.0 * tally.held / row.records);
+        half_[i][j].push_back(100.0 * tally.half / row.records);
+        score_[i][j].push_back(tally.score / row.records);
+      }
+    }
+  }
+
+  void print(const char* kind) const {
+    constexpr std::array names = {"hull", "average", "plain", "single"};
+    if (records_ == 0) return;
+    std::printf("%s: means over %zu departures, n %d |", kind, held_[0][0].size(), records_);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      std::printf(" %s %.0f/%.0f half %.1f/%.1f score %.2f/%.2f |", names[i], mean(held_[i][0]), mean(held_[i][1]),
+                  mean(half_[i][0]), mean(half_[i][1]), mean(score_[i][0]), mean(score_[i][1]));
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+
+ private:
+  using Columns = std::array<std::array<std::vector<double>, 2>, 4>;
+
+  static double mean(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / std::max<double>(static_cast<double>(values.size()), 1.0);
+  }
+
+  Columns held_, half_, score_;
+  int records_ = 0;
+};
+
 /// Friction that departs, with plain friction first.
 std::vector<const identify::rigs::Rig*> played(LawRecord kind) {
   std::vector<const identify::rigs::Rig*> list = {nullptr};
@@ -285,6 +330,7 @@ int main(int argc, char** argv) {
   };
   for (const LawRecord kind :
        {LawRecord::phases, LawRecord::amplitudes, LawRecord::response, LawRecord::extremes, LawRecord::history}) {
+    Means means;
     for (const identify::rigs::Rig* departure : played(kind)) {
       const std::string name =
           std::string(name_of(kind)) + "/" + (departure == nullptr ? "none" : std::string(departure->name));
@@ -292,7 +338,9 @@ int main(int argc, char** argv) {
       Row row;
       for (int i = 0; i < records; ++i) count(kind, departure, first + static_cast<std::uint64_t>(i), row);
       print(name, departure, row);
+      if (departure != nullptr) means.add(*departure, row);
     }
+    means.print(std::string(name_of(kind)).c_str());
   }
   for (const LawRecord kind : {LawRecord::phases, LawRecord::amplitudes, LawRecord::response})
     if (wanted("bound/" + std::string(name_of(kind)))) print_bound(kind, records, first);

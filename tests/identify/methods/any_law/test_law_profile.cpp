@@ -107,6 +107,80 @@ TEST_CASE("any_law: fits that share derivatives are those that take their own") 
   }
 }
 
+TEST_CASE("any_law: the noise of phases is not taken for larger where contacts yield") {
+  // Less noise than usual: what the smooth curve does not follow shows the more.
+  constexpr double noise = 0.0006;
+  for (const char* law : {"contact_compliance", "dahl", "elasto_plastic", "free_play"}) {
+    INFO(law);
+    const Case one = case_of(law, 0.2, noise);
+    CHECK(one.plain.noise.deviations[1] < 3.0 * noise);
+    CHECK(one.plain.noise.deviations[1] > 0.3 * noise);
+  }
+}
+
+TEST_CASE("any_law: laws err by a share of what the departure does to the readings") {
+  const Case plain = case_of("contact_compliance", 1e-6);
+  const std::optional<PlainFit> none = with_law_error(*plain.model, plain.plain, 0.25);
+  REQUIRE(none);
+  // Plain friction is exact: what it leaves is noise.
+  for (std::size_t i = 0; i < 2; ++i)
+    CHECK(none->noise.deviations[i] == Approx(plain.plain.noise.deviations[i]).epsilon(0.05));
+  const Case far = case_of("contact_compliance", 0.2);
+  const std::optional<PlainFit> same = with_law_error(*far.model, far.plain, 0.0);
+  const std::optional<PlainFit> more = with_law_error(*far.model, far.plain, 0.25);
+  REQUIRE(same);
+  REQUIRE(more);
+  const auto phases = static_cast<Eigen::Index>(far.model->readings().size() / 2);
+  const double left =
+      far.plain.fit.residuals.segment(phases, phases).norm() / std::sqrt(static_cast<double>(phases));
+  REQUIRE(left > 5.0);
+  CHECK(same->noise.deviations[1] == Approx(far.plain.noise.deviations[1]));
+  CHECK(more->noise.deviations[1] ==
+        Approx(far.plain.noise.deviations[1] * std::sqrt(1.0 + 0.0625 * (left * left - 1.0))));
+}
+
+TEST_CASE(
+    "any_law: bristles that are not in the library are held by others, which err by a share of the departure") {
+  const Case one = case_of("elasto_plastic", 0.2);
+  const auto study = [&](double law_error) {
+    auto found = study_laws(*one.model, one.rig.constants, {.law_error = law_error, .without = {"elasto_plastic"}});
+    REQUIRE(std::holds_alternative<LawStudy>(found));
+    return std::get<LawStudy>(found).intervals;
+  };
+  const auto held = [&](const Interval& F0) { return F0[0] <= one.rig.truth.F0 && one.rig.truth.F0 <= F0[1]; };
+  const LawIntervals exact = study(0.0);
+  const LawIntervals erring = study(0.25);
+  for (const LawIntervals* laws : {&exact, &erring})
+    UNSCOPED_INFO("F0 " << laws->F0_hull[0] / one.rig.truth.F0 << " to " << laws->F0_hull[1] / one.rig.truth.F0);
+  CHECK_FALSE(held(exact.F0_hull));
+  CHECK(held(erring.F0_hull));
+}
+
+TEST_CASE("any_law: friction that falls over position is held by one that falls over speed") {
+  const Case one = case_of("position_slope", 0.09);
+  const auto held_without = [&](const std::vector<std::string>& laws) {
+    auto study = study_laws(*one.model, one.rig.constants, {.without = laws});
+    REQUIRE(std::holds_alternative<LawStudy>(study));
+    const Interval hull = std::get<LawStudy>(study).intervals.zeta_hull;
+    UNSCOPED_INFO("zeta " << hull[0] / one.rig.zeta << " to " << hull[1] / one.rig.zeta);
+    return hull[0] <= one.rig.zeta && one.rig.zeta <= hull[1];
+  };
+  CHECK(held_without({"position_slope"}));
+  CHECK_FALSE(held_without({"position_slope", "wide_stribeck"}));
+}
+
+TEST_CASE("any_law: laws that are not rejected count alike in the average, the others do not count") {
+  const Case one = case_of("contact_compliance", 0.1);
+  auto study = study_laws(*one.model, one.rig.constants, {});
+  REQUIRE(std::holds_alternative<LawStudy>(study));
+  const LawIntervals& found = std::get<LawStudy>(study).intervals;
+  const auto allowed = std::ranges::count_if(found.laws, [](const LawAnswer& law) { return !law.rejected; });
+  REQUIRE(allowed > 1);
+  REQUIRE(allowed < std::ssize(found.laws));
+  for (const LawAnswer& law : found.laws)
+    CHECK(law.weight == Approx(law.rejected ? 0.0 : 1.0 / static_cast<double>(allowed)));
+}
+
 TEST_CASE("any_law: a film that levels off is held by other viscous laws when its own is not in the library") {
   // With less noise the second order tells the two films apart.
   constexpr double noise = 0.002;
