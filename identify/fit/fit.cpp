@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
 
 void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, Eigen::Index parameters,
-                      Fit& result) {
+                      bool robust, Fit& result) {
   double sum = 0.0;
   double count = 0.0;
   for (const SignalRows& rows : problem.signals()) {
@@ -38,14 +38,14 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
         noise_p_value(problem.signal(rows), misses.segment(rows.begin, size), static_cast<std::size_t>(parameters));
     signal.independent = independent_samples(misses.segment(rows.begin, size), problem.signal(rows).is_sampled);
     result.log_likelihood_count += signal.independent;
-    const double deviation = problem.signal(rows).is_stated ? problem.signal(rows).noise : signal.rms;
-    constexpr double least = 1e-12;  // of exact data only rounding is left
-    const double safe = std::max(deviation, least * signal.range + std::numeric_limits<double>::min());
-    result.deviance +=
-        static_cast<double>(size) * (2.0 * std::log(safe / signal.range) + signal.rms * signal.rms / (safe * safe));
+    if (problem.signal(rows).is_stated) {
+      const double spent = static_cast<double>(parameters) / static_cast<double>(problem.rows());
+      const Eigen::VectorXd own = misses.segment(rows.begin, size);
+      compare_with_stated((robust ? robust_deviation(own) : signal.rms) / std::sqrt(1.0 - spent),
+                          signal.independent * (1.0 - spent), signal);
+    }
     result.signals.push_back(signal);
   }
-  result.deviance /= static_cast<double>(problem.rows());
   if (count > 0.0) result.noise_units = std::sqrt(sum / count);
 }
 
@@ -86,7 +86,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   result.rig = with_values(rig, parameters, values).value_or(rig);
   result.own = problem.own(values);
   const Eigen::VectorXd misses = result.outputs - problem.measured();
-  describe_signals(problem, misses, q.size(), result);
+  describe_signals(problem, misses, q.size(), options.robust, result);
   warn_of_residuals(experiments, result);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     result.parameters.push_back({.parameter = parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
@@ -106,7 +106,34 @@ Eigen::MatrixXd shared_covariance(const Fit& fit) {
   return part;
 }
 
+namespace {
+
+/// -2 ln of the largest likelihood, per reading and but for a constant. A stated noise that even the best of the
+/// fits contradicts is no scale to compare them by.
+double deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t s = 0; s < fit.signals.size(); ++s) {
+    const FittedSignal& signal = fit.signals[s];
+    const bool as_stated = !std::isnan(signal.chi2_per_freedom) && std::ranges::any_of(fits, [s](const Fit& other) {
+      return other.outcome.ok() && contradicts_stated(other.signals[s]) == 0;
+    });
+    constexpr double least = 1e-12;  // of exact data only rounding is left
+    const double deviation =
+        std::max(as_stated ? signal.noise : signal.rms, least * signal.range + std::numeric_limits<double>::min());
+    const double misfit = signal.rms / deviation;
+    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    sum += size * (2.0 * std::log(deviation / signal.range) + misfit * misfit);
+    count += size;
+  }
+  return sum / count;
+}
+
+}  // namespace
+
 void compare_fits(std::vector<Fit>& fits) {
+  for (Fit& fit : fits)
+    if (fit.outcome.ok()) fit.deviance = deviance_of(fit, fits);
   const auto least =
       std::ranges::min_element(fits, {}, [](const Fit& fit) { return fit.outcome.ok() ? fit.deviance : infinity; });
   if (least == fits.end()) return;

@@ -62,6 +62,10 @@ struct FittedSignal {
   double noise_units = unknown;  ///< rms over it
   double independent = 0.0;      ///< samples that count as such
   double p_value = unknown;      ///< chance that the residuals are noise alone (`residual_test.hpp`)
+  /// Of a stated noise: variance of the residuals over it, per degree of freedom, and the chance of one so far
+  /// from 1.
+  double chi2_per_freedom = unknown;
+  double chi2_p_value = unknown;
 };
 
 struct Fit {

@@ -1,6 +1,7 @@
 #include "identify/fit/problem.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -41,14 +42,6 @@ bool guarded(Work work) {
 }
 
 }  // namespace
-
-/// One side of a difference.
-struct FitProblem::Column {
-  Eigen::Index parameter = 0;
-  double q = 0.0;
-  Eigen::VectorXd outputs;
-  bool ok = true;
-};
 
 FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
                        const std::vector<double>& sizes)
@@ -190,30 +183,18 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) cons
   });
 }
 
-bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian) const {
-  if (!outputs(q, result)) return false;
-  const std::optional<sim::Model> middle = model_at(values(q));
-  if (!middle) return false;
-  std::vector<std::unique_ptr<Neighbours>> neighbours(experiments_.size());
-  if (!guarded([&] {
-        for (std::size_t e = 0; e < experiments_.size(); ++e) neighbours[e] = experiments_[e]->neighbours(*middle);
-        return true;
-      }))
-    return false;
-  std::vector<Column> columns;
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
-    const double h = accuracy_.step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
-    columns.push_back({i, std::max(q[i] - h, c.low), result});
-    columns.push_back({i, std::min(q[i] + h, c.high), result});
-  }
-  sim::in_parts(columns.size(), 1, 0, [&](std::size_t number, std::size_t) {
-    Column& column = columns[number];
+bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
+                        Eigen::Index i, double step, Eigen::VectorXd& slope) const {
+  const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
+  const FitParameter& parameter = parameters_[static_cast<std::size_t>(i)];
+  const double h = step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
+  std::array<double, 2> at = {std::max(q[i] - h, c.low), std::min(q[i] + h, c.high)};
+  std::array<Eigen::VectorXd, 2> outputs = {middle, middle};
+  for (std::size_t side = 0; side < 2; ++side) {
     Eigen::VectorXd there = q;
-    there[column.parameter] = column.q;
+    there[i] = at[side];
     const Eigen::VectorXd p = values(there);
-    const FitParameter& parameter = parameters_[static_cast<std::size_t>(column.parameter)];
-    column.ok = guarded([&] {
+    const bool ok = guarded([&] {
       const std::optional<sim::Model> model = model_at(p);
       if (!model) return false;
       const std::vector<OwnValues> owned = own(p);
@@ -221,22 +202,46 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
       for (std::size_t e = 0; e < experiments_.size(); ++e) {
         if (parameter.owner == Owner::record && parameter.index != e) continue;
         if (!neighbours[e]->predict(*model, owned[e], part)) return false;
-        column.outputs.segment(begins_[e], part.size()) = part;
+        outputs[side].segment(begins_[e], part.size()) = part;
       }
       return true;
     });
-  });
-  jacobian.resize(rows_, q.size());
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
     // Where the model ends on one side, the difference is taken on the other.
-    Column& below = columns[static_cast<std::size_t>(2 * i)];
-    Column& above = columns[static_cast<std::size_t>(2 * i + 1)];
-    if (!below.ok) below.outputs = result, below.q = q[i];
-    if (!above.ok) above.outputs = result, above.q = q[i];
-    if (!(above.q > below.q)) return false;
-    jacobian.col(i) = (above.outputs - below.outputs) / (above.q - below.q);
+    if (!ok) outputs[side] = middle, at[side] = q[i];
   }
-  return jacobian.allFinite();
+  if (!(at[1] > at[0])) return false;
+  slope = (outputs[1] - outputs[0]) / (at[1] - at[0]);
+  return slope.allFinite();
+}
+
+bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
+                             bool seeks) const {
+  if (!outputs(q, result)) return false;
+  const std::optional<sim::Model> middle = model_at(values(q));
+  if (!middle) return false;
+  All neighbours(experiments_.size());
+  if (!guarded([&] {
+        for (std::size_t e = 0; e < experiments_.size(); ++e) neighbours[e] = experiments_[e]->neighbours(*middle);
+        return true;
+      }))
+    return false;
+  jacobian.resize(rows_, q.size());
+  std::atomic<bool> ok = true;
+  sim::in_parts(static_cast<std::size_t>(q.size()), 1, 0, [&](std::size_t number, std::size_t) {
+    const auto i = static_cast<Eigen::Index>(number);
+    Eigen::VectorXd slope;
+    constexpr double farthest = 0.1;
+    constexpr double farther = 10.0;
+    double step = accuracy_.step;
+    bool has_slope = column(q, result, neighbours, i, step, slope);
+    while (seeks && has_slope && slope.squaredNorm() == 0.0 && (step *= farther) < 1.01 * farthest)
+      has_slope = column(q, result, neighbours, i, step, slope);
+    if (has_slope)
+      jacobian.col(i) = slope;
+    else
+      ok = false;
+  });
+  return ok.load();
 }
 
 }  // namespace dualdamp::identify

@@ -67,17 +67,20 @@ class FitProblem {
 
   /// Outputs, unscaled. False: the rig has no such motion, or a law refuses the values.
   [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const;
-  /// Outputs and their derivatives by the coordinates.
-  [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result,
-                                 Eigen::MatrixXd& jacobian) const;
+  /// Outputs and their derivatives by the coordinates. `seeks`: what changes nothing near `q` is asked further off,
+  /// for a search that has to leave the place.
+  [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
+                                 bool seeks = false) const;
 
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// What each experiment has of its own at these values.
   [[nodiscard]] std::vector<OwnValues> own(const Eigen::VectorXd& values) const;
 
  private:
-  struct Column;
-
+  /// One column by differences over `step`; false: there is no motion on either side.
+  using All = std::vector<std::unique_ptr<Neighbours>>;
+  [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
+                            Eigen::Index i, double step, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);
   void number_rows();

@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "sim/parallel.hpp"
 
@@ -15,90 +17,129 @@ Profiler::Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, co
       q_(q),
       rows_(rows),
       residuals_(residuals),
-      normal_(rows.transpose() * rows),
-      squares_(residuals.squaredNorm()) {
-  constexpr double least = 1e-100;
-  unit_ = normal_.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
-}
+      squares_(residuals.squaredNorm()) {}
 
 void Profiler::for_each(Eigen::Index count, const std::function<void(Eigen::Index)>& work) {
   sim::in_parts(static_cast<std::size_t>(count), 1, 0,
                 [&](std::size_t i, std::size_t) { work(static_cast<Eigen::Index>(i)); });
 }
 
-std::optional<double> Profiler::growth(Eigen::Index i, double value) const {
+Profiler::Way Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
+                           const Eigen::MatrixXd& rows) const {
+  Way way{q, residuals, rows, rows.transpose() * rows, Eigen::VectorXd::Ones(q.size())};
+  for (Eigen::Index j = 0; j < q.size(); ++j)
+    if (way.normal(j, j) > 0.0) way.unit[j] = 1.0 / std::sqrt(way.normal(j, j));
+  return way;
+}
+
+Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) const {
+  // By Lagrange's multiplier, in units of `way.unit`. What would leave its range stays at its end, and the others
+  // take their best values beside it.
   const Eigen::Index size = q_.size();
-  Eigen::VectorXd q = q_;
-  Eigen::VectorXd residuals = residuals_;
-  std::optional<double> best;
-  constexpr int most_steps = 4;
-  constexpr double settled = 0.01;
-  for (int round = 0; round < most_steps; ++round) {
-    // Least squares with the value held, by Lagrange's multiplier.
-    const Eigen::VectorXd row = unit_.cwiseProduct(problem_.slope(q).row(i).transpose());
-    const double scale = row.norm();
-    Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
-    bordered.topLeftCorner(size, size) = unit_.asDiagonal() * normal_ * unit_.asDiagonal();
-    bordered.block(0, size, size, 1) = row / scale;
-    bordered.block(size, 0, 1, size) = row.transpose() / scale;
-    Eigen::VectorXd right(size + 1);
-    right.head(size) = -unit_.cwiseProduct(rows_.transpose() * residuals);
-    right[size] = (value - problem_.values(q)[i]) / scale;
-    const Eigen::VectorXd step = bordered.completeOrthogonalDecomposition().solve(right);
-    q += unit_.cwiseProduct(step.head(size));
+  const Eigen::VectorXd row = way.unit.cwiseProduct(problem_.slope(way.q).row(i).transpose());
+  const double scale = row.norm();
+  Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  bordered.topLeftCorner(size, size) = way.unit.asDiagonal() * way.normal * way.unit.asDiagonal();
+  bordered.block(0, size, size, 1) = row / scale;
+  bordered.block(size, 0, 1, size) = row.transpose() / scale;
+  Eigen::VectorXd right(size + 1);
+  right.head(size) = -way.unit.cwiseProduct(way.rows.transpose() * way.residuals);
+  right[size] = (value - problem_.values(way.q)[i]) / scale;
+  for (Eigen::Index held = 0;; ++held) {
+    const Eigen::VectorXd found = bordered.completeOrthogonalDecomposition().solve(right);
+    Eigen::VectorXd q = way.q + way.unit.cwiseProduct(found.head(size));
+    Eigen::Index leaving = -1;
     for (Eigen::Index j = 0; j < size; ++j) {
       const Coordinate& c = problem_.coordinates()[static_cast<std::size_t>(j)];
-      q[j] = std::clamp(q[j], c.low, c.high);
+      const double inside = std::clamp(q[j], c.low, c.high);
+      constexpr double rounding = 1e-12;
+      if (std::abs(inside - q[j]) > rounding * (1.0 + std::abs(inside)) && j != i && leaving < 0) leaving = j;
+      q[j] = inside;
     }
-    Eigen::VectorXd outputs;
-    if (!problem_.outputs(q, outputs)) return best;
-    residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
-    const double found = std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
-    if (best && !(found < *best)) return best;
-    const bool is_settled = best && *best - found < settled * found;
-    best = found;
-    if (is_settled) break;
+    if (leaving < 0 || held == size) return q;
+    const double shift = (q[leaving] - way.q[leaving]) / way.unit[leaving];
+    right -= shift * bordered.col(leaving);
+    bordered.row(leaving).setZero();
+    bordered.col(leaving).setZero();
+    bordered(leaving, leaving) = 1.0;
+    right[leaving] = shift;
   }
-  return best;
+}
+
+std::optional<double> Profiler::growth(Eigen::Index i, double value, Way& way) const {
+  std::optional<double> best;
+  constexpr int most_steps = 4;
+  constexpr int most_derivatives = 2;
+  constexpr double settled = 0.01;
+  for (int derivative = 0;; ++derivative) {
+    bool is_settled = false;
+    for (int round = 0; round < most_steps && !is_settled; ++round) {
+      Eigen::VectorXd q = step(i, value, way);
+      Eigen::VectorXd outputs;
+      if (!problem_.outputs(q, outputs)) return best;
+      Eigen::VectorXd residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
+      const double found = std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
+      // Beside its minimum by so much a step has left where the derivatives hold.
+      if (best && found > (1.0 + settled) * *best) break;
+      is_settled = best && *best - found <= settled * found;
+      if (best && found >= *best) continue;
+      best = found;
+      way.q = std::move(q);
+      way.residuals = std::move(residuals);
+    }
+    if (is_settled || derivative == most_derivatives) return best;
+    Eigen::VectorXd outputs;
+    Eigen::MatrixXd jacobian;
+    if (!problem_.derivatives(way.q, outputs, jacobian)) return best;
+    way = at(way.q, way.residuals, weights_.asDiagonal() * jacobian);
+  }
 }
 
 double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const {
   const Coordinate& c = problem_.coordinates()[static_cast<std::size_t>(i)];
   const friction::Range& range = fitted.parameter.range;
-  const auto at = [&](double way) {
+  const auto value_at = [&](double way) {
     const double value =
         c.logarithmic ? fitted.value * std::exp(sign * way / fitted.value) : fitted.value + sign * way;
     return std::clamp(value, range.low, range.high);
   };
   double way = limit * fitted.std;
   if (std::isnan(fitted.std)) {
-    const Eigen::VectorXd row = rows_.col(i);
-    way = limit * problem_.slope(q_)(i, i) / std::max(row.norm(), 1e-300);
+    // What changes nothing near the estimate may do so further off.
+    const double norm = rows_.col(i).norm();
+    constexpr double near = 1e-3;
+    way = norm > 0.0 ? limit * problem_.slope(q_)(i, i) / norm : near * std::abs(problem_.slope(q_)(i, i));
   }
+  Way others = at(q_, residuals_, rows_);
   double inner = 0.0;
   double inner_growth = 0.0;
+  double outer = std::numeric_limits<double>::infinity();
   double last = 0.0;
-  constexpr int most_rounds = 7;
+  constexpr int most_rounds = 12;
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
-    const double value = at(way);
-    const std::optional<double> grown = growth(i, value);
+    const double value = value_at(way);
+    const std::optional<double> grown = growth(i, value, others);
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;
     if (last < 1.0 && value == (sign < 0.0 ? range.low : range.high)) return value;
-    // The root of the growth is nearly a straight line.
+    // The root of the growth is nearly a straight line, but for a jump, which is halved in.
     const double rise = std::max(*grown - inner_growth, 1e-3 * limit);
     const double next = inner + (way - inner) * (limit - inner_growth) / rise;
     if (last < 1.0) {
       inner = way;
       inner_growth = *grown;
+    } else {
+      outer = way;
     }
+    if (outer - inner < close * outer) return value_at(outer);
     constexpr double farthest = 4.0;
-    way = std::clamp(next, way / farthest, farthest * way);
+    const double margin = std::isfinite(outer) ? 0.1 * (outer - inner) : 0.0;
+    way = std::clamp(next, std::max(inner + margin, way / farthest), std::min(outer - margin, farthest * way));
   }
   constexpr double near = 0.1;
-  return std::abs(last - 1.0) < near ? at(way) : unknown;
+  return std::abs(last - 1.0) < near ? value_at(way) : unknown;
 }
 
 std::array<double, 2> Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {

@@ -1,8 +1,9 @@
 #pragma once
 /// Intervals by profile likelihood: a parameter is held off its estimate, and the others take their best values.
 ///
-/// These follow by Gauss and Newton's steps with the derivatives at the estimate, two or three of them: cheap, for
-/// nothing is differentiated anew. The ends lie where the sum of squares has grown by the square of a limit.
+/// These follow by Gauss and Newton's steps with the derivatives at the estimate, two or three of them; where these
+/// do not settle, the motion is differentiated anew on the way. The ends lie where the sum of squares has grown by
+/// the square of a limit, or jumps over it: a reading may change its side of an event.
 
 #include <Eigen/Core>
 #include <array>
@@ -27,8 +28,20 @@ class Profiler {
   [[nodiscard]] std::array<double, 2> interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
 
  private:
+  /// Where the others have gone, and the derivatives they go by.
+  struct Way {
+    Eigen::VectorXd q;
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd rows;
+    Eigen::MatrixXd normal;
+    Eigen::VectorXd unit;  ///< of each coordinate, which makes the diagonal of the normal matrix one
+  };
+  [[nodiscard]] Way at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
+                       const Eigen::MatrixXd& rows) const;
+  /// Least squares with parameter `i` held at `value`, by the derivatives of `way`.
+  [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way) const;
   /// The root of the growth of the sum of squares where parameter `i` is `value`; nothing where there is no motion.
-  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value) const;
+  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, Way& way) const;
   [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
 
   const FitProblem& problem_;
@@ -36,8 +49,6 @@ class Profiler {
   const Eigen::VectorXd& q_;
   const Eigen::MatrixXd& rows_;
   const Eigen::VectorXd& residuals_;
-  Eigen::MatrixXd normal_;
-  Eigen::VectorXd unit_;  ///< of each coordinate, which makes the diagonal of the normal matrix one
   double squares_ = 0.0;
 };
 

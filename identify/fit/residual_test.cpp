@@ -6,10 +6,12 @@
 #include <complex>
 #include <numeric>
 #include <unsupported/Eigen/FFT>
+#include <utility>
 #include <vector>
 
 #include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/median.hpp"
 
 namespace dualdamp::identify {
 
@@ -85,11 +87,55 @@ bool is_noise(double p_value) {
   return !(p_value < level);
 }
 
+double robust_deviation(const Eigen::VectorXd& residuals) {
+  std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
+  for (double& size : sizes) size = std::abs(size);
+  constexpr double to_deviation = 1.4826;
+  return to_deviation * upper_median(std::move(sizes));
+}
+
+void compare_with_stated(double deviation, double freedom, FittedSignal& signal) {
+  if (!(signal.noise > 0.0) || !(freedom >= 1.0)) return;
+  const double ratio = deviation / signal.noise;
+  signal.chi2_per_freedom = ratio * ratio;
+  // F with a denominator that is known is chi-square.
+  constexpr double known = 1e9;
+  const double above = f_test_p_value(signal.chi2_per_freedom, freedom, known);
+  signal.chi2_p_value = std::min(1.0, 2.0 * std::min(above, 1.0 - above));
+}
+
+int contradicts_stated(const FittedSignal& signal) {
+  constexpr double factor = 1.3;
+  if (is_noise(signal.chi2_p_value)) return 0;
+  const double ratio = std::sqrt(signal.chi2_per_freedom);
+  return ratio > factor ? 1 : ratio < 1.0 / factor ? -1 : 0;
+}
+
+namespace {
+
+std::string said_of_stated(const FittedSignal& fitted, const std::string& who) {
+  const std::string ratio = core::format_number(std::sqrt(fitted.chi2_per_freedom), 2);
+  const std::string test = " times the stated noise (chi-square " +
+                           core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): ";
+  if (contradicts_stated(fitted) < 0)
+    return who + " are " + ratio + test +
+           "the stated noise is too large; the intervals take it as stated and are too wide by up to as much";
+  return who + " are " + ratio + test +
+         "the stated noise is too small, or the law is not that of the rig; the intervals are made wider, as the "
+         "residuals are";
+}
+
+}  // namespace
+
 void warn_of_residuals(const Experiments& experiments, Fit& fit) {
   for (const FittedSignal& fitted : fit.signals) {
-    if (is_noise(fitted.p_value)) continue;
     const Experiment& experiment = *experiments[fitted.rows.experiment];
-    std::string text = experiment.label + ": the residuals of " + experiment.signals[fitted.rows.signal].name;
+    const Signal& signal = experiment.signals[fitted.rows.signal];
+    const std::string who = experiment.label + ": the residuals of " + signal.name;
+    if (contradicts_stated(fitted) != 0) fit.warnings.push_back(said_of_stated(fitted, who));
+    // Of readings that are no samples the stated noise is all there is to compare with.
+    if (is_noise(fitted.p_value) || (!signal.is_sampled && contradicts_stated(fitted) > 0)) continue;
+    std::string text = who;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
     text +=
         " are no noise: they hold motion that the fitted rig does not make. The law is not that of the rig, a "

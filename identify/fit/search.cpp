@@ -8,7 +8,6 @@
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/statistics/least_squares.hpp"
-#include "identify/statistics/median.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -50,7 +49,7 @@ class Search {
     least.most_iterations = most_iterations;
     least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
       Eigen::VectorXd outputs;
-      if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, *jacobian))
+      if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, *jacobian, true))
         return false;
       residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
       if (jacobian != nullptr) *jacobian = weights_.asDiagonal() * *jacobian;
@@ -92,13 +91,6 @@ class Search {
 
   static double deviation(const Eigen::VectorXd& part) {
     return part.norm() / std::sqrt(static_cast<double>(part.size()));
-  }
-
-  static double robust_deviation(const Eigen::VectorXd& part) {
-    std::vector<double> sizes(part.data(), part.data() + part.size());
-    for (double& size : sizes) size = std::abs(size);
-    constexpr double to_deviation = 1.4826;
-    return to_deviation * upper_median(sizes);
   }
 
   void spread() {
@@ -235,11 +227,11 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
 }
 
 /// Whether the residuals of a signal are more than noise.
-bool holds_motion(const LeastSquaresFit& found, const FitProblem& problem) {
+bool holds_motion(const Eigen::VectorXd& q, const FitProblem& problem) {
   Eigen::VectorXd outputs;
-  if (!problem.outputs(found.parameters, outputs)) return false;
+  if (!problem.outputs(q, outputs)) return false;
   const Eigen::VectorXd misses = outputs - problem.measured();
-  const auto parameters = static_cast<std::size_t>(found.parameters.size());
+  const auto parameters = static_cast<std::size_t>(q.size());
   return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
     const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
     return !is_noise(noise_p_value(problem.signal(rows), part, parameters));
@@ -258,20 +250,21 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
   const Search rough_search(rough_problem, options);
   const bool several_weights = options.robust || problem.signals().size() > 1;
-  Search search(problem, options);
-  std::optional<LeastSquaresFit> best = search_roughly(points, rough_search, rough_problem, options);
-  if (best) best = finish(std::move(*best), search, problem, several_weights);
+  const Search alike(problem, options);  // searches that have ended weigh their own residuals
+  std::optional<SearchResult> best;
+  const auto take = [&](std::optional<LeastSquaresFit> found) {
+    Search search(problem, options);
+    if (found) found = finish(std::move(*found), search, problem, several_weights);
+    if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))
+      best = SearchResult{found->parameters, search.weights()};
+  };
+  const auto is_at_end = [&] { return best && !holds_motion(best->coordinates, problem); };
+  take(search_roughly(points, rough_search, rough_problem, options));
+  // From far off a beginning takes more steps than it was given, as to a mass that nobody stated.
+  if (best && !is_at_end()) take(search_growing({best->coordinates}, 0.1, rough_search, rough_problem, options));
   // Both beginnings may end beside the same false minimum. Tied models come from elsewhere, and cost most of a fit.
-  if (!best || holds_motion(*best, problem)) {
-    Search again(problem, options);
-    const Search alike(problem, options);  // the others weigh their own residuals
-    std::optional<LeastSquaresFit> other = search_tied(points, rough_search, rough_problem, options);
-    if (other) other = finish(std::move(*other), again, problem, several_weights);
-    if (other && (!best || alike.squares(other->parameters) < alike.squares(best->parameters)))
-      return SearchResult{other->parameters, again.weights()};
-  }
-  if (!best) return std::nullopt;
-  return SearchResult{best->parameters, search.weights()};
+  if (!is_at_end()) take(search_tied(points, rough_search, rough_problem, options));
+  return best;
 }
 
 }  // namespace dualdamp::identify

@@ -48,6 +48,7 @@ class Uncertainty {
     quantile_ = quantile95(freedom);
     for (Eigen::Index i = 0; i < size_; ++i) add_interval(i);
     if (end_.profile) add_profiles(slope);
+    for (Eigen::Index i = 0; i < size_; ++i) judge_profile(i);
     add_trade_offs(slope);
   }
 
@@ -176,11 +177,33 @@ class Uncertainty {
     fitted.interval95[1] = std::min(fitted.interval95[1], range.high);
   }
 
+  /// Nothing changes near the estimate: what a parameter does may come in steps, from reading to reading.
+  [[nodiscard]] bool acts_in_steps(Eigen::Index i) const { return rows_.col(i).norm() == 0.0; }
+
+  /// What the profile says of the interval by the covariance.
+  void judge_profile(Eigen::Index i) {
+    FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
+    const auto& [low, high] = fitted.profile95;
+    const bool ends = !std::isnan(low) && !std::isnan(high);
+    if (ends && acts_in_steps(i) && !fitted.at_bound && low > fitted.parameter.range.low &&
+        high < fitted.parameter.range.high) {
+      fitted.interval95 = fitted.profile95;
+      fitted.reason =
+          "its effect comes in steps, from reading to reading: it has an interval and no standard error";
+      const auto is_alone = [i](const Eigen::VectorXd& direction) {
+        return std::abs(direction[i]) > 0.99 * direction.norm();
+      };
+      std::erase_if(lost_, is_alone);
+    } else if (end_.profile && !ends && fitted.std > 0.0) {
+      fitted.reason = "the profile does not end: the interval by the covariance holds near the estimate only";
+    }
+  }
+
   void add_profiles(const Eigen::MatrixXd& slope) {
     const Profiler profiler(end_.problem, end_.weights, end_.q, rows_, residuals_);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-      if (is_lost(i) || (fitted.at_bound && free_.empty())) return;
+      if ((is_lost(i) && !acts_in_steps(i)) || (fitted.at_bound && free_.empty())) return;
       // In units of the deviation that residuals alike from sample to sample leave.
       const double variance = slope.row(i) * classical_ * slope.row(i).transpose();
       const double widening = fitted.at_bound || !(variance > 0.0)

@@ -42,6 +42,15 @@ bool is_whole_hdf5(const std::string& path) {
   return file >= 0;
 }
 
+/// A variable of HDF5 that MATLAB did not write: the attribute tells MATLAB what its numbers are.
+bool lacks_class(const std::string& path, const std::string& variable) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return false;
+  const htri_t has = H5Aexists_by_name(file, variable.c_str(), "MATLAB_class", H5P_DEFAULT);
+  H5Fclose(file);
+  return has == 0;
+}
+
 /// A variable, a field of a struct, or a part of a matrix, by the name that the file or the caller gives it.
 struct Entry {
   std::string name;
@@ -64,6 +73,7 @@ class Reader {
 
   MatContent run() {
     read_variables();
+    problems_.throw_if_any();
     MatContent content;
     const std::vector<Scope> scopes = find_scopes();
     for (std::size_t i = 0; i < scopes.size(); ++i) {
@@ -87,7 +97,8 @@ class Reader {
   /// The variables that are asked for, and structs; others are not read into memory.
   void read_variables() {
     const MatFile file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
-    if (!file || (Mat_GetVersion(file.get()) == MAT_FT_MAT73 && !is_whole_hdf5(path_))) refuse_damaged_mat(file_);
+    const bool is_73 = file && Mat_GetVersion(file.get()) == MAT_FT_MAT73;
+    if (!file || (is_73 && !is_whole_hdf5(path_))) refuse_damaged_mat(file_);
     while (true) {
       Variable variable(Mat_VarReadNextInfo(file.get()));
       if (!variable) break;
@@ -97,11 +108,23 @@ class Reader {
         if (options_.only.empty()) warnings_.push_back(ignored("variable", name));
         continue;
       }
+      if (is_73 && variable->class_type == MAT_C_EMPTY && lacks_class(path_, variable->name)) {
+        refuse_foreign(name);
+        continue;
+      }
       if (size_of(*variable) > most_mat_values)
         refuse_file(file_, "variable '" + std::string(variable->name) + "' holds more than 20 million numbers");
       if (size_of(*variable) > 0 && Mat_VarReadDataAll(file.get(), variable.get()) != 0) refuse_damaged_mat(file_);
       variables_.push_back(std::move(variable));
     }
+  }
+
+  void refuse_foreign(const std::string& name) {
+    complain("variable '" + name +
+                 "' has no attribute MATLAB_class: another program than MATLAB wrote it into the "
+                 "HDF5 file, and MATLAB itself could not read it",
+             "scipy.io.savemat, which writes MATLAB 5 files; or, of h5py, dataset.attrs['MATLAB_class'] = "
+             "numpy.bytes_('double'); or a CSV file");
   }
 
   /// The column that a name of the file stands for, and its unit where the name holds one, as `x_mm` does.

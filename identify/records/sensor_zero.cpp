@@ -55,7 +55,11 @@ std::string remove_zero(History& history, double stiffness) {
   const double rest = mean_of(drive);
   double square = 0.0;
   for (const double value : drive) square += (value - rest) * (value - rest);
-  const double amplitude = std::numbers::sqrt2 * std::sqrt(square / static_cast<double>(drive.size()));
+  return remove_zero(history, rest, std::numbers::sqrt2 * std::sqrt(square / static_cast<double>(drive.size())));
+}
+
+std::string remove_zero(History& history, double rest, double amplitude) {
+  if (history.x.empty()) return {};
   const auto [low, high] = std::ranges::minmax(history.x);
   const double zero = mean_of(history.x) - rest;
   constexpr double sliding = 1.3;

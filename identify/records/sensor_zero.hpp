@@ -22,4 +22,8 @@ namespace dualdamp::identify {
 /// Subtracts it from x of a driven motion. `stiffness` unknown: only where no force drives it.
 [[nodiscard]] std::string remove_zero(History& history, double stiffness);
 
+/// The same of a motion whose drive is not in the history: `rest`, about which it drives the mass, and its
+/// amplitude [m].
+[[nodiscard]] std::string remove_zero(History& history, double rest, double amplitude);
+
 }  // namespace dualdamp::identify

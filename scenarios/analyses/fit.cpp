@@ -47,15 +47,20 @@ struct Setup {
   std::vector<FitQuestion::Candidate> candidates;
   identify::Experiments data;
   identify::Experiments validation;
+  std::vector<std::string> warnings;
 };
 
 Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model, bool initial_is_known,
                const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
   Setup setup;
-  setup.data = experiments_from(items_of(analysis, files, "data"), "data", model, initial_is_known, faults);
-  setup.validation = experiments_from(items_of(analysis, files, "validate"), "validate", model, false, faults);
-  if (setup.data.empty()) return setup;
   const Sought sought = sought_of(analysis, initial_is_known);
+  std::vector<DataItem> data = items_of(analysis, files, "data");
+  std::vector<DataItem> validation = items_of(analysis, files, "validate");
+  setup.warnings = remove_zeros(data, model, sought);
+  std::ranges::move(remove_zeros(validation, model, {}), std::back_inserter(setup.warnings));
+  setup.data = experiments_from(data, "data", model, initial_is_known, faults);
+  setup.validation = experiments_from(validation, "validate", model, false, faults);
+  if (setup.data.empty()) return setup;
   std::vector<std::string> laws = {""};
   if (analysis.contains("laws")) laws = analysis.at("laws").get<std::vector<std::string>>();
   for (const std::string& law : laws) {
@@ -117,6 +122,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
   std::vector<std::string> warnings = drive_warnings(values.model);
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
+  std::ranges::move(setup.warnings, std::back_inserter(warnings));
   return std::make_unique<FitQuestion>(std::move(setup.candidates), std::move(setup.data),
                                        std::move(setup.validation),
                                        identify::FitOptions{.robust = values.analysis.value("robust", false),

@@ -1,6 +1,8 @@
 #include "scenarios/analyses/predict.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "identify/fit/prediction.hpp"
@@ -65,15 +67,16 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   identify::Rig rig = rig_of(values.system, values.model);
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
-  identify::Experiments data =
-      experiments_from(items_of(values.analysis, values.files, "data"), "data", values.model, false, faults);
+  std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
+  std::vector<std::string> warnings = remove_zeros(items, values.model, {});
+  identify::Experiments data = experiments_from(items, "data", values.model, false, faults);
   if (!faults.empty()) {
     std::vector<core::Diagnostic> problems;
     for (const SetupFault& fault : faults)
       problems.push_back({.message = "'analysis." + fault.path + "': " + fault.message});
     throw core::InputError(std::move(problems));
   }
-  std::vector<std::string> warnings = drive_warnings(values.model);
+  std::ranges::move(drive_warnings(values.model), std::back_inserter(warnings));
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
   Eigen::MatrixXd covariance = covariance_of(values.analysis, parameters.size());

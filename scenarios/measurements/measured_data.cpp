@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/plausibility.hpp"
+#include "identify/records/repeats.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/records/spikes.hpp"
 #include "scenarios/measurements/data_path.hpp"
@@ -192,17 +194,16 @@ double stated_frequency(const CheckedFile& file) {
   return known ? *file.number_at("excitation", "frequency") : identify::unknown;
 }
 
-/// The same readings again, read in the same way: they would count twice, or predict themselves.
+/// The same readings again: they would count twice, or predict themselves.
 void refuse_repeated(CheckedFile& file, const std::string& key, const identify::MeasuredRecord& data,
                      const Json& item) {
-  const auto without_name = [](Json keys) {
-    if (keys.is_object()) keys.erase("file");
-    return keys;
-  };
+  const bool is_loop = item.value("loop", false);
   for (const DataFile& other : file.files) {
-    if (other.data.sha256 != data.sha256) continue;
     const Json& list = file.values().at("analysis").at(other.key);
-    if (without_name(list.is_array() ? list[other.item] : list) != without_name(item)) continue;
+    const Json& keys = list.is_array() ? list[other.item] : list;
+    // A loop compares the force, a history what the force does.
+    const bool other_is_loop = keys.is_object() && keys.value("loop", false);
+    if (is_loop != other_is_loop || !identify::share_readings(other.data.record, data.record, is_loop)) continue;
     file.complain(key, "'" + key + "' holds the same data as " + other.name + " of 'analysis." + other.key + "'",
                   other.key == "data" && key.starts_with("analysis.validate") ? "a record that was not fitted"
                                                                               : "each record once");
@@ -227,6 +228,7 @@ void read_data_list(CheckedFile& file, const std::string& name) {
       identify::MeasuredRecord data = read_by_units(file, *path, data_name, list[i]);
       file.note_units(data.units);
       refuse_repeated(file, key, data, list[i]);
+      std::ranges::move(identify::repeated_readings(data.record), std::back_inserter(data.warnings));
       if (!list[i].value("loop", false)) refuse_gross_faults(file, data, stated_frequency(file), data_name);
       file.files.push_back({data_name, name, i, std::move(data)});
     } catch (const core::InputError& error) {
@@ -271,6 +273,7 @@ void read_data(CheckedFile& file) {
       data.warnings.push_back(std::move(warning));
     check_stated_frequency(file, data, frequency);
     refuse_gross_faults(file, data, frequency, name);
+    std::ranges::move(identify::repeated_readings(data.record), std::back_inserter(data.warnings));
     file.data = std::move(data);
   } catch (const core::InputError& error) {
     file.take_over(error.diagnostics());

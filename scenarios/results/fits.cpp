@@ -73,7 +73,8 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
                                  {"relative", signal.range > 0.0 ? Json(signal.rms / signal.range) : Json(nullptr)},
                                  {"noise", finite_or_null(signal.noise)},
                                  {"noise_units", finite_or_null(signal.noise_units)},
-                                 {"p_value", finite_or_null(signal.p_value)}});
+                                 {"p_value", finite_or_null(signal.p_value)},
+                                 {"chi2_per_freedom", finite_or_null(signal.chi2_per_freedom)}});
   result["covariance"] = Json::array();
   for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
     Json row = Json::array();
@@ -148,6 +149,8 @@ ResultFields fit_fields() {
           {"signals[].noise_units", "1", "rms of the residuals over it"},
           {"signals[].p_value", "1",
            "chance that the residuals are noise alone; null: too few readings, or none of a known noise"},
+          {"signals[].chi2_per_freedom", "1",
+           "of a stated noise: variance of the residuals over its, per degree of freedom; null: none is stated"},
           {"covariance[][]", "", "of the parameters, in their order"},
           {"starts", "1", "starts that were tried"},
           {"laws[].law", "", "laws that were compared, best first"},

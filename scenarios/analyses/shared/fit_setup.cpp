@@ -1,15 +1,20 @@
 #include "scenarios/analyses/shared/fit_setup.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/records/derived_records.hpp"
+#include "identify/records/sensor_zero.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
@@ -190,6 +195,79 @@ std::vector<std::string> drive_warnings(const sim::Model& model) {
           " % on the mean, and the estimates by as much or more: interpolation: cubic, where the drive is smooth"};
 }
 
+namespace {
+
+/// About where the drive of the model swings, and how far [m]; nothing: it does not swing, or the spring is
+/// unknown.
+std::optional<std::pair<double, double>> swing_of(const sim::Model& model) {
+  const sim::Excitation& drive = model.excitation;
+  double rest = drive.offset;
+  double amplitude = drive.amplitude;
+  if (drive.samples) {
+    const std::vector<double>& y = drive.samples->values();
+    rest = std::reduce(y.begin(), y.end()) / static_cast<double>(y.size());
+    double square = 0.0;
+    for (const double value : y) square += (value - rest) * (value - rest) / static_cast<double>(y.size());
+    amplitude = std::sqrt(2.0 * square);
+  } else if (!drive.is_harmonic() && !drive.is_chirp()) {
+    return std::nullopt;
+  }
+  const double spring = drive.moves_base() ? 1.0 : model.oscillator.stiffness;
+  if (!(spring > 0.0)) return std::nullopt;
+  return std::pair{rest / spring, amplitude / spring};
+}
+
+std::string remove_zero_of(identify::History& history, const sim::Model& model) {
+  if (!history.y.empty() || !history.force.empty())
+    return identify::remove_zero(history, model.oscillator.stiffness);
+  if (model.excitation.type == sim::ExcitationType::none) {
+    identify::DerivedDecay decay = identify::decay_of(history);
+    return identify::remove_zero(history, decay.record);
+  }
+  const auto swing = swing_of(model);
+  return swing ? identify::remove_zero(history, swing->first, swing->second) : std::string();
+}
+
+}  // namespace
+
+std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model, const Sought& sought) {
+  std::vector<std::string> warnings;
+  // The numbers of records are those of experiments, which are not made yet.
+  if (std::ranges::any_of(sought.free, [](const std::string& name) { return name.starts_with("offset"); }))
+    return {};
+  for (DataItem& item : items)
+    for (std::size_t h = 0; h < item.data.record.histories.size(); ++h) {
+      identify::History& history = item.data.record.histories[h];
+      const std::string done = history.x.empty() ? std::string() : remove_zero_of(history, model);
+      if (done.empty()) continue;
+      item.zeroed.push_back(h);
+      warnings.push_back(item.file + ": " + (history.sweep.empty() ? "" : "test '" + history.sweep + "': ") + done +
+                         "; what it leaves is sought as offset");
+    }
+  return warnings;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 5> signals_with_noise = {"x", "v", "a", "force", "phase"};
+
+/// A stated noise of what no record holds would be ignored.
+void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& key,
+                       const identify::Experiments& experiments, std::vector<SetupFault>& faults) {
+  for (const std::string_view name : signals_with_noise) {
+    const auto holds = [name](const auto& experiment) {
+      return std::ranges::find(experiment->signals, name, &identify::Signal::name) != experiment->signals.end();
+    };
+    const std::string sigma = "sigma_" + std::string(name);
+    const auto states = [&](const DataItem& item) { return item.keys.is_object() && item.keys.contains(sigma); };
+    if (std::ranges::any_of(items, states) && std::ranges::none_of(experiments, holds))
+      faults.push_back({key, "'" + sigma + "' states the noise of " + std::string(name) +
+                                 ", which no record of the fit compares"});
+  }
+}
+
+}  // namespace
+
 identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                        const sim::Model& model, bool initial_is_known,
                                        std::vector<SetupFault>& faults) {
@@ -213,6 +291,8 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
     if (!fault.empty()) faults.push_back({place, items[i].file + ": " + fault});
     if (std::string idle = idle_drive(items[i], model); !idle.empty()) faults.push_back({place, std::move(idle)});
+    for (const std::size_t h : items[i].zeroed)
+      if (found.size() == items[i].data.record.histories.size()) found[h]->own_free.push_back(Own::offset);
     for (auto& experiment : found) {
       if (experiment->kind == identify::ExperimentKind::history && drive.is_harmonic() && !(drive.amplitude > 0.0))
         faults.push_back(
@@ -224,6 +304,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
       all.push_back(std::move(experiment));
     }
   }
+  if (!all.empty()) refuse_idle_noise(items, key, all, faults);
   return all;
 }
 
@@ -256,7 +337,8 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
   refuse_without_scale(rig, parameters, experiments, faults);
   for (std::size_t e = 0; e < experiments.size(); ++e)
     for (const Own free : experiments[e]->own_free) {
-      if (sought.initial_is_known && experiments[e]->kind == identify::ExperimentKind::history) continue;
+      const bool is_history = experiments[e]->kind == identify::ExperimentKind::history;
+      if (sought.initial_is_known && is_history && free != Own::offset) continue;
       FitParameter parameter = identify::own_parameter(*experiments[e], e, free, experiments.size() == 1);
       if (std::ranges::find(own, parameter.name, &FitParameter::name) == own.end())
         own.push_back(std::move(parameter));

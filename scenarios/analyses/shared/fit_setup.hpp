@@ -17,6 +17,7 @@ struct DataItem {
   std::string file;
   Json keys;  ///< of its item
   identify::MeasuredRecord data;
+  std::vector<std::size_t> zeroed{};  ///< histories whose zero was subtracted: the rest of it is sought
 };
 
 [[nodiscard]] std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files,
@@ -55,6 +56,11 @@ struct SetupFault {
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                                      const sim::Model& model, bool initial_is_known,
                                                      std::vector<SetupFault>& faults);
+
+/// Subtracts zeros of x that are further off than friction can hold the mass, as `identify` does, but for records
+/// whose `offset` is sought. Returns warnings.
+[[nodiscard]] std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model,
+                                                    const Sought& sought);
 
 /// All that is sought, in order.
 [[nodiscard]] std::vector<identify::FitParameter> parameters_for(const identify::Rig& rig,

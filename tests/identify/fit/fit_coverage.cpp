@@ -1,9 +1,12 @@
-/// How often the truth lies within the intervals of fits: each law fitted to its own noisy histories.
-/// usage: fit_coverage [SEEDS [LAW]...]
+/// How often the truth lies within the intervals of fits: each law fitted to its own noisy records.
+/// usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <iostream>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,61 +18,102 @@ using namespace dualdamp;
 namespace {
 
 struct Count {
-  int fits = 0;
-  int covered = 0;
-  int profiles = 0;
-  int profiled = 0;
+  int covered = 0, intervals = 0;
+  int profiled = 0, profiles = 0;
+  int named = 0;     ///< the fit says itself that the data do not hold it
   double sum = 0.0;  ///< of (estimate - truth)/std
   double squares = 0.0;
+
+  void add(const identify::FittedParameter& fitted, double truth, bool is_named) {
+    const auto holds = [truth](const std::array<double, 2>& ends) { return ends[0] <= truth && truth <= ends[1]; };
+    if (is_named || fitted.at_bound || std::isnan(fitted.interval95[0])) {
+      ++named;
+      return;
+    }
+    ++intervals;
+    covered += holds(fitted.interval95) ? 1 : 0;
+    const double off = fitted.std > 0.0 ? (fitted.value - truth) / fitted.std : 0.0;
+    sum += off;
+    squares += off * off;
+    if (std::isnan(fitted.profile95[0]) || std::isnan(fitted.profile95[1])) return;
+    ++profiles;
+    profiled += holds(fitted.profile95) ? 1 : 0;
+  }
 };
 
-void run(const test::LawCase& law, int seeds) {
+bool stands_in_trade_offs(const identify::Fit& fit, const std::string& name) {
+  return std::ranges::any_of(fit.not_identifiable, [&](const identify::TradeOff& trade_off) {
+    return std::ranges::find(trade_off.parameters, name) != trade_off.parameters.end();
+  });
+}
+
+struct Seeds {
+  int first = 1;
+  int last = 100;
+};
+
+void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
   std::map<std::string, Count> counts;
   std::vector<std::string> order;
+  std::string beside;
   int failed = 0;
+  int warned = 0;
+  const std::clock_t begin = std::clock();
   const identify::Rig rig = test::rig_with(law);
-  for (int seed = 0; seed < seeds; ++seed) {
-    const identify::Fit fit = test::fit_of(law, static_cast<std::uint64_t>(seed) + 1);
+  const test::Laboratory laboratory(law, kind);
+  for (int seed = seeds.first; seed <= seeds.last; ++seed) {
+    const test::KnownFit known = laboratory.fit(static_cast<std::uint64_t>(seed));
+    const identify::Fit& fit = known.fit;
     if (!fit.outcome.ok()) {
       ++failed;
+      std::printf("%s: %s\n", law.law.c_str(), fit.outcome.reason.c_str());
       continue;
     }
+    if (!fit.warnings.empty()) ++warned;
+    if (known.leaves_more_than_the_truth) beside += " " + std::to_string(seed);
     for (const identify::FittedParameter& fitted : fit.parameters) {
       const std::string& name = fitted.parameter.name;
+      if (fitted.parameter.owner == identify::Owner::record) continue;
       if (!counts.contains(name)) order.push_back(name);
-      Count& count = counts[name];
-      const double truth = test::truth_of(rig, name);
-      if (!std::isnan(fitted.std) && fitted.std > 0.0) {
-        ++count.fits;
-        count.covered += fitted.interval95[0] <= truth && truth <= fitted.interval95[1] ? 1 : 0;
-        const double off = (fitted.value - truth) / fitted.std;
-        count.sum += off;
-        count.squares += off * off;
-      }
-      if (std::isnan(fitted.profile95[0]) || std::isnan(fitted.profile95[1])) continue;
-      ++count.profiles;
-      count.profiled += fitted.profile95[0] <= truth && truth <= fitted.profile95[1] ? 1 : 0;
+      counts[name].add(fitted, test::truth_of(rig, name), stands_in_trade_offs(fit, name));
     }
   }
   for (const std::string& name : order) {
     const Count& c = counts[name];
-    std::printf("%-26s %-24s %4d/%-4d %6.1f %%  profile %4d/%-4d  mean %6.2f  rms %5.2f\n", law.law.c_str(),
-                name.c_str(), c.covered, c.fits, 100.0 * c.covered / std::max(c.fits, 1), c.profiled, c.profiles,
-                c.sum / std::max(c.fits, 1), std::sqrt(c.squares / std::max(c.fits, 1)));
+    const double intervals = std::max(c.intervals, 1);
+    std::printf("%-24s %-22s %3d/%-3d %5.1f %%  profile %3d/%-3d %5.1f %%  named %3d  mean %5.2f  rms %5.2f\n",
+                law.law.c_str(), name.c_str(), c.covered, c.intervals, 100.0 * c.covered / intervals, c.profiled,
+                c.profiles, 100.0 * c.profiled / std::max(c.profiles, 1), c.named, c.sum / intervals,
+                std::sqrt(c.squares / intervals));
   }
-  if (failed > 0) std::printf("%-26s %d of %d fits failed\n", law.law.c_str(), failed, seeds);
+  const int fits = seeds.last - seeds.first + 1;
+  std::printf("%-24s %d fits, %d failed, %d with warnings, %.2f s each%s%s\n", law.law.c_str(), fits, failed,
+              warned, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / fits,
+              beside.empty() ? "" : "; beside the least squares with seeds", beside.c_str());
   std::fflush(stdout);
+}
+
+Seeds seeds_of(const std::string& text) {
+  const std::size_t cut = text.find('-');
+  if (cut == std::string::npos) return {1, std::atoi(text.c_str())};
+  return {std::atoi(text.c_str()), std::atoi(text.c_str() + cut + 1)};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
-  std::vector<std::string> wanted(argv + std::min(argc, 2), argv + argc);
-  for (const test::LawCase& law : test::law_cases()) {
-    bool is_wanted = wanted.empty();
-    for (const std::string& name : wanted) is_wanted = is_wanted || name == law.law;
-    if (is_wanted) run(law, seeds);
+  const std::string kind = argc > 1 ? argv[1] : "history";
+  if (kind != "history" && kind != "pairs" && kind != "loop") {
+    std::cerr << "usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]\n";
+    return 64;
   }
+  const Seeds seeds = argc > 2 ? seeds_of(argv[2]) : Seeds{};
+  const std::vector<std::string> wanted(argv + std::min(argc, 3), argv + argc);
+  const test::RecordKind records = kind == "pairs"  ? test::RecordKind::pairs
+                                   : kind == "loop" ? test::RecordKind::loop
+                                                    : test::RecordKind::history;
+  for (const test::LawCase& law : test::law_cases())
+    if ((wanted.empty() || std::ranges::find(wanted, law.law) != wanted.end()) && test::shows(law, records))
+      run(law, records, seeds);
   return 0;
 }

@@ -65,6 +65,26 @@ void add_signal(const sim::History& motion, double sim::Sample::* member, double
   drawn.push_back(std::sqrt(errors / static_cast<double>(motion.samples.size())));
 }
 
+/// What is measured of the true rig, with noise of its own.
+void measure(std::uint64_t seed, double duration, const sim::InitialState& initial, RandomRig& rig) {
+  sim::Model model = *identify::model_of(rig.truth);
+  model.initial = initial;
+  model.solver.tolerance = 1e-11;
+  identify::History history;
+  constexpr double of_period = 60.0;
+  history.sample_rate = of_period * std::sqrt(stiffness / mass) / (2.0 * std::numbers::pi);
+  const sim::History motion = sim::simulate(model, {.duration = duration, .sample_rate = history.sample_rate});
+  if (!motion.outcome.ok()) throw std::runtime_error("a random rig has no motion: " + motion.outcome.reason);
+  rig.drawn_rms.clear();
+  if (rig.signals.find('x') != std::string::npos)
+    add_signal(motion, &sim::Sample::x, rig.noise, 3 * seed, history.x, rig.drawn_rms);
+  if (rig.signals.find('v') != std::string::npos)
+    add_signal(motion, &sim::Sample::v, rig.noise, 3 * seed + 1, history.v, rig.drawn_rms);
+  if (rig.signals.find('a') != std::string::npos)
+    add_signal(motion, &sim::Sample::a, rig.noise, 3 * seed + 2, history.a, rig.drawn_rms);
+  rig.record.histories = {std::move(history)};
+}
+
 }  // namespace
 
 RandomRig random_rig(const std::string& law, MotionKind kind, std::uint64_t seed, const std::string& signals) {
@@ -98,25 +118,20 @@ RandomRig random_rig(const std::string& law, MotionKind kind, std::uint64_t seed
   rig.signals = signals.empty() ? kinds[draws.below(kinds.size())] : signals;
   rig.noise = draws.below(2) == 0 ? 1e-3 : 1e-2;
 
-  sim::Model model = *identify::model_of(rig.truth);
-  model.initial = initial;
-  model.solver.tolerance = 1e-11;
-  identify::History history;
-  constexpr double of_period = 60.0;
-  history.sample_rate = of_period * natural / (2.0 * std::numbers::pi);
-  const sim::History motion = sim::simulate(model, {.duration = duration, .sample_rate = history.sample_rate});
-  if (!motion.outcome.ok()) throw std::runtime_error("a random rig has no motion: " + motion.outcome.reason);
-  if (rig.signals.find('x') != std::string::npos)
-    add_signal(motion, &sim::Sample::x, rig.noise, 3 * seed, history.x, rig.drawn_rms);
-  if (rig.signals.find('v') != std::string::npos)
-    add_signal(motion, &sim::Sample::v, rig.noise, 3 * seed + 1, history.v, rig.drawn_rms);
-  if (rig.signals.find('a') != std::string::npos)
-    add_signal(motion, &sim::Sample::a, rig.noise, 3 * seed + 2, history.a, rig.drawn_rms);
-  rig.record.histories.push_back(std::move(history));
+  measure(seed, duration, initial, rig);
   rig.sought = rig.truth;
   rig.sought.known.oscillator.damping = identify::unknown;
   rig.sought.laws.front().values = {};
   return rig;
+}
+
+RandomRig driven_again(const RandomRig& rig, double factor, std::uint64_t seed) {
+  RandomRig again = rig;
+  again.truth.known.excitation.amplitude *= factor;
+  again.sought.known.excitation.amplitude *= factor;
+  const double duration = rig.periods * 2.0 * std::numbers::pi / rig.truth.known.excitation.frequency;
+  measure(seed, duration, {}, again);
+  return again;
 }
 
 identify::Fit fit_of(const RandomRig& rig, bool profile) {

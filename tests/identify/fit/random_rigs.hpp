@@ -27,6 +27,9 @@ struct RandomRig {
 [[nodiscard]] RandomRig random_rig(const std::string& law, MotionKind kind, std::uint64_t seed,
                                    const std::string& signals = "");
 
+/// The same rig under a base motion that is larger by `factor`, and what was measured of that.
+[[nodiscard]] RandomRig driven_again(const RandomRig& rig, double factor, std::uint64_t seed);
+
 /// As a user would have it: of what the rig leaves out, with the beginning of the motion.
 [[nodiscard]] identify::Fit fit_of(const RandomRig& rig, bool profile = false);
 

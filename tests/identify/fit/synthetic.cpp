@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "core/random.hpp"
@@ -36,7 +37,9 @@ std::vector<LawCase> usual_cases() {
         {"attraction", 100.0}},
        {"elements", "kinetic", "static", "stribeck_velocity", "attraction"}},
       {"contact_compliance", {{"kinetic", 1.0}, {"contact_stiffness", 3000.0}}, {"kinetic", "contact_stiffness"}},
-      {"bouc_wen", {{"limit", 1.0}, {"stiffness", 3000.0}, {"exponent", 1.5}}, {"limit", "stiffness", "exponent"}},
+      {"bouc_wen",
+       {{"limit", 1.0}, {"stiffness", 3000.0}, {"exponent", 1.5}},
+       {"limit", "friction.stiffness", "exponent"}},
       {"elasto_plastic",
        {{"kinetic", 1.0},
         {"static", 1.5},
@@ -48,10 +51,10 @@ std::vector<LawCase> usual_cases() {
       {"friction_lag",
        {{"kinetic", 1.0}, {"static", 1.6}, {"stribeck_velocity", 0.05}, {"lag", 0.005}},
        {"kinetic", "static", "stribeck_velocity", "lag"}},
-      {"iwan", {{"stiffness", 2000.0}, {"limit", 2.0}, {"count", 20.0}}, {"stiffness", "limit"}},
+      {"iwan", {{"stiffness", 2000.0}, {"limit", 2.0}, {"count", 20.0}}, {"friction.stiffness", "limit"}},
       {"reset_integrator",
        {{"kinetic", 1.0}, {"stiffness", 5000.0}, {"static_gain", 0.5}},
-       {"kinetic", "stiffness", "static_gain"}},
+       {"kinetic", "friction.stiffness", "static_gain"}},
       {"viscous_power",
        {{"coefficient", 3.0}, {"exponent", 1.7}, {"reference_velocity", 0.3}},
        {"coefficient", "exponent"}},
@@ -62,14 +65,21 @@ std::vector<LawCase> usual_cases() {
 
 std::vector<LawCase> further_cases() {
   return {
+      {"attached_mass",
+       {{"mass", 0.2}, {"stiffness", 300.0}, {"damping", 0.5}},
+       {"friction.mass", "friction.stiffness", "friction.damping"}},
+      // The draws of the seed are the same for each stiffness, not for each snap distance.
+      {"bristle",
+       {{"stiffness", 40.0}, {"snap_distance", 2e-3}, {"count", 30.0}, {"seed", 1.0}},
+       {"friction.stiffness"}},
       {"asymmetric_coulomb",
        {{"kinetic_forward", 1.2}, {"kinetic_backward", 0.8}, {"viscous_forward", 2.0}, {"viscous_backward", 1.0}},
        {"kinetic_forward", "kinetic_backward", "viscous_forward", "viscous_backward"}},
       {"free_play", {{"kinetic", 1.0}, {"play", 1e-3}}, {"kinetic", "play"}},
-      {"gap_spring", {{"stiffness", 2000.0}, {"gap", 3e-3}}, {"stiffness", "gap"}},
+      {"gap_spring", {{"stiffness", 2000.0}, {"gap", 3e-3}}, {"friction.stiffness", "gap"}},
       {"iwan_four_parameter",
        {{"stiffness", 2000.0}, {"limit", 2.0}, {"exponent", -0.3}, {"beta", 0.5}, {"count", 30.0}},
-       {"stiffness", "limit", "exponent", "beta"}},
+       {"friction.stiffness", "limit", "exponent", "beta"}},
       {"rate_state",
        {{"normal_force", 10.0},
         {"mu0", 0.1},
@@ -104,6 +114,11 @@ const LawCase& law_case_of(const std::string& law) {
   const auto found = std::ranges::find(law_cases(), law, &LawCase::law);
   if (found == law_cases().end()) throw std::invalid_argument("there is no case of " + law);
   return *found;
+}
+
+bool shows(const LawCase& law, RecordKind kind) {
+  // Of a random law no motion is periodic.
+  return kind != RecordKind::pairs || !friction::find_law(law.law)->is_random;
 }
 
 identify::Rig rig_with(const LawCase& law) {
@@ -151,24 +166,69 @@ identify::Record decay_of_rig(identify::Rig rig, double position, int peaks, dou
   return result;
 }
 
-identify::Record response_of(const identify::Rig& rig, double amplitude, const std::vector<double>& frequencies,
-                             double noise, double noise_phase, std::uint64_t seed) {
+identify::Record steady_states_of(const identify::Rig& rig, const std::vector<std::pair<double, double>>& levels,
+                                  double noise, double noise_phase, std::uint64_t seed) {
   sim::Model model = *identify::model_of(rig);
   identify::PairRecord record;
   const core::RandomStream draws{seed, 903};
-  for (std::size_t i = 0; i < frequencies.size(); ++i) {
-    model.excitation.amplitude = amplitude;
-    model.excitation.frequency = frequencies[i];
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    std::tie(model.excitation.amplitude, model.excitation.frequency) = levels[i];
     const sim::SteadyState state = sim::steady_state(model);
-    record.pairs.push_back({.Y = amplitude,
+    record.pairs.push_back({.Y = levels[i].first,
                             .x = state.amplitude + noise * draws.normal(2 * i),
                             .number = static_cast<int>(i) + 1,
-                            .omega = frequencies[i],
+                            .omega = levels[i].second,
                             .phase = state.phase + noise_phase * draws.normal(2 * i + 1)});
   }
   identify::Record result;
   result.pairs = std::move(record);
   return result;
+}
+
+identify::Record response_of(const identify::Rig& rig, double amplitude, const std::vector<double>& frequencies,
+                             double noise, double noise_phase, std::uint64_t seed) {
+  std::vector<std::pair<double, double>> levels;
+  for (const double frequency : frequencies) levels.emplace_back(amplitude, frequency);
+  return steady_states_of(rig, levels, noise, noise_phase, seed);
+}
+
+identify::Record loop_of(const identify::Rig& rig, double amplitude, double noise, std::uint64_t seed) {
+  constexpr double rate = 500.0;
+  constexpr int finer = 20;
+  constexpr int samples = 1000;
+  identify::History dense;
+  dense.sample_rate = rate * finer;
+  for (int i = 0; i <= samples * finer; ++i) {
+    const double t = i / dense.sample_rate;
+    constexpr double slow = 2.0 * std::numbers::pi * 2.0;
+    constexpr double fast = 2.7 * slow;
+    dense.x.push_back(amplitude * (std::sin(slow * t) + 0.4 * std::sin(fast * t)));
+    dense.v.push_back(amplitude * (slow * std::cos(slow * t) + 0.4 * fast * std::cos(fast * t)));
+  }
+  dense.force.assign(dense.x.size(), 0.0);
+  identify::Record record;
+  record.histories.push_back(dense);
+  std::string fault;
+  const identify::Experiments experiments = identify::experiments_of(record, {.name = "loop", .loop = true}, fault);
+  Eigen::VectorXd force;
+  if (!fault.empty() || !experiments.front()->predict(*identify::model_of(loop_alone(rig)), {}, force))
+    throw std::runtime_error("a law has no loop: " + fault);
+  identify::History loop{.sample_rate = rate};
+  const core::RandomStream draws{seed, 904};
+  for (int i = 0; i <= samples; ++i) {
+    const auto at = static_cast<std::size_t>(i * finer);
+    loop.x.push_back(dense.x[at]);
+    loop.v.push_back(dense.v[at]);
+    loop.force.push_back(force[i * finer] + noise * draws.normal(static_cast<std::uint64_t>(i)));
+  }
+  record.histories = {loop};
+  return record;
+}
+
+identify::Rig loop_alone(identify::Rig rig) {
+  rig.known.oscillator = {.mass = identify::unknown, .stiffness = identify::unknown, .damping = identify::unknown};
+  rig.known.excitation = {};
+  return rig;
 }
 
 std::vector<identify::FitParameter> sought_in(identify::Rig& rig, const std::vector<std::string>& names,
@@ -187,16 +247,73 @@ std::vector<identify::FitParameter> sought_in(identify::Rig& rig, const std::vec
   return parameters;
 }
 
-identify::Fit fit_of(const LawCase& law, std::uint64_t seed, const HistoryPlan& plan, bool profile) {
-  identify::Rig rig = rig_with(law);
-  std::string fault;
-  const identify::Record record = history_of(rig, plan, seed);
-  const identify::Experiments experiments = identify::experiments_of(record, {.name = "synthetic"}, fault);
+namespace {
+
+identify::Fit fit_of(identify::Rig rig, const std::vector<std::string>& sought,
+                     const identify::Experiments& experiments, bool profile) {
   constexpr double off = 1.15;
-  std::vector<identify::FitParameter> parameters = sought_in(rig, law.sought, off);
+  std::vector<identify::FitParameter> parameters = sought_in(rig, sought, off);
   for (const identify::Own own : experiments.front()->own_free)
     parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
   return identify::fit_rig(rig, std::move(parameters), experiments, {.profile = profile});
+}
+
+identify::Experiments experiments_of(const identify::Record& record, RecordKind kind) {
+  std::string fault;
+  identify::Experiments experiments =
+      identify::experiments_of(record, {.name = "synthetic", .loop = kind == RecordKind::loop}, fault);
+  if (!fault.empty()) throw std::invalid_argument(fault);
+  return experiments;
+}
+
+/// Sum over the signals of N ln(rms).
+double deviance_of(const identify::Experiments& experiments, const Eigen::VectorXd& outputs) {
+  double sum = 0.0;
+  Eigen::Index at = 0;
+  for (const identify::Signal& signal : experiments.front()->signals) {
+    const auto count = static_cast<Eigen::Index>(signal.measured.size());
+    const Eigen::Map<const Eigen::VectorXd> measured(signal.measured.data(), count);
+    sum += static_cast<double>(count) * std::log((outputs.segment(at, count) - measured).norm());
+    at += count;
+  }
+  return sum;
+}
+
+}  // namespace
+
+identify::Fit fit_of(const LawCase& law, std::uint64_t seed, const HistoryPlan& plan, bool profile) {
+  const identify::Rig rig = rig_with(law);
+  return fit_of(rig, law.sought, experiments_of(history_of(rig, plan, seed), RecordKind::history), profile);
+}
+
+Laboratory::Laboratory(const LawCase& law, RecordKind kind)
+    : law_(law), kind_(kind), rig_(kind == RecordKind::loop ? loop_alone(rig_with(law)) : rig_with(law)) {}
+
+identify::Record Laboratory::record(std::uint64_t seed) const {
+  constexpr double noise_x = 1e-5;
+  constexpr double noise_phase = 3e-3;
+  constexpr double noise_force = 0.01;
+  const identify::Rig rig = rig_with(law_);
+  if (kind_ == RecordKind::history) return history_of(rig, {.noise_x = noise_x}, seed);
+  if (kind_ == RecordKind::loop) return loop_of(rig, law_.amplitude, noise_force, seed);
+  std::vector<std::pair<double, double>> levels;
+  constexpr int count = 16;
+  for (int i = 0; i < count; ++i)
+    levels.emplace_back(law_.amplitude * (0.4 + 0.08 * i), rig.known.excitation.frequency);
+  return steady_states_of(rig, levels, noise_x, noise_phase, seed);
+}
+
+KnownFit Laboratory::fit(std::uint64_t seed) const {
+  // Draws of its own for each law: the luck of one seed is not that of all laws.
+  const auto number = static_cast<std::uint64_t>(&law_ - law_cases().data());
+  const identify::Experiments experiments = experiments_of(record(1000 * number + seed), kind_);
+  KnownFit known{fit_of(rig_, law_.sought, experiments, true)};
+  Eigen::VectorXd truth;
+  if (!experiments.front()->predict(*identify::model_of(rig_), {}, truth))
+    throw std::runtime_error("the true rig of " + law_.law + " has no motion");
+  known.leaves_more_than_the_truth =
+      known.fit.outcome.ok() && deviance_of(experiments, known.fit.outputs) > deviance_of(experiments, truth);
+  return known;
 }
 
 double truth_of(const identify::Rig& rig, const std::string& name) {

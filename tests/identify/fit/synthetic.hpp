@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "identify/fit/fit.hpp"
@@ -21,6 +22,10 @@ struct LawCase {
 [[nodiscard]] const std::vector<LawCase>& law_cases();
 [[nodiscard]] const LawCase& law_case_of(const std::string& law);
 
+/// What a fit is made from: a driven history, amplitudes and phases over the input amplitude, a friction loop.
+enum class RecordKind { history, pairs, loop };
+[[nodiscard]] bool shows(const LawCase& law, RecordKind kind);
+
 /// m = 1 kg, k = 1000 N/m, c = 1 N.s/m, base motion at 4 Hz.
 [[nodiscard]] identify::Rig rig_with(const LawCase& law);
 
@@ -38,6 +43,18 @@ struct HistoryPlan {
 [[nodiscard]] identify::Record decay_of_rig(identify::Rig rig, double position, int peaks, double noise,
                                             std::uint64_t seed);
 
+/// Amplitudes and phases at levels of the input amplitude [m] and the frequency [rad/s], with noise [m, rad].
+[[nodiscard]] identify::Record steady_states_of(const identify::Rig& rig,
+                                                const std::vector<std::pair<double, double>>& levels, double noise,
+                                                double noise_phase, std::uint64_t seed);
+
+/// The law's force along two sines of `amplitude` [m] at 2 and 5.4 Hz, with noise [N]: 2 s at 500 Hz of x, v,
+/// force.
+[[nodiscard]] identify::Record loop_of(const identify::Rig& rig, double amplitude, double noise,
+                                       std::uint64_t seed);
+/// The laws without mass, spring, damper and drive.
+[[nodiscard]] identify::Rig loop_alone(identify::Rig rig);
+
 /// Amplitudes and phases over frequency [rad/s] at one input amplitude [m], with noise [m, rad].
 [[nodiscard]] identify::Record response_of(const identify::Rig& rig, double amplitude,
                                            const std::vector<double>& frequencies, double noise, double noise_phase,
@@ -50,6 +67,25 @@ struct HistoryPlan {
 /// Fit of a noisy history to its own law, begun 15 % off.
 [[nodiscard]] identify::Fit fit_of(const LawCase& law, std::uint64_t seed, const HistoryPlan& plan = {},
                                    bool profile = true);
+
+struct KnownFit {
+  identify::Fit fit;
+  bool leaves_more_than_the_truth = false;  ///< the search ended beside the least squares
+};
+
+/// Noisy records of one kind of the rig of a law of `law_cases()`, each fitted to the law itself, begun 15 % off.
+class Laboratory {
+ public:
+  Laboratory(const LawCase& law, RecordKind kind);
+  [[nodiscard]] KnownFit fit(std::uint64_t seed) const;
+
+ private:
+  [[nodiscard]] identify::Record record(std::uint64_t seed) const;
+
+  const LawCase& law_;
+  RecordKind kind_;
+  identify::Rig rig_;
+};
 
 /// The true value of a parameter of a law.
 [[nodiscard]] double truth_of(const identify::Rig& rig, const std::string& name);

@@ -75,3 +75,47 @@ TEST_CASE("residuals: a fit that leaves more than noise says so", "[identify][fi
   CHECK_THAT(fit.warnings.front(),
              Catch::StartsWith("record.csv: the residuals of x") && Catch::Contains("are no noise"));
 }
+
+TEST_CASE("residuals: a stated noise that is ten times off is told, and intervals are never too narrow for it",
+          "[identify][fit]") {
+  const test::LawCase& law = test::law_case_of("coulomb");
+  const identify::Record record = test::history_of(test::rig_with(law), {}, 6);
+  const auto fit_with = [&](double sigma) {
+    identify::Rig rig = test::rig_with(law);
+    std::string fault;
+    const identify::Experiments experiments =
+        identify::experiments_of(record, {.name = "record.csv", .sigma_x = sigma}, fault);
+    std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
+    for (const identify::Own own : experiments.front()->own_free)
+      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    return identify::fit_rig(rig, std::move(parameters), experiments, {.profile = false});
+  };
+  const Fit right = fit_with(1e-5);
+  CHECK(right.warnings.empty());
+  CHECK(right.signals.front().chi2_per_freedom == Approx(1.0).margin(0.2));
+  const Fit small = fit_with(1e-6);
+  REQUIRE(small.warnings.size() == 1);
+  CHECK_THAT(small.warnings.front(), Catch::Contains("the stated noise is too small"));
+  CHECK(small.parameters[0].std == Approx(right.parameters[0].std).epsilon(0.1));
+  const Fit large = fit_with(1e-4);
+  REQUIRE(large.warnings.size() == 1);
+  CHECK_THAT(large.warnings.front(), Catch::Contains("the stated noise is too large"));
+  CHECK(large.parameters[0].std > 5.0 * right.parameters[0].std);
+}
+
+TEST_CASE("residuals: laws are compared by what is left where the stated noise is wrong", "[identify][fit]") {
+  const auto with = [](double rms, double noise) {
+    Fit fit;
+    fit.signals.push_back({.rows = {.end = 100}, .rms = rms, .range = 1.0, .noise = noise, .independent = 100.0});
+    identify::compare_with_stated(rms, 100.0, fit.signals.front());
+    fit.log_likelihood_count = 100.0;
+    return fit;
+  };
+  // 5 % more of the residuals: 100 ln 1.05^2 = 9.8 by their own size, 100 (1.05^2 - 1) = 10.25 by the noise.
+  std::vector<Fit> as_stated = {with(0.1, 0.1), with(0.105, 0.1)};
+  identify::compare_fits(as_stated);
+  CHECK(as_stated[1].AICc - as_stated[0].AICc == Approx(10.25));
+  std::vector<Fit> too_small = {with(0.1, 0.01), with(0.105, 0.01)};
+  identify::compare_fits(too_small);
+  CHECK(too_small[1].AICc - too_small[0].AICc == Approx(9.758).margin(1e-3));
+}

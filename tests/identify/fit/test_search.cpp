@@ -65,3 +65,11 @@ TEST_CASE("search: fits of random rigs that stick end at the noise", "[identify]
     CHECK(fit.warnings.empty());
   }
 }
+
+TEST_CASE("search: a play of which each reading lies on one side is sought, though its derivative is zero",
+          "[identify][fit]") {
+  // Begun 15 % off. With differences over 1e-4 of the play it stayed there, at 3.2 times the noise.
+  const test::KnownFit known = test::Laboratory(test::law_case_of("free_play"), test::RecordKind::loop).fit(1);
+  REQUIRE(known.fit.outcome.ok());
+  CHECK(known.fit.noise_units == Approx(1.0).margin(0.1));
+}

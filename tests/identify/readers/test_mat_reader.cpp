@@ -1,3 +1,4 @@
+#include <hdf5.h>
 #include <matio.h>
 
 #include <catch2/catch.hpp>
@@ -234,4 +235,18 @@ TEST_CASE("MATLAB 7.3 files damaged on purpose are read or refused, and in time"
   }
   CHECK(refused > 0);
   CHECK(refused < damages);
+}
+
+TEST_CASE("A vector that another program wrote into the HDF5 file is refused by what it lacks") {
+  // h5py writes data without the attributes by which MATLAB knows them.
+  Matlab file("h5py.mat", MAT_FT_MAT73);
+  file.add("dt", {0.01}).add("x", {1e-3, 2e-3, 1e-3, -1e-3});
+  const std::string path = file.path();
+  const hid_t hdf5 = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  REQUIRE(hdf5 >= 0);
+  REQUIRE(H5Adelete_by_name(hdf5, "x", "MATLAB_class", H5P_DEFAULT) >= 0);
+  H5Fclose(hdf5);
+  const std::string said = refusal([&] { return read_record(path); });
+  CHECK(mentions(said, "variable 'x' has no attribute MATLAB_class"));
+  CHECK(mentions(said, "scipy.io.savemat"));
 }

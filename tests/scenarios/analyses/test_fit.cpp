@@ -1,5 +1,6 @@
 #include "scenarios/analyses/fit.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -179,6 +180,8 @@ TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][f
              Contains("neither the mass nor the stiffness is known"));
   CHECK_THAT(fault_of(scenario(known, "data: {file: fit_faults.csv, loop: true}")),
              Contains("a loop needs the columns"));
+  CHECK_THAT(fault_of(scenario(known, "data: {file: fit_faults.csv, sigma_v: 1 mm/s}")),
+             Contains("'sigma_v' states the noise of v, which no record of the fit compares"));
   CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, laws: [dahl]")),
              Contains("stands beside 'system.friction'"));
   CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, bounds: [{name: kinetic, low: 3 kg}]")),
@@ -189,4 +192,63 @@ TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][f
   CHECK_THAT(fault_of(scenario(std::string(rig) + ", friction: {law: reset_integrator}",
                                "data: fit_faults.csv, free: stiffness")),
              Contains("'stiffness' may be system.stiffness or friction.stiffness"));
+}
+
+TEST_CASE("fit: a zero of the sensor that is far off is subtracted and told, its rest is sought",
+          "[scenarios][fit]") {
+  std::string text = history_text(with_coulomb, released, 1e-5, 7);
+  std::istringstream lines(text);
+  std::string shifted;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t cut = line.find(',');
+    const bool is_header = shifted.empty();
+    shifted +=
+        is_header ? line : line.substr(0, cut + 1) + core::format_number(std::stod(line.substr(cut + 1)) + 0.1);
+    shifted += '\n';
+  }
+  const File data("fit_zero.csv", shifted);
+  const std::string known = std::string(rig) + ", friction: {law: coulomb}";
+  const auto fit_with = [&](const std::string& more, const std::string& initial) {
+    return scenarios::run(parse_scenario(scenario(known, "data: fit_zero.csv" + more, initial), "test.yaml"));
+  };
+  const auto is_told = [](const scenarios::RunResult& result) {
+    return std::ranges::any_of(result.warnings, [](const std::string& warning) {
+      return warning.find("taken for the zero of the sensor and subtracted") != std::string::npos;
+    });
+  };
+  for (const std::string& initial : {std::string(), released + "\n"}) {
+    CAPTURE(initial);
+    const scenarios::RunResult fit = fit_with("", initial);
+    REQUIRE(fit.failure.empty());
+    CHECK(is_told(fit));
+    const nlohmann::json result = testing::result_of(fit);
+    CHECK(result.at("parameters").back().at("name") == "offset");
+    CHECK(result.at("parameters").at(1).at("value").get<double>() == Approx(1.0).epsilon(2e-3));
+    CHECK(result.at("residual").at("noise_units").get<double>() == Approx(1.0).margin(0.15));
+  }
+  // Who seeks the offset gets all of it.
+  const scenarios::RunResult fit = fit_with(", free: offset", "");
+  REQUIRE(fit.failure.empty());
+  CHECK(!is_told(fit));
+}
+
+TEST_CASE("fit: a copy of a record is refused whatever its name and its last digits", "[scenarios][fit]") {
+  const std::string text = history_text(with_coulomb, released, 1e-5, 8);
+  const File data("fit_once.csv", text);
+  const File copy("fit_twice.csv", "# a copy\n" + text);
+  CHECK_THAT(
+      fault_of(scenario(std::string(rig) + ", friction: {law: coulomb}", "data: [fit_once.csv, fit_twice.csv]")),
+      Catch::Contains("holds the same data as fit_once.csv"));
+}
+
+TEST_CASE("fit: a mass that nobody stated is found from afar", "[scenarios][fit]") {
+  // The beginnings of the motion had too few steps: the fit of the shipped record ended at 20 times the noise.
+  std::ifstream in(testing::in_tree("scenarios/examples/free_run.csv"));
+  std::stringstream text;
+  text << in.rdbuf();
+  const File data("fit_mass.csv", text.str());
+  const nlohmann::json result = result_of_text(
+      scenario("stiffness: 1000 N/m, friction: {law: coulomb}", "data: fit_mass.csv, free: mass, profile: false"));
+  CHECK(result.at("residual").at("noise_units").get<double>() == Approx(1.0).margin(0.05));
+  CHECK(result.at("parameters").at(0).at("value").get<double>() == Approx(1.0).epsilon(1e-4));
 }

@@ -1,0 +1,101 @@
+/// How well fits to one history of random rigs predict another, and whether a wrong law is called so.
+/// usage: prediction_rates [FIRST_SEED LAST_SEED [LAW]...]
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "friction_models/registry.hpp"
+#include "identify/fit/prediction.hpp"
+#include "tests/identify/fit/random_rigs.hpp"
+
+using namespace dualdamp;
+
+namespace {
+
+identify::Experiments experiments_of(const identify::Record& record) {
+  std::string fault;
+  return identify::experiments_of(record, {.name = "random"}, fault);
+}
+
+std::vector<identify::FitParameter> parameters_of(const identify::Fit& fit) {
+  std::vector<identify::FitParameter> parameters;
+  for (const identify::FittedParameter& fitted : fit.parameters) parameters.push_back(fitted.parameter);
+  return parameters;
+}
+
+identify::Prediction predicted(const identify::Fit& fit, const test::RandomRig& second) {
+  identify::Rig rig = fit.rig;
+  rig.known.excitation = second.truth.known.excitation;
+  return identify::predict_records(rig, parameters_of(fit), shared_covariance(fit), experiments_of(second.record));
+}
+
+struct Rates {
+  int rigs = 0, within = 0, called_wrong = 0, off = 0, off_and_called = 0;
+  double worst = 0.0;
+};
+
+/// `error` over what the true rig reaches, its first state found like that of the others.
+void count(const identify::Prediction& found, double true_error, Rates& rates) {
+  constexpr double allowed = 1.1;
+  const double ratio = found.error / true_error;
+  ++rates.rigs;
+  rates.worst = std::max(rates.worst, ratio);
+  rates.within += ratio <= allowed ? 1 : 0;
+  rates.called_wrong += found.is_wrong ? 1 : 0;
+  rates.off += ratio > allowed ? 1 : 0;
+  rates.off_and_called += ratio > allowed && found.is_wrong ? 1 : 0;
+}
+
+void say(const std::string& law, const char* fitted, const Rates& r) {
+  std::printf(
+      "%-20s fitted as %-12s %d of %d within 10 %% of the true rig, at most %.3g times; called wrong %d, of "
+      "the %d others %d\n",
+      law.c_str(), fitted, r.within, r.rigs, r.worst, r.called_wrong, r.off, r.off_and_called);
+}
+
+void run(const std::string& law, std::uint64_t first, std::uint64_t last) {
+  Rates right;
+  Rates wrong;
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
+    const test::RandomRig rig = test::random_rig(law, test::MotionKind::forced, seed);
+    const test::RandomRig second = test::driven_again(rig, 1.5, 100'000 + seed);
+    const identify::Fit fit = test::fit_of(rig);
+    const identify::Prediction truth =
+        identify::predict_records(second.truth, {}, {}, experiments_of(second.record));
+    if (!fit.outcome.ok() || !truth.outcome.ok()) {
+      std::printf("%s, seed %d: no fit\n", law.c_str(), static_cast<int>(seed));
+      continue;
+    }
+    const identify::Prediction found = predicted(fit, second);
+    if (!(found.error > 0.0))
+      std::printf("%s, seed %d: no prediction, %s\n", law.c_str(), static_cast<int>(seed),
+                  found.outcome.reason.c_str());
+    count(found, truth.error, right);
+    if (found.error > 1.1 * truth.error || found.is_wrong)
+      std::printf("%s, seed %d, noise %g: %.3g times; %s; warnings of the fit: %zu\n", law.c_str(),
+                  static_cast<int>(seed), rig.noise, found.error / truth.error, found.text.c_str(),
+                  fit.warnings.size());
+    if (law == "coulomb") continue;
+    test::RandomRig other = rig;
+    other.sought.laws.front() = {friction::find_law("coulomb"), {}};
+    const identify::Fit beside = test::fit_of(other);
+    if (beside.outcome.ok()) count(predicted(beside, second), truth.error, wrong);
+  }
+  say(law, law.c_str(), right);
+  if (law != "coulomb") say(law, "coulomb", wrong);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::uint64_t first = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
+  const std::uint64_t last = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 12;
+  std::vector<std::string> laws(argv + std::min(argc, 3), argv + argc);
+  if (laws.empty()) laws = {"coulomb", "contact_compliance", "stribeck"};
+  for (const std::string& law : laws) run(law, first, last);
+  return 0;
+}
