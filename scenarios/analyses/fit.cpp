@@ -53,6 +53,9 @@ Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model
                const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
   Setup setup;
   setup.data = experiments_from(items_of(analysis, files, "data"), "data", model, initial_is_known, faults);
+  std::vector<DataItem> all = items_of(analysis, files, "data");
+  std::ranges::move(items_of(analysis, files, "validate"), std::back_inserter(all));
+  refuse_idle_drive(all, model, faults);
   setup.validation = experiments_from(items_of(analysis, files, "validate"), "validate", model, false, faults);
   if (setup.data.empty()) return setup;
   const Sought sought = sought_of(analysis, initial_is_known);

@@ -56,6 +56,10 @@ struct SetupFault {
                                                      const sim::Model& model, bool initial_is_known,
                                                      std::vector<SetupFault>& faults);
 
+/// A stated frequency or amplitude that no item needs would be ignored by the fit.
+void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
+                       std::vector<SetupFault>& faults);
+
 /// All that is sought, in order.
 [[nodiscard]] std::vector<identify::FitParameter> parameters_for(const identify::Rig& rig,
                                                                  const identify::Experiments& experiments,
