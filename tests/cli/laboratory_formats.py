@@ -227,7 +227,7 @@ REFUSED = [
     ("v5_two_rates.mat", mat5(matrix5("dt", [0.02]), matrix5("fs", [60.0]), matrix5("x_mm", [1e3 * x for x in X])), [], "dt and the sample rate contradict each other"),
     ("v5_no_rate.mat", mat5(matrix5("fs", [1e-320]), matrix5("x_mm", [1e3 * x for x in X])), [], "element 1 of t leaves the range of double precision"),
     ("v5_beyond_the_range.mat", mat5(matrix5("fs", [50.0]), matrix5("x_Mm", [1e305, *X[1:]])), [], "element 1 of x leaves the range of double precision"),
-    ("unit_in_the_heading_and_another_below.csv", table("Y [mm],x [mm]\num,um", MM), [], "the unit of column Y is stated twice"),
+    ("unit_in_the_heading_and_another_below.csv", table("Y [mm],x [mm]\num,mm", MM), [], "the unit of column Y is stated twice"),
     ("decimal_comma.csv", table("Y [mm];x [mm]", MM, ";", comma=True), [], "for decimal commas --decimal ,"),
     ("decimal_comma_with_commas.csv", table("Y [mm],x [mm]", MM, comma=True), [], "the row does not have as many fields as the header"),
     ("decimal_point_told_comma.csv", PLAIN.replace(",", ";"), ["--decimal", ","], "as --decimal , says"),
