@@ -120,10 +120,18 @@ Report checked(const Scenario& scenario, const std::string& directory) {
   return report;
 }
 
+/// What results are named by: the file without its extension. Of `..yaml` and `...yaml` that would be another
+/// place.
+std::string stem_of(const std::string& file) {
+  const fs::path path(file);
+  const std::string stem = path.stem().string();
+  return stem == "." || stem == ".." ? path.filename().string() : stem;
+}
+
 std::string output_directory(const RunCommand& command, const std::string& file) {
   if (!command.out.empty() && command.files.size() == 1) return command.out;
   const fs::path base = command.out.empty() ? "results" : command.out;
-  return (base / fs::path(file).stem()).string();
+  return (base / stem_of(file)).string();
 }
 
 scenarios::FoundCases found_cases(const RunCommand& command) {
@@ -254,7 +262,7 @@ template <typename RecordCommand>
 int execute_on_records(const RecordCommand& command, const std::string& data, const char* suffix = "") {
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
-               const fs::path standard = fs::path("results") / (fs::path(data).stem().string() + suffix);
+               const fs::path standard = fs::path("results") / (stem_of(data) + suffix);
                Scenario scenario = scenario_of(command);
                show_in(command.shown_units, scenario);
                return run_and_write(std::move(scenario),
@@ -284,7 +292,7 @@ int execute(const ExportCommand& command) {
 int execute(const ScoreCommand& command) {
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
-               const fs::path standard = fs::path("results") / (fs::path(command.file).stem().string() + "-scored");
+               const fs::path standard = fs::path("results") / (stem_of(command.file) + "-scored");
                // Methods answer once for all entries.
                return run_and_write(scenario_of(command),
                                     {.directory = command.out.empty() ? standard.string() : command.out,

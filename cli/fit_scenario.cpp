@@ -141,7 +141,7 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const Json& scenario = document.at("scenario");
   if (scenario.contains("excitation"))
-    options.set.push_back({"excitation=" + scenario.at("excitation").dump(), "RESULT"});
+    options.set.push_back({"excitation=" + scenario.at("excitation").dump(), "RESULT", true});
   add_drive(command, options);
   scenarios::Scenario prediction =
       scenarios::parse_scenario(result.at("scenario").get<std::string>(), command.result, options);

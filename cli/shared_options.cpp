@@ -61,4 +61,11 @@ void add_file_options(CLI::App& command, FileOptions& options) {
       "SI with a warning. What files may look like, and what is refused: docs/data-files.md.");
 }
 
+void refuse_empty_names(CLI::App& command) {
+  for (CLI::Option* option : command.get_options())
+    if (option->get_positional())
+      option->check([](const std::string& text) { return text.empty() ? "it is empty" : std::string(); });
+  for (CLI::App* inner : command.get_subcommands({})) refuse_empty_names(*inner);
+}
+
 }  // namespace dualdamp::cli

@@ -19,4 +19,8 @@ void add_plot(CLI::App& command, std::string& plot);
 /// What a data file does not say of itself.
 void add_file_options(CLI::App& command, FileOptions& options);
 
+/// Of this command and all below it: an empty name of a file, a law, ... names nothing, as a variable of a shell
+/// that is not set does.
+void refuse_empty_names(CLI::App& command);
+
 }  // namespace dualdamp::cli

@@ -101,7 +101,7 @@ Panel next_panel(const ExponentialBasis& basis, std::span<const Guard> guards, d
   return panel;
 }
 
-enum class PanelResult { none, crossing, not_finite };
+enum class PanelResult { none, crossing, not_finite, too_long };
 
 /// The first root of one guard on the panel; `root` is negative where there is none.
 PanelResult search_guard(PanelSearch& search, const Panel& panel, double& root) {
@@ -117,6 +117,7 @@ PanelResult search_guard(PanelSearch& search, const Panel& panel, double& root) 
     end.zeros = 1;
   }
   root = search.first_root(begin, end);
+  if (search.is_too_long()) return PanelResult::too_long;
   if (root < 0.0 && touched && !panel.is_last) search.record_grazing(panel.b);
   return root < 0.0 ? PanelResult::none : PanelResult::crossing;
 }
@@ -131,7 +132,7 @@ PanelResult search_panel(const ExponentialBasis& basis, std::span<const Guard> g
     PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
     double root = 0.0;
     const PanelResult of_guard = search_guard(search, panel, root);
-    if (of_guard == PanelResult::not_finite) return of_guard;
+    if (of_guard == PanelResult::not_finite || of_guard == PanelResult::too_long) return of_guard;
     if (of_guard == PanelResult::none || (crossing.found && root >= crossing.s)) continue;
     result = of_guard;
     crossing.found = true;
@@ -181,11 +182,16 @@ bool needs_scaling(const Guard& guard) {
   std::array<ExponentialBasis::Values, 2> ends;
   if (!basis.even()) basis.start(ends[0]);
   const ExponentialBasis::Values* left = &ends[0];
+  constexpr long split = 16;  // panels that take as long
+  const auto cost = [&] { return count.panels + split * count.splits; };
+  const long last = cost() + most_panels;
   double a = 0.0;
   while (a < horizon) {
+    if (cost() > last) return SearchEnd::too_long;
     const Panel panel = next_panel(basis, guards, a, horizon, *left, ends[left == &ends[0] ? 1 : 0]);
     const PanelResult result = search_panel(basis, guards, panel, crossing, grazings, count);
     if (result == PanelResult::not_finite) return SearchEnd::left_range;
+    if (result == PanelResult::too_long) return SearchEnd::too_long;
     if (result == PanelResult::crossing) {
       drop_unfinished(basis, guards, crossing, grazings);
       grazings.finish(count);

@@ -20,6 +20,9 @@
 /// Range. A guard that leaves the range of double precision ends the search with SearchEnd::left_range. Elements
 ///   that are not in a guard have no part in that. A guard with amplitudes beyond 1e60 or below 1e-60 is searched
 ///   multiplied by a power of two; one whose amplitudes have decayed by 1e-220 has no zeros any more.
+/// Length. A search of more than `most_panels` panels ends with SearchEnd::too_long: the guard turns too often
+/// before
+///   the horizon, or a panel is divided without end.
 /// Why nothing can be missed (`core/panel_search.hpp`). The interval is covered by panels. On a panel of width h
 ///   the quintic Hermite interpolant H of (g, g', g'') at both ends obeys
 ///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,

@@ -256,6 +256,7 @@ Jet PanelSearch::split_point(const Jet& a, const Jet& b) {
 
 double PanelSearch::split(const Jet& a, const Jet& b, int depth) {
   ++count_.splits;
+  if (is_too_long()) return none;
   Jet middle = split_point(a, b);
   if (is_rounding(middle)) {
     record_grazing(middle.s);

@@ -16,7 +16,13 @@ class PanelSearch {
   /// `index`: of the guard among those searched.
   PanelSearch(const ExponentialBasis& basis, const Guard& guard, int index, SearchGrazings& grazings,
               SearchCount& count)
-      : basis_(basis), guard_(guard), index_(index), jets_(basis, guard), grazings_(grazings), count_(count) {}
+      : basis_(basis),
+        guard_(guard),
+        index_(index),
+        jets_(basis, guard),
+        grazings_(grazings),
+        count_(count),
+        last_(count.splits + most_splits) {}
 
   [[nodiscard]] GuardJets& jets() { return jets_; }
 
@@ -41,6 +47,8 @@ class PanelSearch {
   }
   void record_grazing(double s) { grazings_.record(jets_, index_, s); }
 
+  /// The panel was divided more often than is allowed: what was found, or not, means nothing.
+  [[nodiscard]] bool is_too_long() const { return count_.splits > last_; }
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
   /// The same in (0, horizon), where it lies beside the one that the basis expects; else a negative number.
@@ -56,6 +64,8 @@ class PanelSearch {
 
  private:
   static constexpr double none = -1.0;
+  /// Of one panel: about a second.
+  static constexpr long most_splits = 500'000;
 
   // Bounds and rounding.
   void narrow(double a, double b);
@@ -92,6 +102,7 @@ class PanelSearch {
   GuardJets jets_;
   SearchGrazings& grazings_;
   SearchCount& count_;
+  long last_;           ///< count of splits behind which no panel is divided
   double sixth_ = 0.0;  ///< bounds on the panel: of |g^(6)| by fastest() s, of |g''|, and the sum of amplitudes
   double curvature_ = 0.0;
   double amplitude_ = 0.0;

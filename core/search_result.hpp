@@ -10,7 +10,11 @@ enum class [[nodiscard]] SearchEnd {
   crossing,
   horizon,     ///< no guard crosses before it
   left_range,  ///< a guard has left the range of double precision before either: there are no values
+  too_long,    ///< too many panels and splits before either: there are no values
 };
+
+/// Of one search: some seconds. A period of a guard takes a few, so that millions of them pass.
+inline constexpr long most_panels = 20'000'000;
 
 struct Crossing {
   bool found = false;

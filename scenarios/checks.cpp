@@ -116,6 +116,21 @@ void resolve_damping(CheckedFile& file) {
   put_in_order(system, file.keys_of("system"));
 }
 
+/// Beyond, squares of it are no numbers any more.
+void check_natural_frequency(CheckedFile& file) {
+  const auto m = file.number_at("system", "mass");
+  const auto k = file.number_at("system", "stiffness");
+  if (!m || !k || *k == 0.0) return;
+  constexpr double slowest = 1e-100;
+  constexpr double fastest = 1e100;
+  const double natural = std::sqrt(*k / *m);
+  if (natural >= slowest && natural <= fastest) return;
+  file.complain(
+      file.stands_in_file("system", "mass") ? "system.mass" : "system",
+      "the natural frequency of this mass and stiffness is out of range", "1e-100 rad/s to 1e100 rad/s",
+      "a mass of " + core::format_number(*m, 6) + " on a stiffness of " + core::format_number(*k, 6) + " (SI)");
+}
+
 void resolve_frequency(CheckedFile& file) {
   if (!file.has("excitation", "frequency")) return;
   Json& frequency = file.values()["excitation"]["frequency"];
@@ -253,6 +268,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   resolve_damping(file);
   if (file.needs() != nullptr) check_loss_factor(file, *analysis, analyses);
   check_load_modulation(file);
+  check_natural_frequency(file);
   resolve_frequency(file);
   if (file.needs() != nullptr && !file.needs()->excitations.empty()) read_drive(file);
   if (analysis->check != nullptr) analysis->check(file);

@@ -237,7 +237,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
 
 Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
   Document document(name, text);
-  for (const Override& item : options.set) document.set(item.assignment, item.origin);
+  for (const Override& item : options.set) document.set(item.assignment, item.origin, item.replaceable);
   refuse_other_schema(document);
   const bool is_sweep = document.root().find("sweep") != nullptr;
   Scenario scenario = is_sweep

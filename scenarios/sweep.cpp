@@ -380,6 +380,13 @@ Scenario swept_scenario(Document document, const std::string& name, const LoadOp
   std::optional<SweptKeys> swept = take_swept_keys(document, problems);
   std::optional<Entry> expect = document.take("expect");
   const Place place = swept->place;
+  for (const SweptKey& key : swept->keys)
+    if (auto earlier = document.assigned(key.path))
+      problems.push_back({document.locate(key.place),
+                          "'" + key.path + "' is swept, and an option states it",
+                          "a value of each point, or the option",
+                          std::move(*earlier),
+                          {}});
   if (!problems.empty()) throw_sorted(std::move(problems), name);
   Points points(std::move(document), std::move(*swept), name, options);
   if (static_cast<double>(points.size()) > max_swept)

@@ -28,15 +28,6 @@ constexpr const char* away = "runs away: the energy has left the range of double
 
 sim::Model model_of(const Json& scenario) { return scenarios::parse_scenario(scenario.dump(), "case").model; }
 
-/// Three forcing and ten natural periods, but not more than sixty of the shorter one.
-double duration_of(const Json& scenario, const sim::Model& model) {
-  const Json& analysis = scenario.at("analysis");
-  if (analysis.contains("duration")) return analysis.at("duration").get<double>();
-  const double natural = 2.0 * std::numbers::pi / sim::natural_frequency(model.oscillator);
-  const double forcing = 2.0 * std::numbers::pi / model.excitation.frequency;
-  return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
-}
-
 double extent(const Walk& walk) {
   double result = 0.0;
   for (const sim::Sample& sample : walk.samples)
@@ -224,6 +215,15 @@ class Motions {
 };
 
 }  // namespace
+
+/// Three forcing and ten natural periods, but not more than sixty of the shorter one.
+double duration_of(const Json& scenario, const sim::Model& model) {
+  const Json& analysis = scenario.at("analysis");
+  if (analysis.contains("duration")) return analysis.at("duration").get<double>();
+  const double natural = 2.0 * std::numbers::pi / sim::natural_frequency(model.oscillator);
+  const double forcing = 2.0 * std::numbers::pi / model.excitation.frequency;
+  return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
+}
 
 Findings compare_motions(const scenarios::Json& scenario, std::uint64_t draw) {
   return Motions(scenario, draw).compare();

@@ -6,8 +6,12 @@
 
 #include "bench/crosscheck/finding.hpp"
 #include "scenarios/format/json.hpp"
+#include "sim/model.hpp"
 
 namespace dualdamp::crosscheck {
+
+/// How long the motion of a drawn scenario is followed [s].
+[[nodiscard]] double duration_of(const scenarios::Json& scenario, const sim::Model& model);
 
 /// `draw`: of the changes of the data that measure how strongly the motion depends on them.
 [[nodiscard]] Findings compare_motions(const scenarios::Json& scenario, std::uint64_t draw);

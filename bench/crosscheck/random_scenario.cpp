@@ -119,10 +119,8 @@ double duration(const Json& excitation, const Sizes& sizes) {
   return time;
 }
 
-}  // namespace
-
-Json random_scenario(std::uint64_t seed, std::uint32_t index) {
-  Draws draws(seed, index);
+/// `more`: draws of an attached mass; none: it is not drawn.
+Json scenario_of(Draws& draws, Draws* more) {
   Sizes sizes;
   sizes.wide = draws.chance(0.3);
   sizes.mass = draws.logarithmic(1e-3, 1e3);
@@ -139,10 +137,7 @@ Json random_scenario(std::uint64_t seed, std::uint32_t index) {
   }
   const Json drive = excitation(draws, sizes, !system.contains("damper_to"));
   system["friction"] = random_friction(draws, sizes);
-  if (seed >= first_with_attached_mass) {
-    Draws more(~seed, index);
-    attach_mass(more, sizes, system["friction"]);
-  }
+  if (more != nullptr) attach_mass(*more, sizes, system["friction"]);
   Json scenario = {{"schema", "dualdamp/1"}, {"system", system}, {"excitation", drive}};
   const bool is_free = drive.at("type") == "none";
   if (is_free || draws.chance(0.4)) {
@@ -154,6 +149,19 @@ Json random_scenario(std::uint64_t seed, std::uint32_t index) {
   scenario["analysis"] = is_periodic ? Json{{"type", "steady_state"}}
                                      : Json{{"type", "simulate"}, {"duration", duration(drive, sizes)}};
   return scenario;
+}
+
+}  // namespace
+
+Json random_scenario(std::uint64_t seed, std::uint32_t index) {
+  Draws draws(seed, index);
+  Draws more(~seed, index);
+  return scenario_of(draws, seed >= first_with_attached_mass ? &more : nullptr);
+}
+
+Json random_scenario(std::string_view bytes) {
+  Draws draws(bytes);
+  return scenario_of(draws, &draws);
 }
 
 std::string yaml(const Json& scenario) {

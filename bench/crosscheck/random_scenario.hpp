@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "bench/crosscheck/draws.hpp"
 #include "scenarios/format/json.hpp"
@@ -35,6 +36,8 @@ struct Sizes {
 
 /// Case `index` of a campaign. Seeds from 70 on also draw attached masses.
 [[nodiscard]] Json random_scenario(std::uint64_t seed, std::uint32_t index);
+/// The scenario that these bytes lead to: any bytes give one.
+[[nodiscard]] Json random_scenario(std::string_view bytes);
 
 /// One to four laws in parallel.
 [[nodiscard]] Json random_friction(Draws& draws, const Sizes& sizes);

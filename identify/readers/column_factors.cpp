@@ -103,7 +103,7 @@ double ColumnFactors::factor_of(const KnownColumn& known, const std::string& sta
                       name + "=" + degrees);
   }
   if (unit.empty() && !is_angular(known, options_.coordinate)) {
-    assumed_.push_back({name, si_unit});
+    assume(name, si_unit);
     return 1.0;
   }
   const core::QuantityText factor = core::unit_factor(unit, known.unit, options_.coordinate);
@@ -148,7 +148,7 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
                   allowed);
   double per_signal = 1.0;
   if (unit.empty()) {
-    if (!read->signal.empty()) assumed_.push_back({name, read->signal});
+    if (!read->signal.empty()) assume(name, read->signal);
   } else if (unit != read->signal) {
     const auto conversion = read->signal.empty() ? std::nullopt : core::unit_factor(unit, read->signal).value;
     if (!conversion)
@@ -157,6 +157,11 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
   }
   const double gain = read->is_sensitivity ? 1.0 / *number.value : *number.value;
   return gain * read->factor * per_signal;
+}
+
+/// Once, of however many tests.
+void ColumnFactors::assume(const std::string& name, const std::string& unit) {
+  if (std::ranges::find(assumed_, name, &Assumption::name) == assumed_.end()) assumed_.push_back({name, unit});
 }
 
 ColumnUnits ColumnFactors::take_units() {

@@ -42,6 +42,7 @@ class ColumnFactors {
   ColumnUnits take_units();
 
  private:
+  void assume(const std::string& name, const std::string& unit);
   double scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,
                 const core::Diagnostic& where);
   double refuse(const core::Diagnostic& where, std::string message, std::string allowed,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/units.hpp"
 #include "identify/readers/csv_numbers.hpp"
 
 namespace dualdamp::identify {
@@ -89,11 +90,26 @@ class HeaderReader {
     return false;
   }
 
+  /// A unit in the heading, and another one below it.
+  void refuse_other_unit(const Heading& heading, const std::string& below) {
+    Heading named = heading;
+    const KnownColumn* const known = named_column(named);
+    if (known == nullptr || named.unit.empty() || below.empty()) return;
+    const auto stated = core::unit_factor(named.unit, known->unit).value;
+    const auto other = core::unit_factor(below, known->unit).value;
+    if (!stated || !other || *stated == *other) return;
+    complain(heading.column, "the unit of column " + std::string(known->name) + " is stated twice",
+             "one unit, in the heading or in the row below it",
+             "'" + excerpt(named.unit) + "' and, in line " + std::to_string(layout_.units->number) + ", '" +
+                 excerpt(below) + "'");
+  }
+
   void read_units() {
     std::size_t i = 0;
     for (const std::string& field : fields_of(layout_.units->text, layout_.separator)) {
       if (i == headings_.size()) return;
       Heading& heading = headings_[i++];
+      refuse_other_unit(heading, unit_in(field));
       if (!heading.unit.empty() || !heading.well_formed) continue;
       const KnownColumn* const before = named_column(heading);
       if (before == nullptr || heading.unit.empty()) heading.unit = unit_in(field);

@@ -1,6 +1,7 @@
 #include "identify/readers/data_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dualdamp::identify {
 
@@ -9,6 +10,20 @@ const DataColumn* DataTable::find(std::string_view name) const {
       std::find_if(columns.begin(), columns.end(), [name](const DataColumn& c) { return c.known->name == name; });
   return found == columns.end() ? nullptr : &*found;
 }
+
+namespace {
+
+/// Times from a step, and numbers in another unit, may leave the range although what the file holds does not.
+void refuse_not_finite(const std::string& file, const DataColumn& column) {
+  const auto bad = std::ranges::find_if(column.values, [](double value) { return !std::isfinite(value); });
+  if (bad == column.values.end()) return;
+  refuse_file(file,
+              "element " + std::to_string(bad - column.values.begin() + 1) + " of " +
+                  std::string(column.known->name) + " leaves the range of double precision in SI",
+              "finite numbers, and a step or rate of samples that makes finite times");
+}
+
+}  // namespace
 
 DataTable join(const std::string& file, const std::vector<TestColumns>& tests) {
   DataTable table;
@@ -20,6 +35,7 @@ DataTable join(const std::string& file, const std::vector<TestColumns>& tests) {
       for (const DataColumn& column : test.columns) table.columns.push_back({column.known, {}});
     bool alike = test.columns.size() == table.columns.size();
     for (const DataColumn& column : test.columns) {
+      refuse_not_finite(file, column);
       const DataColumn* whole = table.find(column.known->name);
       alike = alike && whole != nullptr;
       if (!alike)

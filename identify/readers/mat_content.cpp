@@ -93,6 +93,8 @@ TestColumns test(Receiver& from) {
     return column.values.empty() || column.values.size() != test.columns.front().values.size();
   };
   if (test.columns.empty() || std::ranges::any_of(test.columns, differs)) throw Nonsense{};
+  for (std::size_t i = 1; i < test.columns.size(); ++i)
+    if (std::ranges::count(test.columns, test.columns[i].known, &DataColumn::known) > 1) throw Nonsense{};
   return test;
 }
 

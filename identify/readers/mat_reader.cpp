@@ -250,7 +250,7 @@ class Reader {
     for (const Entry& entry : scope) {
       const auto& [known, unit] = column_of(entry.name);
       if (is_sampling(entry.name)) {
-        if (const auto value = scalar(entry)) step = entry.name == "dt" ? *value : 1.0 / *value;
+        take_step(entry, step);
       } else if (known == nullptr) {
         if (options_.only.empty()) warnings_.push_back(ignored("field", to_utf8(entry.name)));
       } else if (known->unit.empty()) {
@@ -308,6 +308,18 @@ class Reader {
     if (values->size() == 1 && values->front() > 0.0) return values->front();
     complain("variable '" + entry.name + "' is not one number above zero");
     return std::nullopt;
+  }
+
+  /// Both `dt` and a rate may be there, if they say the same.
+  void take_step(const Entry& entry, std::optional<double>& step) {
+    const auto value = scalar(entry);
+    if (!value) return;
+    const double stated = entry.name == "dt" ? *value : 1.0 / *value;
+    constexpr double rounding = 1e-6;
+    if (step && !(std::abs(stated - *step) <= rounding * *step))
+      complain("dt and the sample rate contradict each other", "one of them, or both alike",
+               "steps of " + core::format_number(*step, 6) + " s and " + core::format_number(stated, 6) + " s");
+    step = stated;
   }
 
   void take(const Entry& entry, const KnownColumn& known, const std::string& unit, TestColumns& test) {

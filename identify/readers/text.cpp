@@ -122,8 +122,11 @@ std::string plain_signs(std::string text) {
   return done == 0 ? std::move(text) : plain.append(text, done);
 }
 
+/// Two of them where a program has put one before a text that had one: the second is no letter of the first name.
 std::string without_mark(std::string text) {
-  if (text.starts_with(utf8_mark)) text.erase(0, utf8_mark.size());
+  std::size_t end = 0;
+  while (std::string_view(text).substr(end).starts_with(utf8_mark)) end += utf8_mark.size();
+  text.erase(0, end);
   return text;
 }
 

@@ -107,8 +107,7 @@ class Scanner {
   std::vector<Function> run() {
     std::vector<Function> functions;
     while (!at_end()) {
-      if (trimmed(next_line()) != "-1") continue;
-      if (at_end()) break;
+      if (trimmed(next_line()) != "-1" || at_end()) continue;
       const std::string_view head = next_line();
       const std::string_view number = cut(head, 0, 6);
       if (number == "58") {
@@ -182,8 +181,7 @@ class Scanner {
     read_form(f, next_line());
     f.abscissa = axis(next_line());
     f.ordinate = axis(next_line());
-    next_line();
-    next_line();
+    for (int i = 0; i < 2; ++i) next_line();
     f.divisor = units_.divisor(f.ordinate.quantity);
     constexpr int time_response = 1;
     constexpr int time_axis = 17;
@@ -230,9 +228,8 @@ class Scanner {
 
   void read_text(Function& f) {
     constexpr std::size_t single_width = 13;
-    constexpr std::size_t double_width = 20;
     reserve(f);
-    const std::size_t width = f.is_double ? double_width : single_width;
+    const std::size_t width = f.is_double ? 20 : single_width;
     std::string_view line;
     std::size_t at = 0;
     const auto next = [&](std::size_t columns) {
@@ -251,6 +248,9 @@ class Scanner {
       if (!f.is_even) f.times.push_back(next(single_width));  // E13.5 beside values of any precision
       f.values.push_back(next(width));
     }
+    const std::string_view ahead = at_end() ? "-1" : trimmed(peek_line());
+    if (!cut(line, at, width).empty() || !(ahead.empty() || ahead == "-1"))
+      refuse("the data set goes on behind its " + std::to_string(f.count) + " values");
   }
 
   void read_binary(Function& f, std::string_view head) {

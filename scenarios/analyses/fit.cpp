@@ -56,6 +56,9 @@ Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model
   const Sought sought = sought_of(analysis, initial_is_known);
   std::vector<DataItem> data = items_of(analysis, files, "data");
   std::vector<DataItem> validation = items_of(analysis, files, "validate");
+  std::vector<DataItem> all = data;
+  all.insert(all.end(), validation.begin(), validation.end());
+  refuse_idle_drive(all, model, faults);
   setup.warnings = remove_zeros(data, model, sought);
   std::ranges::move(remove_zeros(validation, model, {}), std::back_inserter(setup.warnings));
   setup.data = experiments_from(data, "data", model, initial_is_known, faults);

@@ -66,11 +66,39 @@ std::optional<identify::Record> outlined_record(const CheckedFile& file) {
   return file.data ? std::optional(file.data->record) : std::nullopt;
 }
 
+/// Sensors that the methods read.
+std::vector<std::string> signals_of(const identify::Record& record) {
+  std::vector<std::string> signals;
+  const auto holds = [&](auto signal) {
+    return std::ranges::any_of(record.histories, [&](const identify::History& h) { return !(h.*signal).empty(); });
+  };
+  if (record.pairs || holds(&identify::History::y)) signals.emplace_back("y");
+  if (record.pairs || record.decay || holds(&identify::History::x)) signals.emplace_back("x");
+  if (holds(&identify::History::v)) signals.emplace_back("v");
+  if (holds(&identify::History::a)) signals.emplace_back("a");
+  if (holds(&identify::History::force)) signals.emplace_back("force");
+  return signals;
+}
+
+/// The gain of a sensor that is not there would be ignored.
+void check_gains(CheckedFile& file, const identify::Record& record) {
+  if (!file.has("analysis", "gain_uncertainty")) return;
+  const std::vector<std::string> signals = signals_of(record);
+  const Json gains = file.values().at("analysis").at("gain_uncertainty");
+  for (const auto& [signal, gain] : gains.items()) {
+    if (std::ranges::find(signals, signal) != signals.end()) continue;
+    file.complain("analysis.gain_uncertainty." + signal,
+                  "the gain of " + signal + " is uncertain, and the record has no " + signal,
+                  "signals of the record: " + core::joined(signals), signal);
+  }
+}
+
 void check(CheckedFile& file) {
   check_measurement(file);
   read_data(file);
   const std::optional<identify::Record> record = outlined_record(file);
   if (!record) return;
+  check_gains(file, *record);
   resolve_methods(file, {*record}, SlowMethods::run);
   check_frequency(file, *record);
   check_method_options(file, record->pairs ? record->pairs->pairs.size() : 0);

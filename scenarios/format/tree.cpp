@@ -81,10 +81,34 @@ std::optional<std::vector<Step>> split_path(std::string_view path) {
   return steps;
 }
 
+/// The node at these steps; nullptr where there is none.
+const Node* find(const Node& root, const std::vector<Step>& steps) {
+  const Node* node = &root;
+  for (const Step& step : steps) {
+    if (step.index) {
+      node = node->kind == Node::Kind::sequence && *step.index < node->items.size() ? &node->items[*step.index]
+                                                                                    : nullptr;
+    } else {
+      const Entry* entry = node->find(step.key);
+      node = entry == nullptr ? nullptr : &entry->value;
+    }
+    if (node == nullptr) break;
+  }
+  return node;
+}
+
+/// The last of the texts that state this value or a part of it; 0: the file alone.
+int last_source(const Node& node) {
+  int last = node.place.source;
+  for (const Node& item : node.items) last = std::max(last, last_source(item));
+  for (const Entry& entry : node.entries) last = std::max(last, last_source(entry.value));
+  return last;
+}
+
 }  // namespace
 
 Document::Document(std::string name, const std::string& text) {
-  sources_.push_back({std::move(name), normalised(text), {}});
+  sources_.push_back({std::move(name), normalised(text), {}, true});
   sources_.front().line_starts = starts_of_lines(sources_.front().text);
   const std::string& content = sources_.front().text;
   if (content.size() > max_bytes)
@@ -120,9 +144,18 @@ core::SourcePlace Document::locate(Place place) const {
   return result;
 }
 
-void Document::set(std::string_view assignment, std::string origin) {
+std::optional<std::string> Document::assigned(std::string_view path) const {
+  const auto steps = split_path(path);
+  const Node* node = steps ? find(root_, *steps) : nullptr;
+  const int last = node == nullptr ? 0 : last_source(*node);
+  const Source& source = sources_[static_cast<std::size_t>(last)];
+  if (last == 0 || source.replaceable) return std::nullopt;
+  return source.name + ": " + shortened(source.text);
+}
+
+void Document::set(std::string_view assignment, std::string origin, bool replaceable) {
   const int source = static_cast<int>(sources_.size());
-  sources_.push_back({std::move(origin), std::string(assignment), {}});
+  sources_.push_back({std::move(origin), std::string(assignment), {}, replaceable});
   sources_.back().line_starts = starts_of_lines(assignment);
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || !split_path(assignment.substr(0, equals)))
@@ -136,8 +169,14 @@ void Document::set(std::string_view assignment, std::string origin) {
   if (value.kind == Node::Kind::null)
     throw InputError(
         Diagnostic{locate(place_at(source, equals)), "a value is missing after '='", "PATH=VALUE", {}, {}});
-  put(assignment.substr(0, equals), std::move(value),
-      [this, source](std::size_t offset) { return place_at(source, offset); });
+  const std::string_view path = assignment.substr(0, equals);
+  if (auto earlier = assigned(path))
+    throw InputError(Diagnostic{locate(place_at(source, 0)),
+                                "'" + shortened(path) + "' is stated twice",
+                                "one option for each value",
+                                std::move(*earlier),
+                                {}});
+  put(path, std::move(value), [this, source](std::size_t offset) { return place_at(source, offset); });
 }
 
 void Document::put(std::string_view path, Place place, Node value) {

@@ -67,8 +67,11 @@ class Document {
   Document(std::string name, const std::string& text);
 
   /// Applies `PATH=VALUE`, PATH like `system.friction[0].kinetic`, VALUE in YAML. Keys on the way that do not exist
-  /// are created; list items must exist. `origin` stands for the file in messages.
-  void set(std::string_view assignment, std::string origin);
+  /// are created; list items must exist. `origin` stands for the file in messages. What an earlier assignment
+  /// states is not replaced, which would ignore it: that is refused, unless the earlier one is `replaceable`.
+  void set(std::string_view assignment, std::string origin, bool replaceable = false);
+  /// The assignment that states a value at this path or in it, with its origin; nothing where the file does.
+  [[nodiscard]] std::optional<std::string> assigned(std::string_view path) const;
 
   /// The same with a value that is already there; `place` is that of PATH, for messages.
   void put(std::string_view path, Place place, Node value);
@@ -88,6 +91,7 @@ class Document {
     std::string name;
     std::string text;
     std::vector<std::size_t> line_starts;
+    bool replaceable = true;
   };
 
   friend class TreeBuilder;

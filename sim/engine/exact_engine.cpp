@@ -320,11 +320,15 @@ bool ExactEngine::coincides() const {
   return guard != nullptr && changed_law_ && guard->law != *changed_law_ && !is_forced();
 }
 
-core::SearchEnd ExactEngine::search(double horizon) {
+bool ExactEngine::search(double horizon) {
   const core::SearchEnd end =
       core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, horizon, crossing_, grazings_, count_);
   if (end == core::SearchEnd::left_range) leave_range();
-  return end;
+  if (end == core::SearchEnd::too_long)
+    outcome_ = {core::OutcomeKind::event_limit,
+                "the motion turns so often between two events, or up to the end of a forcing period, that it is "
+                "followed no longer"};
+  return outcome_.ok();
 }
 
 void ExactEngine::leave_range() {
@@ -345,7 +349,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   }
   const bool at_once = find_violated();
   if (tracking_) track_begin(begin, at_once && !coincides());
-  if (!at_once && search(left) == core::SearchEnd::left_range) return nullptr;
+  if (!at_once && !search(left)) return nullptr;
   const core::Crossing& end = crossing_;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
   if (!comes_to_an_end(at_once || left == 0.0)) return nullptr;

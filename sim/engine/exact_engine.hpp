@@ -95,7 +95,7 @@ class ExactEngine final : public Engine {
   [[nodiscard]] core::Germ start_germ(const core::Guard& guard, bool is_speed, double tolerance) const;
   bool find_violated();
   void drop_guard(std::size_t i);
-  core::SearchEnd search(double horizon);
+  bool search(double horizon);
   void leave_range();
   void settle() override;
   friction::Direction leaves_limit(double tolerance);

@@ -41,6 +41,19 @@ TEST_CASE("crosscheck: every case that is drawn is a valid file, and the same on
   }
 }
 
+TEST_CASE("crosscheck: any bytes lead to a scenario, each byte to another one", "[crosscheck]") {
+  std::string bytes;
+  for (int i = 0; i < 200; ++i) bytes += static_cast<char>((97 * i + 31) % 256);
+  const Json drawn = crosscheck::random_scenario(bytes);
+  CHECK(drawn == crosscheck::random_scenario(bytes));
+  for (const std::string& other : {std::string(), std::string(300, '\xff'), bytes.substr(0, 9), bytes.substr(1)}) {
+    const Json another = crosscheck::random_scenario(other);
+    INFO(crosscheck::yaml(another));
+    CHECK(another != drawn);
+    CHECK_NOTHROW(scenarios::parse_scenario(crosscheck::yaml(another), "case"));
+  }
+}
+
 TEST_CASE("crosscheck: attached masses are drawn by new seeds and change no case of an old one", "[crosscheck]") {
   const auto attached = [](std::uint64_t seed) {
     int count = 0;

@@ -131,6 +131,7 @@ ACCEPTED = [
     ("blanks.txt", table("Y [mm]   x [mm]", MM, "   "), [], PAIRS),
     ("numpy.txt", "# written by numpy\n# Y_mm x_mm\n" + table("", MM, " ", "{:.12e}"), [], PAIRS),
     ("byte_order_mark.csv", "\ufeff" + PLAIN, [], PAIRS),
+    ("two_byte_order_marks.csv", "\ufeff\ufeff" + PLAIN, [], PAIRS),
     ("crlf.csv", PLAIN.replace("\n", "\r\n"), [], PAIRS),
     ("cr.csv", PLAIN.replace("\n", "\r"), [], PAIRS),
     ("latin1_micro.csv", table("Y [µm],x [µm]", [(1e3 * y, 1e3 * x) for y, x in MM]).encode("latin-1"), [], PAIRS),
@@ -222,6 +223,11 @@ ACCEPTED = [
 ]
 
 REFUSED = [
+    ("v5_endless_times.mat", mat5(matrix5("dt", [1e308]), matrix5("x_mm", [1e3 * x for x in X])), [], "element 3 of t leaves the range of double precision"),
+    ("v5_two_rates.mat", mat5(matrix5("dt", [0.02]), matrix5("fs", [60.0]), matrix5("x_mm", [1e3 * x for x in X])), [], "dt and the sample rate contradict each other"),
+    ("v5_no_rate.mat", mat5(matrix5("fs", [1e-320]), matrix5("x_mm", [1e3 * x for x in X])), [], "element 1 of t leaves the range of double precision"),
+    ("v5_beyond_the_range.mat", mat5(matrix5("fs", [50.0]), matrix5("x_Mm", [1e305, *X[1:]])), [], "element 1 of x leaves the range of double precision"),
+    ("unit_in_the_heading_and_another_below.csv", table("Y [mm],x [mm]\num,mm", MM), [], "the unit of column Y is stated twice"),
     ("decimal_comma.csv", table("Y [mm];x [mm]", MM, ";", comma=True), [], "for decimal commas --decimal ,"),
     ("decimal_comma_with_commas.csv", table("Y [mm],x [mm]", MM, comma=True), [], "the row does not have as many fields as the header"),
     ("decimal_point_told_comma.csv", PLAIN.replace(",", ";"), ["--decimal", ","], "as --decimal , says"),

@@ -36,6 +36,13 @@ TEST_CASE("A guard that leaves the range of double precision ends the search, an
   check_crossing(both, 1, 100.0, 1e-12);
 }
 
+TEST_CASE("A guard that turns too often before the horizon ends the search, and says so") {
+  // cos(s) + 1.5 never crosses; its panels up to here would take an hour.
+  const Terms wave = {{Complex(0.0, 1.0), 1.0}, constant(1.5)};
+  CHECK(search(wave, 1e10).end == SearchEnd::too_long);
+  CHECK(search(wave, 1e4).end == SearchEnd::horizon);
+}
+
 TEST_CASE("An element that has left the range has no part in guards without it") {
   // Growth by e^24000 beside 1 - s/2000 and beside cos(s/1000), whose elements do not grow.
   for (const double growth : {0.5, 6.0, 1e3}) {

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Good inputs, and the cases of the campaigns: mutated inputs with the command lines that read them.
 
-usage: seeds.py ROOT DIR    writes the seeds of the harnesses to DIR/units, DIR/records, DIR/scenario, DIR/answers
+usage: seeds.py ROOT DIR    writes the seeds of each harness to DIR/NAME
 """
 
 import functools
 import json
 import random
+import struct
 import subprocess
 import sys
 import tempfile
@@ -47,6 +48,12 @@ class Case:
     name: str
     files: dict
     steps: list
+
+
+# Of the sweep of the harness `resume`: a point that is whole, one that has failed, one that holds something else.
+POINTS = ('{"case":0,"values":{"system.friction.kinetic":1.0},"status":0,"result":{"peak":0.1,"sticks":[]}}\n'
+          '{"case":1,"values":{"system.friction.kinetic":1.5},"status":4,"result":null,"reason":"none","warnings":["a"]}\n'
+          '{"case":2,"result":[1e308,null,{"peak":"x"}],"status":"no"}\n')
 
 
 @functools.lru_cache
@@ -133,6 +140,23 @@ def case(kind, root, seed, number, program):
     return KINDS[kind](root, seed, number, program)
 
 
+def sent_columns():
+    """What the process that has read a MATLAB file sends: one test of two columns, labels of rows, a warning, a unit."""
+    def number(value):
+        return struct.pack("<Q", value)
+
+    def text(value):
+        return number(len(value)) + value.encode()
+
+    def column(index, values):
+        return number(index) + number(len(values)) + struct.pack(f"<{len(values)}d", *values)
+
+    test = text("1") + number(2) + column(0, [0.0, 0.1, 0.2]) + column(2, [1.0, -0.5, 0.25])
+    labels = number(1) + number(2) + text("a") + number(0) + text("b") + number(2)
+    units = number(1) + text("x") + number(1) + text("t") + text("ms")
+    return number(1) + number(1) + test + labels + number(1) + text("a warning") + units
+
+
 def write_seeds(root, folder):
     def write(harness, name, content):
         path = Path(folder, harness, name)
@@ -144,8 +168,19 @@ def write_seeds(root, folder):
     for i, text in enumerate(scenarios(root).texts):
         write("scenario", f"{i}.yaml", text)
     for i, (name, content, _, _) in enumerate(laboratory_files(root)):
-        if not name.endswith(".mat"):
+        if name.endswith(".mat"):
+            write("mat", name, b"\0" + content)
+        else:
             write("records", name, bytes([64 * (i % 5 == 0)]) + content[:4000])
+    write("mat", "sent", b"\1" + sent_columns())
+    write("mat", "problem", b"\1" + struct.pack("<3Q", 2, 1, 4) + b"file" + struct.pack("<Q", 5) + b"wrong" + bytes(32))
+    write("resume", "points", POINTS)
+    write("resume", "parts", POINTS[:POINTS.index("\n") + 1] + "\0" + POINTS)
+    random_ = random.Random("seeds")
+    for i in range(60):
+        write("engines", f"{i}", random_.randbytes(160))
+        write("plugin", f"{i}", bytes(min(random_.randrange(256), 199 if i % 2 else 255) for _ in range(120)))
+    write("plugin", "sound", bytes(120))
     write("answers", "answers.csv", ANSWERS)
     write("answers", "key", ANSWERS + "\0" + json.dumps({"scenario": "0" * 64, "seed": 7, "numbers": list(range(8, -1, -1))}))
 

@@ -175,7 +175,60 @@ std::string idle_drive(const DataItem& item, const sim::Model& model) {
   return {};
 }
 
+/// Whether some item holds what a known noise is stated of.
+bool holds(const std::vector<DataItem>& items, std::string_view signal) {
+  return std::ranges::any_of(items, [signal](const DataItem& item) {
+    const identify::Record& record = item.data.record;
+    const auto in_histories = [&](auto values) {
+      return std::ranges::any_of(record.histories,
+                                 [&](const identify::History& h) { return !(h.*values).empty(); });
+    };
+    if (signal == "v") return in_histories(&identify::History::v);
+    if (signal == "a") return in_histories(&identify::History::a);
+    if (signal == "force") return in_histories(&identify::History::force);
+    if (signal != "phase") return record.pairs || record.decay || in_histories(&identify::History::x);
+    return record.pairs && std::ranges::any_of(record.pairs->pairs,
+                                               [](const identify::Pair& pair) { return !std::isnan(pair.phase); });
+  });
+}
+
+/// A noise of a signal that no file holds would be ignored. One option states it of all files.
+void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& key,
+                       std::vector<SetupFault>& faults) {
+  for (const std::string signal : {"x", "v", "a", "force", "phase"}) {
+    const auto stated =
+        std::ranges::find_if(items, [&](const DataItem& item) { return item.keys.contains("sigma_" + signal); });
+    if (stated == items.end() || holds(items, signal)) continue;
+    faults.push_back(
+        {key, stated->file + ": the noise of " + signal + " is stated, and the file has no " + signal});
+  }
+}
+
 }  // namespace
+
+void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
+                       std::vector<SetupFault>& faults) {
+  const sim::Excitation& drive = model.excitation;
+  if (!drive.is_harmonic()) return;
+  bool drives = false;  // some history
+  bool needs = false;   // some reading without a frequency of its own
+  bool differs = false;
+  for (const DataItem& item : items) {
+    drives = drives || !item.data.record.histories.empty();
+    if (!item.data.record.pairs) continue;
+    for (const identify::Pair& pair : item.data.record.pairs->pairs) {
+      constexpr double far = 0.01;
+      needs = needs || std::isnan(pair.omega);
+      differs = differs || std::abs(pair.omega / drive.frequency - 1.0) > far;
+    }
+  }
+  const std::string wanted = ": the data hold no history";
+  if (drive.amplitude > 0.0 && !drives)
+    faults.push_back({"data", "'excitation.amplitude' is the drive of histories" + wanted});
+  if (drive.frequency > 0.0 && !drives && !needs && differs)
+    faults.push_back({"data", "'excitation.frequency' is for readings without a frequency of their own" + wanted +
+                                  ", and every reading has its own"});
+}
 
 std::vector<std::string> drive_warnings(const sim::Model& model) {
   const auto& samples = model.excitation.samples;
@@ -273,6 +326,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
                                        std::vector<SetupFault>& faults) {
   identify::Experiments all;
   const sim::Excitation& drive = model.excitation;
+  if (key == "data") refuse_idle_noise(items, key, faults);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Json& keys = items[i].keys;
     identify::ExperimentOptions options{

@@ -62,6 +62,10 @@ struct SetupFault {
 [[nodiscard]] std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model,
                                                     const Sought& sought);
 
+/// A stated frequency or amplitude that no item needs would be ignored by the fit.
+void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
+                       std::vector<SetupFault>& faults);
+
 /// All that is sought, in order.
 [[nodiscard]] std::vector<identify::FitParameter> parameters_for(const identify::Rig& rig,
                                                                  const identify::Experiments& experiments,

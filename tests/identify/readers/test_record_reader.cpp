@@ -281,6 +281,9 @@ TEST_CASE("Universal files: what is no time response is left out, what is damage
   const std::string whole = uff58(good);
   CHECK(mentions(refusal_of(whole.substr(0, whole.size() - 40)), "the data set ends after"));
   CHECK(mentions(refusal_of(whole.substr(0, 300)), "no number in columns"));
+  std::string fewer = whole;
+  fewer.replace(fewer.find("        20"), 10, "        19");
+  CHECK(mentions(refusal_of(fewer), "the data set goes on behind its 19 values"));
   const std::string binary = uff58b(good);
   CHECK(mentions(refusal_of(binary.substr(0, binary.size() - 40)), "ends before its 20 values"));
   std::string letters = whole;

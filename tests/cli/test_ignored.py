@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""What options and scenarios state and a run would ignore, or could not take: refused, with its place.
+
+usage: test_ignored.py PROGRAM ROOT [TEST...]
+"""
+
+import sys
+import unittest
+from pathlib import Path
+
+import case
+
+ROOT = Path(sys.argv[2]).resolve()
+
+BASE = """schema: dualdamp/1
+title: base
+system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}
+excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
+analysis: {type: steady_state}
+"""
+
+
+class Ignored(case.Case):
+    timeout = 120
+
+    def setUp(self):
+        super().setUp()
+        self.write("base.yaml", BASE)
+
+    def test_empty_names(self):
+        for arguments in (["run", ""], ["check", ""], ["identify", ""], ["fit", "", "x.csv"], ["report", ""], ["laws", ""], ["new", ""]):
+            with self.subTest(arguments):
+                self.assertIn("it is empty", self.run_program(*arguments, status=2).stderr)
+
+    def test_a_value_that_two_options_state(self):
+        """The earlier one would be ignored."""
+        data = self.write("data.csv", "Y [mm],x [mm]\n4.5,4.7\n5,7.21\n5.5,9.76\n6,12.2\n")
+        rig = ["identify", data, "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz"]
+        sweep = self.write("sweep.yaml", BASE + "sweep: {system.mass: [1 kg, 2 kg]}\n")
+        for arguments, found in ((["run", "base.yaml", "--set", "system.mass=2 kg", "--set", "system.mass=3 kg"], "--set: system.mass=2 kg"),
+                                 (["run", "base.yaml", "--set", "system.mass=2 kg", "--set", "system={}"], "--set: system.mass=2 kg"),
+                                 (["run", "base.yaml", "--set", "numerics={verify: false}", "--verify"], "--set: numerics={verify: false}"),
+                                 (["run", sweep, "--set", "system.mass=3 kg"], "--set: system.mass=3 kg"),
+                                 ([*rig, "--unit", "x=mm", "--unit", "x=um"], "--unit: analysis.units.x="),
+                                 ([*rig, "--scale", "x=2", "--scale", "x=3"], "--scale: analysis.scale.x="),
+                                 ([*rig, "--gain-uncertainty", "x=1 %", "--gain-uncertainty", "x=2 %"], "--gain-uncertainty: analysis.gain_uncertainty.x=1 %"),
+                                 (["fit", "coulomb", data, "--mass", "1 kg", "--set", "system.mass=2 kg"], "--mass: system.mass=1 kg")):
+            with self.subTest(arguments):
+                result = self.run_program(*arguments, status=3)
+                self.assertRegex(result.stderr, "is stated twice|an option states it")
+                self.assertIn(f"found: {found}", result.stderr)
+        self.run_program("run", "base.yaml", "--set", "system.friction={law: coulomb, kinetic: 1 N}", "--set", "system.friction.static=2 N")
+
+    def test_a_gain_of_a_sensor_that_is_not_there(self):
+        data = self.write("data.csv", "Y [mm],x [mm]\n4.5,4.7\n5,7.21\n5.5,9.76\n6,12.2\n")
+        result = self.run_program("identify", data, "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz", "--gain-uncertainty", "a=1 %", status=3)
+        self.assertIn("the record has no a", result.stderr)
+        self.assertIn("allowed: signals of the record: y, x", result.stderr)
+
+    def test_numbers_that_a_fit_would_ignore(self):
+        fit = ["fit", "coulomb", ROOT / "scenarios/examples/steady_states.csv", "--mass", "1.042 kg", "--stiffness", "1568 N/m"]
+        for arguments, message in ((["--sigma", "v=1 m/s"], "the noise of v is stated, and the file has no v"),
+                                   (["--frequency", "6.17 Hz"], "every reading has its own"),
+                                   (["--frequency", "6.17 Hz", "--amplitude", "5 mm"], "'excitation.amplitude' is the drive of histories")):
+            with self.subTest(arguments):
+                self.assertIn(message, self.run_program(*fit, *arguments, status=3).stderr)
+
+    def test_constants_beyond_all_machines(self):
+        """A frequency ratio that is no number, and one at which a period of the drive is never over."""
+        for mass in ("1e-320 kg", "1e300 kg"):
+            result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.stiffness=1e-300 N/m" if "e300" in mass else "system.stiffness=1568 N/m", status=3)
+            self.assertIn("the natural frequency of this mass and stiffness is out of range", result.stderr)
+        for mass in ("1e-20 kg", "1e-150 kg"):
+            result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.damping=0 N.s/m", status=4)
+            self.assertIn("followed no longer", result.stderr)
+
+    def test_names_that_are_another_place(self):
+        for name in ("..yaml", "...yaml"):
+            self.write(name, BASE)
+            self.run_program("run", name)
+            self.assertTrue((self.folder / "results" / name / "result.json").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=1)
