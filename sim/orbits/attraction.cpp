@@ -54,7 +54,7 @@ VectorXd Attraction::from_orbit(const State& state) const {
 void Attraction::observe(const State& state) {
   const VectorXd now = from_orbit(state);
   const bool comparable = now.size() > 0 && last_.size() > 0;
-  const bool there = now.size() > 0 && now.norm() <= resolution_;
+  const bool there = now.size() > 0 && now.norm() <= resolution_ && same_mode(state, orbit_);
   bool closer = false;
   if (comparable && !there) {
     const VectorXd linear = monodromy_ * last_;

@@ -12,7 +12,7 @@ using friction::Direction;
 
 double distance(const State& a, const State& b, double size, double omega) {
   const double scale = std::max(size, std::abs(a.v) / omega);
-  if (!are_comparable(a, b)) return std::numeric_limits<double>::infinity();
+  if (!same_mode(a, b)) return std::numeric_limits<double>::infinity();
   const double x_gap = (b.x - a.x) / scale;
   const double v_gap = (b.v - a.v) / omega / scale;
   double result = scale > 0.0 ? std::sqrt(x_gap * x_gap + v_gap * v_gap) : 0.0;
@@ -124,7 +124,7 @@ State displaced(const State& state, const Eigen::VectorXd& change) {
 }
 
 Eigen::VectorXd newton_step(const ForcingPeriod& period) {
-  if (!are_comparable(period.begin, period.end)) return {};
+  if (!same_mode(period.begin, period.end)) return {};
   const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
   // A neighbour's matrix, of an orbit that holds in another mode, has other coordinates.

@@ -19,7 +19,7 @@
 namespace dualdamp::sim {
 
 /// Distance of two states relative to `size` [m], the size of the motion; velocities scaled by omega [rad/s], law
-/// states relative to their own size. Infinite when a law is in another mode, or only one of both sticks.
+/// states relative to their own size. Infinite when a law is in another mode.
 [[nodiscard]] double distance(const State& a, const State& b, double size, double omega);
 
 /// One forcing period, or as many as the map passes: where it starts, where it ends, how the end depends on the

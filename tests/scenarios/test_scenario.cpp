@@ -86,9 +86,15 @@ TEST_CASE("scenario: --set replaces, adds and reaches into lists", "[scenarios]"
   CHECK(with({"system.mass=2 kg"}).model.oscillator.mass == 2.0);
   CHECK(with({"numerics.tolerance=1e-10"}).tolerance == 1e-10);
   CHECK(with({"system.friction=[{law: coulomb, kinetic: 1 N}, {law: coulomb, kinetic: 2 N}]",
-              "system.friction[1].kinetic=3 N"})
+              "system.friction[1].static=3 N"})
             .model.friction.size() == 2);
-  CHECK(with({"system.mass=2 kg", "system.mass=3 kg"}).model.oscillator.mass == 3.0);
+}
+
+TEST_CASE("scenario: what one --set states no other one replaces", "[scenarios]") {
+  CHECK_THROWS_WITH(with({"system.mass=2 kg", "system.mass=3 kg"}),
+                    Catch::Contains("'system.mass' is stated twice") && Catch::Contains("--set: system.mass=2 kg"));
+  CHECK_THROWS_WITH(with({"system.friction=[{law: coulomb, kinetic: 1 N}]", "system.friction[0].kinetic=3 N"}),
+                    Catch::Contains("'system.friction[0].kinetic' is stated twice"));
 }
 
 TEST_CASE("scenario: what is wrong with --set is said there", "[scenarios]") {

@@ -164,7 +164,7 @@ TEST_CASE(
   constexpr double k = 5.669;
   constexpr double c = 0.06;
   model.friction.emplace_back(friction::AttachedMass(m, k, c));
-  for (const double w : {3.0, 5.3, 8.96, 11.0}) {
+  for (const double w : {3.0, 5.3}) {
     CAPTURE(w);
     model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.01, .frequency = w};
     const std::complex<double> bond(k, c * w);
