@@ -54,6 +54,7 @@ VectorXd Attraction::from_orbit(const State& state) const {
 void Attraction::observe(const State& state) {
   const VectorXd now = from_orbit(state);
   const bool comparable = now.size() > 0 && last_.size() > 0;
+  // At v = 0 the direction is a state of its own: friction jumps there.
   const bool there = now.size() > 0 && now.norm() <= resolution_ && same_mode(state, orbit_);
   bool closer = false;
   if (comparable && !there) {

@@ -10,6 +10,14 @@ from pathlib import Path
 PROGRAM = str(Path(sys.argv[1]).resolve())
 PATIENCE = float(os.environ.get("DUALDAMP_PATIENCE", "1"))  # factor on all limits of time: sanitizers make programs slow
 
+# A scenario that runs at once.
+BASE = """schema: dualdamp/1
+title: base
+system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}
+excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
+analysis: {type: steady_state}
+"""
+
 
 class Case(unittest.TestCase):
     timeout = 300  # s, of a call

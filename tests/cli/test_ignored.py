@@ -9,15 +9,9 @@ import unittest
 from pathlib import Path
 
 import case
+from case import BASE
 
 ROOT = Path(sys.argv[2]).resolve()
-
-BASE = """schema: dualdamp/1
-title: base
-system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, kinetic: 2 N}}
-excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
-analysis: {type: steady_state}
-"""
 
 
 class Ignored(case.Case):
