@@ -165,7 +165,7 @@ class Comparison {
              analysis_.is_string() ? analysis_.get<std::string>() : "",
              analysis.is_string() ? analysis.get<std::string>() : "none");
     std::optional<Chart> chart = main_chart(run, first);
-    if (!chart) refuse(run, "this result has no curve to compare", {}, {});
+    if (!chart) throw core::InputError(without_chart(run));
     if (chart->series.front().kind == SeriesKind::cells)
       refuse(run, "maps cannot be laid over each other", "results with curves", {});
     if (!compared_.empty() && describe(*chart) != describe(compared_.front().chart))

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <ranges>
 #include <tuple>
 
 #include "bench/analyses.hpp"
@@ -49,6 +50,13 @@ std::vector<double> all_of(const std::vector<ChartSeries>& series, std::vector<d
   std::vector<double> all;
   for (const ChartSeries& one : series) all.insert(all.end(), (one.*list).begin(), (one.*list).end());
   return all;
+}
+
+/// A column that every run writes. Errors: as of `StoredRun::read`, where somebody has changed the table.
+const StoredColumn& needed(const StoredTable& table, const std::string& name) {
+  const StoredColumn* column = table.find(name);
+  if (column == nullptr) throw ChangedResult("a table has no column '" + name + "'");
+  return *column;
 }
 
 /// Rows that belong to one value of a column, in order.
@@ -209,12 +217,25 @@ class ChartMaker {
     return false;
   }
 
-  [[nodiscard]] std::string label_of(const StoredTable& sweep, std::size_t row) const {
+  [[nodiscard]] std::vector<std::string> swept_keys() const {
+    const Json& sweep = run_.document().at("scenario").at("sweep");
+    if (!sweep.is_object() || sweep.empty()) throw ChangedResult("the scenario of a sweep says what is swept");
+    std::vector<std::string> keys;
+    for (const auto& [key, values] : sweep.items()) keys.push_back(key);
+    return keys;
+  }
+
+  /// `point`: its number in the table of curves.
+  [[nodiscard]] std::string label_of(const StoredTable& sweep, const std::string& point) const {
     std::string label;
-    for (const auto& [key, values] : run_.document().at("scenario").at("sweep").items()) {
-      const StoredColumn& column = *sweep.find(key);
+    for (const std::string& key : swept_keys()) {
+      const StoredColumn& column = needed(sweep, key);
+      const double row = core::parse_number(point).value.value_or(-1.0);
+      if (!(row >= 0.0 && row < static_cast<double>(column.numbers.size())))
+        throw ChangedResult("the sweep has no point " + point);
       label += (label.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " +
-               core::format_number(column.numbers[row], 6) + (column.unit.empty() ? "" : " " + column.unit);
+               core::format_number(column.numbers[static_cast<std::size_t>(row)], 6) +
+               (column.unit.empty() ? "" : " " + column.unit);
     }
     return label;
   }
@@ -238,7 +259,7 @@ class ChartMaker {
     const std::size_t shown = std::min(all.size(), most);
     for (std::size_t i = 0; i < shown; ++i) {
       const Group& group = all[shown < 2 ? 0 : i * (all.size() - 1) / (shown - 1)];
-      add(label_of(points, std::stoul(group.label)), x, y, SeriesKind::line, group.rows, false);
+      add(label_of(points, group.label), x, y, SeriesKind::line, group.rows, false);
     }
     chart_.x.label = std::string(analysis_->chart.x_label);
     chart_.y.label = std::string(analysis_->chart.y_label);
@@ -247,17 +268,17 @@ class ChartMaker {
   }
 
   bool numbers(const StoredTable& points) {
-    std::vector<std::string> keys;
-    for (const auto& [key, values] : run_.document().at("scenario").at("sweep").items()) keys.push_back(key);
-    const auto y =
-        std::ranges::find_if(points.columns.begin() + static_cast<std::ptrdiff_t>(keys.size()) + 1,
-                             points.columns.end(), [](const StoredColumn& column) { return !column.is_text; });
-    if (y == points.columns.end()) return false;
-    const StoredColumn& x = *points.find(keys.front());
+    const std::vector<std::string> keys = swept_keys();
+    for (const std::string& key : keys) static_cast<void>(needed(points, key));
+    static_cast<void>(needed(points, "status"));
+    const auto answers = points.columns | std::views::drop(keys.size() + 1);
+    const auto y = std::ranges::find(answers, false, &StoredColumn::is_text);
+    if (y == answers.end()) return false;
+    const StoredColumn& x = needed(points, keys.front());
     chart_.x.label = x.name;
     chart_.y.label = y->name;
     for (const Group& group : keys.size() == 2 ? groups_of(points, keys.back()) : std::vector<Group>()) {
-      const StoredColumn& other = *points.find(keys.back());
+      const StoredColumn& other = needed(points, keys.back());
       add(keys.back().substr(keys.back().rfind('.') + 1) + " = " + group.label +
               (other.unit.empty() ? "" : " " + other.unit),
           x, *y, SeriesKind::line, group.rows, false);
@@ -302,6 +323,19 @@ void make_readable(Chart& chart) {
   scale(chart.y, &ChartSeries::y);
 }
 
+core::Diagnostic without_chart(const StoredRun& run) {
+  core::Diagnostic problem;
+  problem.place.file = (run.directory() / "result.json").string();
+  problem.message = "the result of analysis '" + name_of_analysis(run) + "' has no chart";
+  const scenarios::Analysis* analysis = scenarios::find_analysis(bench::analyses(), name_of_analysis(run));
+  const Json& result = run.document().at("result");
+  if (analysis == nullptr || !result.is_object()) return problem;
+  const std::string table = result.contains("sweep") ? "sweep" : std::string(analysis->chart.table);
+  if (!table.empty() && run.table(table).columns.empty())
+    problem.allowed = "a result with " + table + ".csv of the same run beside it";
+  return problem;
+}
+
 Chart main_chart(const std::string& directory, const std::string& units) {
   const StoredRun run(directory, units);
   std::optional<Chart> chart;
@@ -310,11 +344,7 @@ Chart main_chart(const std::string& directory, const std::string& units) {
     make_readable(*chart);
     return std::move(*chart);
   }
-  throw core::InputError(core::Diagnostic{{(run.directory() / "result.json").string(), 0, 0, {}},
-                                          "the result of analysis '" + name_of_analysis(run) + "' has no chart",
-                                          {},
-                                          {},
-                                          {}});
+  throw core::InputError(without_chart(run));
 }
 
 std::string title_of(const StoredRun& run) {

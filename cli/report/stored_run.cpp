@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = StoredRun::Json;
 
+constexpr const char* as_no_run_writes = "the file is not as a run wrote it: run the scenario again";
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const fs::path& file, std::string message) {
@@ -42,8 +43,12 @@ Json read_document(const fs::path& path) {
     if (!json.is_object() || !json.contains(key))
       refuse(path, std::string("this is no result of dualdamp: there is no '") + key + "'");
   // What the points of a sweep hold is in its tables.
-  if (json["result"].is_object() && json["result"].contains("sweep"))
-    for (Json& point : json["result"]["sweep"]) point.erase("result");
+  if (!json["result"].is_object() || !json["result"].contains("sweep")) return json;
+  if (!json["result"]["sweep"].is_array()) refuse(path, as_no_run_writes);
+  for (Json& point : json["result"]["sweep"]) {
+    if (!point.is_object()) refuse(path, as_no_run_writes);
+    point.erase("result");
+  }
   return json;
 }
 
@@ -154,7 +159,10 @@ void StoredRun::read(const std::function<void()>& work) const {
   try {
     work();
   } catch (const Json::exception&) {
-    refuse(directory_ / "result.json", "the file is not as a run wrote it: run the scenario again");
+    refuse(directory_ / "result.json", as_no_run_writes);
+  } catch (const ChangedResult& fault) {
+    refuse(directory_ / "result.json",
+           std::string("the file or a table beside it is not as a run wrote it: ") + fault.what());
   }
 }
 

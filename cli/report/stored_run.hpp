@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,12 @@ struct StoredTable {
 
   /// nullptr when there is none.
   [[nodiscard]] const StoredColumn* find(std::string_view name) const;
+};
+
+/// A result that is not as a run writes it. `StoredRun::read` turns it into a refusal.
+class ChangedResult : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 class StoredRun {

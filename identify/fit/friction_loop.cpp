@@ -57,7 +57,8 @@ class FrictionLoop final : public Experiment {
     for (const friction::Law& law : model.friction)
       if (!add(law, force)) return false;
     if (filter_) force = (*filter_)(force);
-    outputs = Eigen::Map<const Eigen::VectorXd>(force.data() + edge_, signals.front().measured.size());
+    outputs = Eigen::Map<const Eigen::VectorXd>(force.data() + edge_,
+                                                static_cast<Eigen::Index>(signals.front().measured.size()));
     return outputs.allFinite();
   }
 

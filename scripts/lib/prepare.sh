@@ -55,7 +55,10 @@ installed_packages() {
 }
 
 # ccache takes a precompiled header from another tree only where the generated header that it stands for has the same age.
-same_age_of_precompiled() { find "$1" -name 'cmake_pch.hxx' -exec touch -d 2000-01-01 {} +; }
+# clang takes none at all whose header has changed its age: one of a tree that `cmake --preset` alone has configured is made anew.
+same_age_of_precompiled() {
+  find "$1" -name 'cmake_pch.hxx' -newermt 2000-01-02 -exec sh -c 'for header; do rm -f "$header.pch" && touch -d 2000-01-01 "$header"; done' _ {} +
+}
 
 # Configures when that was never done, when the presets or the installed packages changed, or when the tree has moved since.
 configure() {

@@ -8,6 +8,7 @@ import copy
 import csv
 import json
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -177,6 +178,44 @@ class Charts(Case):
                 (self.folder / "changed/result.json").write_text(json.dumps(changed))
                 for line in (["compare", "curve", "changed"], ["compare", "changed", "curve"]):
                     self.assertIn("changed/result.json: error: ", self.run_program(*line, status=3).stderr)
+
+    def test_sweeps_that_were_changed(self):
+        """A swept key that is none, a table without its columns, points that are no list: a refusal, no signal."""
+        curves = CURVE + "sweep: {system.friction.kinetic: [1 N, 2 N]}\n"
+        numbers = curves.replace("analysis: {type: xy_curve, amplitudes: {from: 10 cm, to: 30 cm, count: 5}}", "analysis: {type: steady_state}").replace("{type: base_harmonic,", "{type: base_harmonic, amplitude: 0.2 m,")
+        for name, text in (("curves", curves), ("numbers", numbers)):
+            (self.folder / f"{name}.yaml").write_text(text)
+            self.run_program("run", f"{name}.yaml", "--out", name)
+
+        def changed(name, document=None, table=None):
+            shutil.rmtree(self.folder / "changed", ignore_errors=True)
+            shutil.copytree(self.folder / name, self.folder / "changed")
+            content = json.loads((self.folder / "changed/result.json").read_text())
+            if document:
+                document(content)
+            (self.folder / "changed/result.json").write_text(json.dumps(content))
+            for path in (self.folder / "changed").glob("*.csv") if table else ():
+                lines = path.read_text().splitlines()
+                path.write_text("".join((line if line.startswith("#") else table(line)) + "\n" for line in lines))
+            for line in (["report", "changed", "--plot", "a.svg"], ["compare", name, "changed"]):
+                error = self.run_program(*line, status=3).stderr
+                self.assertIn("changed/result.json: error: ", error)
+                self.assertIn("not as a run wrote it", error)
+
+        for sweep in ({}, [], 3, {"a.b": [1]}, {f"x.{i}": 1 for i in range(500)}):
+            with self.subTest(f"what is swept is {str(sweep)[:20]}"):
+                changed("numbers", lambda content: content["scenario"].update(sweep=sweep))
+                changed("curves", lambda content: content["scenario"].update(sweep=sweep))
+        for points in (3, [3], {"a": 1}, None):
+            with self.subTest(f"points are {points}"):
+                changed("numbers", lambda content: content["result"].update(sweep=points))
+        changed("numbers", table=lambda line: line.split(",")[-1])
+        for point in ("abc", "-5", "99", "1e300", ""):
+            with self.subTest(f"a curve of point {point}"):
+                changed("curves", table=lambda line: re.sub(r"^1,", f"{point},", line))
+        # A table that is not there is named.
+        (self.folder / "curves/sweep.csv").unlink()
+        self.assertIn("allowed: a result with sweep.csv of the same run beside it", self.run_program("compare", "curves", "curves", status=3).stderr)
 
     def test_results_of_different_kinds(self):
         self.run_program("run", "curve.yaml", "--out", "curve")
