@@ -111,24 +111,29 @@ void resolve_damping(CheckedFile& file) {
   const auto ratio = file.number_at("system", "damping_ratio");
   if (!m || !k || !ratio) return;
   Json& system = file.values()["system"];
+  const double damping = *ratio * 2.0 * std::sqrt(*m * *k);
+  if (!std::isfinite(damping)) return;  // mass and stiffness are refused
   system.erase("damping_ratio");
-  system["damping"] = *ratio * 2.0 * std::sqrt(*m * *k);
+  system["damping"] = damping;
   put_in_order(system, file.keys_of("system"));
 }
 
-/// Beyond, squares of it are no numbers any more.
-void check_natural_frequency(CheckedFile& file) {
+/// Beyond, squares and products of them are no numbers any more.
+void check_mass_and_stiffness(CheckedFile& file) {
   const auto m = file.number_at("system", "mass");
   const auto k = file.number_at("system", "stiffness");
   if (!m || !k || *k == 0.0) return;
-  constexpr double slowest = 1e-100;
-  constexpr double fastest = 1e100;
-  const double natural = std::sqrt(*k / *m);
-  if (natural >= slowest && natural <= fastest) return;
-  file.complain(
-      file.stands_in_file("system", "mass") ? "system.mass" : "system",
-      "the natural frequency of this mass and stiffness is out of range", "1e-100 rad/s to 1e100 rad/s",
-      "a mass of " + core::format_number(*m, 6) + " on a stiffness of " + core::format_number(*k, 6) + " (SI)");
+  constexpr double least = 1e-100;
+  constexpr double most = 1e100;
+  const auto check = [&](double value, const char* name, const char* allowed) {
+    if (value >= least && value <= most) return;
+    file.complain(
+        file.stands_in_file("system", "mass") ? "system.mass" : "system",
+        std::string("the ") + name + " of this mass and stiffness is out of range", allowed,
+        "a mass of " + core::format_number(*m, 6) + " on a stiffness of " + core::format_number(*k, 6) + " (SI)");
+  };
+  check(std::sqrt(*k / *m), "natural frequency", "1e-100 rad/s to 1e100 rad/s");
+  check(std::sqrt(*m) * std::sqrt(*k), "critical damping", "sqrt(m k) of 1e-100 to 1e100 N.s/m");
 }
 
 void resolve_frequency(CheckedFile& file) {
@@ -268,7 +273,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   resolve_damping(file);
   if (file.needs() != nullptr) check_loss_factor(file, *analysis, analyses);
   check_load_modulation(file);
-  check_natural_frequency(file);
+  check_mass_and_stiffness(file);
   resolve_frequency(file);
   if (file.needs() != nullptr && !file.needs()->excitations.empty()) read_drive(file);
   if (analysis->check != nullptr) analysis->check(file);

@@ -64,6 +64,14 @@ class Ignored(case.Case):
         for mass in ("1e-320 kg", "1e300 kg"):
             result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.stiffness=1e-300 N/m" if "e300" in mass else "system.stiffness=1568 N/m", status=3)
             self.assertIn("the natural frequency of this mass and stiffness is out of range", result.stderr)
+        # A damping ratio of these would be no damping, none at all, and no number.
+        for mass, stiffness in (("1e185 kg", "1e190 N/m"), ("1e-170 kg", "1e-165 N/m")):
+            for ratio in ("0", "0.2"):
+                text = BASE.replace("damping: 4 N.s/m", f"damping_ratio: {ratio}")
+                self.write("ratio.yaml", text)
+                result = self.run_program("run", "ratio.yaml", "--set", f"system.mass={mass}", "--set", f"system.stiffness={stiffness}", status=3)
+                self.assertIn("--set:1:13: error: the critical damping of this mass and stiffness is out of range", result.stderr)
+                self.assertEqual(result.stderr.count("error:"), 1)
         for mass in ("1e-20 kg", "1e-150 kg"):
             result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.damping=0 N.s/m", status=4)
             self.assertIn("followed no longer", result.stderr)
