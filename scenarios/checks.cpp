@@ -118,13 +118,13 @@ void resolve_damping(CheckedFile& file) {
   put_in_order(system, file.keys_of("system"));
 }
 
-/// Beyond, squares and products of them are no numbers any more.
+/// Far beyond, squares of forces and products of both are no numbers any more.
 void check_mass_and_stiffness(CheckedFile& file) {
   const auto m = file.number_at("system", "mass");
   const auto k = file.number_at("system", "stiffness");
   if (!m || !k || *k == 0.0) return;
-  constexpr double least = 1e-100;
-  constexpr double most = 1e100;
+  constexpr double least = 1e-40;
+  constexpr double most = 1e40;
   const auto check = [&](double value, const char* name, const char* allowed) {
     if (value >= least && value <= most) return;
     file.complain(
@@ -132,8 +132,8 @@ void check_mass_and_stiffness(CheckedFile& file) {
         std::string("the ") + name + " of this mass and stiffness is out of range", allowed,
         "a mass of " + core::format_number(*m, 6) + " on a stiffness of " + core::format_number(*k, 6) + " (SI)");
   };
-  check(std::sqrt(*k / *m), "natural frequency", "1e-100 rad/s to 1e100 rad/s");
-  check(std::sqrt(*m) * std::sqrt(*k), "critical damping", "sqrt(m k) of 1e-100 to 1e100 N.s/m");
+  check(std::sqrt(*k / *m), "natural frequency", "1e-40 rad/s to 1e40 rad/s");
+  check(std::sqrt(*m) * std::sqrt(*k), "critical damping", "sqrt(m k) of 1e-40 to 1e40 N.s/m");
 }
 
 void resolve_frequency(CheckedFile& file) {

@@ -125,9 +125,31 @@ void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& 
     }
 }
 
+/// Numbers whose squares, and whose products with the constants of a rig, are numbers.
+void check_magnitudes(const DataTable& table, Problems& problems) {
+  constexpr double least = 1e-60;
+  constexpr double most = 1e60;
+  for (const DataColumn& column : table.columns) {
+    std::size_t at = 0;
+    double largest = 0.0;
+    for (std::size_t row = 0; row < column.values.size(); ++row)
+      if (const double size = std::abs(column.values[row]); size > largest) {
+        largest = size;
+        at = row;
+      }
+    if (largest == 0.0 || (largest >= least && largest <= most)) continue;
+    core::Diagnostic problem = table.show(at, *column.known);
+    problem.message = "the largest number of column " + std::string(column.known->name) + " is too " +
+                      (largest > most ? "large" : "small") + " to compute with";
+    problem.allowed = "1e-60 to 1e60 in SI, or zeros alone";
+    problems.add(std::move(problem));
+  }
+}
+
 MeasuredRecord assemble(TableFile file, const ReadOptions& options, Problems& problems,
                         std::vector<std::string> warnings) {
   refuse_unused(file, options, problems);
+  check_magnitudes(file.table, problems);
   MeasuredRecord result;
   result.warnings = std::move(warnings);
   result.units = file.table.units;
@@ -163,6 +185,7 @@ MeasuredSignal signal_of(TableFile file, std::string_view column, const std::str
   if (file.table.rows() < 2)
     refuse_file(name, "the signal has too few samples", "two or more", std::to_string(file.table.rows()));
   check_times(file.table, problems);
+  check_magnitudes(file.table, problems);
   problems.throw_if_any();
   MeasuredSignal result;
   result.sha256 = std::move(file.sha256);
