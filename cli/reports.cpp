@@ -2,14 +2,38 @@
 
 #include <algorithm>
 #include <iostream>
+#include <string_view>
 #include <utility>
 
 namespace dualdamp::cli {
 
+namespace {
+
+/// Names and lines of a user's files are said again; what in them a terminal would take for a command is replaced.
+std::string for_terminal(const std::string& text) {
+  static constexpr std::string_view replacement = "\xEF\xBF\xBD";
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    const bool is_low = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
+    const bool is_high = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F
+    if (is_low || is_high)
+      result += replacement;
+    else
+      result += text[i];
+    if (is_high) ++i;
+  }
+  return result;
+}
+
+}  // namespace
+
 void print(const Report& report, const Style& style) {
-  if (!style.json && !report.text.empty()) std::cout << report.text << std::flush;
-  std::cerr << report.errors;
-  if (!style.quiet) std::cerr << report.messages;
+  if (!style.json && !report.text.empty()) std::cout << for_terminal(report.text) << std::flush;
+  std::cerr << for_terminal(report.errors);
+  if (!style.quiet) std::cerr << for_terminal(report.messages);
 }
 
 InOrder::InOrder(std::size_t count, Style style, bool silent)

@@ -149,6 +149,10 @@ class TreeBuilder final : public YAML::EventHandler {
     if (node.text.find('\n') != std::string::npos) {
       complain(where, "this text has several lines", "a text on one line");
       node.kind = Node::Kind::null;
+    } else if (const std::vector<TextFault> faults = text_faults(node.text); !faults.empty()) {
+      // An escape, such as "\e", stands for what the file itself must not hold.
+      complain(where, faults.front().message + ", written as an escape");
+      node.kind = Node::Kind::null;
     }
     if (awaits_key())
       begin_entry(std::move(node), where);

@@ -57,6 +57,17 @@ class Manners(Case):
         self.assertIn("; or the law of a plugin, with --plugin LIB\n", self.run_program("check", "plugin.yaml", status=3).stderr)
         self.assertIn("or that of a plugin, with --plugin LIB", self.run_program("laws", "bliman_sorine", status=2).stderr)
 
+    def test_no_name_is_a_command_of_the_terminal(self):
+        """A line of a file, its name, a column: ESC and CSI are shown as replaced characters."""
+        self.write("\x1b[31mred.yaml", "schema: dualdamp/1\n\x1b[31mred: 1\n")
+        pairs = self.write("pairs.csv", "Y [mm],x [mm],\x9b31mred\n4.5,4.7,1\n5,7.21,1\n5.5,9.8,1\n6,12.2,2\n")
+        for line, status in ((["check", "\x1b[31mred.yaml"], 3), (["run", "\x1b]0;no\x07.yaml"], 3),
+                             (["identify", pairs, "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz"], 0)):
+            with self.subTest(line[:2]):
+                result = self.run_program(*line, status=status)
+                self.assertIn("\ufffd", result.stderr)
+                self.assertFalse(set("\x1b\x07\x9b") & set(result.stderr + result.stdout))
+
     def test_a_scenario_to_begin_with(self):
         names = [line.split()[0] for line in self.run_program("analyses").stdout.splitlines()]
         self.assertIn("xy_curve", names)
