@@ -10,7 +10,6 @@
 #include "bench/score/key.hpp"
 #include "bench/stress_test.hpp"
 #include "core/diagnostics.hpp"
-#include "core/provenance.hpp"
 #include "scenarios/run.hpp"
 
 namespace dualdamp::cli {
@@ -44,10 +43,15 @@ std::string hidden_seed() {
   return std::to_string((high << 32U) | device());
 }
 
-/// Answers do not know cases that have another truth.
+/// Answers do not know cases that have another truth, and none is sorted by a key that was changed.
 void check_key(const bench::Key& key, const std::string& file, const scenarios::Scenario& scenario) {
-  if (key.scenario != core::sha256(scenario.resolved))
+  const bench::Key exported =
+      bench::key_of(*bench::stress_test_of(*scenario.question), scenarios::context_of(scenario, {}));
+  if (key.scenario != exported.scenario)
     refuse(file, "the key is that of another stress test", "the same scenario and --set as for the export");
+  if (key.numbers != exported.numbers)
+    refuse(file, "the key is not as the export wrote it",
+           "key.json of the export, whose cases are " + std::to_string(exported.numbers.size()));
 }
 
 }  // namespace

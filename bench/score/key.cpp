@@ -106,6 +106,10 @@ class EntryReader {
     if (!parsed.value)
       refuse(path_, line_, "'" + std::string(column_names.at(static_cast<std::size_t>(column))) + "' is no number",
              "a number, or nothing", text);
+    // Beyond, products of it are no numbers, and a damping of it has no motion.
+    constexpr double largest = 1e60;
+    if (std::abs(*parsed.value) > largest)
+      refuse(path_, line_, "a number is too large to compute with", "-1e60 to 1e60", text);
     if (column == Column::p_value && !(*parsed.value >= 0.0 && *parsed.value <= 1.0))
       refuse(path_, line_, "'p_value' is out of range", "0 to 1", text);
     return *parsed.value;

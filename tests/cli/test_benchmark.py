@@ -403,7 +403,7 @@ class Benchmark(unittest.TestCase):
     def test_answers_are_refused_with_their_place(self):
         for text, message in [("zeta\n1\n", "the column 'case' is missing"), ("case,beta\n1,2\n", "there is no column of this name"),
                               ("case,zeta\n41,1\n", "there is no such case"), ("case,zeta\n1,1\n1,2\n", "answered twice"),
-                              ("case,zeta\n1,abc\n", "is no number"), ("case,zeta_low,zeta_high\n1,3,2\n", "ends below its begin"),
+                              ("case,zeta\n1,abc\n", "is no number"), ("case,zeta,F0\n1,1e308,-1e308\n", "too large to compute with"), ("case,zeta_low,zeta_high\n1,3,2\n", "ends below its begin"),
                               ("case,zeta_low\n1,3\n", "one end"), ("case,p_value\n1,1.5\n", "out of range"), ("case,usable\n1,perhaps\n", "neither yes nor no"),
                               ("case,zeta\n1\n", "another number of fields"), ("", "no header")]:
             path = self.folder / "bad.csv"
@@ -418,6 +418,13 @@ class Benchmark(unittest.TestCase):
             self.assertIn(message, result.stderr)
         result = self.call("stress", "score", SCENARIO, "--set", "analysis.seeds=5", "--key", self.export / "key.json", status=3)
         self.assertIn("another stress test", result.stderr)
+        # A key that lacks cases, has more of them or another order would sort the answers to other truths.
+        for numbers in (self.key["numbers"][::-1], list(range(10)), list(range(41)), []):
+            changed = self.folder / "changed.json"
+            changed.write_text(json.dumps({**self.key, "numbers": numbers}))
+            result = self.call("stress", "score", SCENARIO, "--key", changed, "--answers", f"a={good}", "--out", self.folder / "k", status=3)
+            self.assertIn("changed.json: error: the key is not as the export wrote it", result.stderr)
+            self.assertIn("whose cases are 40", result.stderr)
         result = self.call("stress", "export", ROOT / "scenarios/examples/coulomb.yaml", "--out", self.folder / "x", status=3)
         self.assertNotEqual(result.stderr, "")
 
