@@ -140,8 +140,9 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   options.data_anywhere = true;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const Json& scenario = document.at("scenario");
-  if (scenario.contains("excitation"))
-    options.set.push_back({"excitation=" + scenario.at("excitation").dump(), "RESULT", true});
+  // Where the fit had no drive, that of the fitted scenario is one of its readings: not that of other records.
+  const std::string drive = scenario.contains("excitation") ? scenario.at("excitation").dump() : "{type: none}";
+  options.set.push_back({"excitation=" + drive, "RESULT", true});
   add_drive(command, options);
   scenarios::Scenario prediction =
       scenarios::parse_scenario(result.at("scenario").get<std::string>(), command.result, options);

@@ -59,6 +59,15 @@ class Ignored(case.Case):
             with self.subTest(arguments):
                 self.assertIn(message, self.run_program(*fit, *arguments, status=3).stderr)
 
+    def test_the_frequency_of_other_records(self):
+        """Of a fit to readings with frequencies of their own: that of its first reading is not that of further pairs."""
+        shipped = ROOT / "scenarios/examples"
+        self.run_program("fit", "coulomb", shipped / "steady_states.csv", "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--no-profile", "--out", "fit")
+        error = self.run_program("predict", "fit", shipped / "my_rig.csv", status=3).stderr
+        self.assertIn("x-Y pairs need the forcing frequency at which they were measured", error)
+        self.run_program("predict", "fit", shipped / "my_rig.csv", "--frequency", "6.17 Hz")
+        self.run_program("predict", "fit", shipped / "steady_states.csv")
+
     def test_constants_beyond_all_machines(self):
         """A frequency ratio that is no number, and one at which a period of the drive is never over."""
         for mass in ("1e-320 kg", "1e300 kg"):
