@@ -9,6 +9,7 @@
 #include "cli/shared_options.hpp"
 #include "core/build_info.hpp"
 #include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
 
 namespace dualdamp::cli {
 
@@ -88,7 +89,10 @@ class Parser {
         .add_flag("--isolate-plugins{600}", isolation_,
                   "Execute the command in a process of its own with a limit of time; --isolate-plugins=60: seconds "
                   "(default: 600)")
-        ->check(CLI::Range(0.1, 1e6));
+        ->check(CLI::Range(0.1, 1e6))
+        ->check([](const std::string& text) {  // "nan" is in every range
+          return core::parse_number(text).value ? std::string() : "'" + text + "' is no number of seconds";
+        });
   }
 
   void add_run() {

@@ -6,6 +6,7 @@
 
 #include "cli/report/comparison.hpp"
 #include "cli/report/main_chart.hpp"
+#include "cli/report/result_directory.hpp"
 #include "cli/report/svg.hpp"
 #include "core/diagnostics.hpp"
 #include "scenarios/results/files.hpp"
@@ -17,9 +18,12 @@ namespace fs = std::filesystem;
 std::string plot_result(const std::string& directory, const std::string& file, const std::string& units) {
   const Chart chart = main_chart(directory, units);
   const fs::path path(file);
-  scenarios::write_files(path.has_parent_path() ? path.parent_path().string() : ".",
-                         {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}});
-  return "wrote " + file + "\n";
+  std::string messages;
+  for (const std::string& told :
+       write_keeping(path.has_parent_path() ? path.parent_path().string() : ".",
+                     {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}}))
+    messages += told + "\n";
+  return messages + "wrote " + file + "\n";
 }
 
 void add_plot(Report& report, const std::string& directory, const std::string& file) {
@@ -34,8 +38,8 @@ void add_plot(Report& report, const std::string& directory, const std::string& f
 std::string compare_results(const std::vector<std::string>& directories, const std::string& out,
                             const std::string& units) {
   const std::vector<scenarios::OutputFile> files = comparison(directories, units);
-  scenarios::write_files(out, files);
   std::string messages;
+  for (const std::string& told : write_keeping(out, files)) messages += told + "\n";
   for (const scenarios::OutputFile& file : files)
     messages += "wrote " + (fs::path(out) / file.name).string() + "\n";
   return messages;

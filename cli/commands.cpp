@@ -312,9 +312,10 @@ int execute(const ReportCommand& command) {
       // Where there is no directory there is no result either: nothing is created.
       if (!fs::is_directory(directory))
         return refused(ExitStatus::invalid_input, directory + ": there is no such directory");
-      scenarios::write_files(directory, {report_page(directory, command.shown_units)});
       Report done;
-      done.messages = "wrote " + (fs::path(directory) / "report.html").string() + "\n";
+      for (const std::string& told : write_keeping(directory, {report_page(directory, command.shown_units)}))
+        done.messages += told + "\n";
+      done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
       if (!command.plot.empty()) done.messages += plot_result(directory, command.plot, command.shown_units);
       return done;
     });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <system_error>
@@ -33,7 +35,49 @@ void remove_stale(const fs::path& directory, const StoredResult& before,
   }
 }
 
+/// What every file of this kind begins with that the program writes.
+std::string_view mark_of(const fs::path& path) {
+  if (path.extension() == ".csv") return "# program: dualdamp ";
+  if (path.extension() == ".json") return "{\n  \"program\": {\n    \"name\": \"dualdamp\"";
+  if (path.extension() == ".html")
+    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+           "http-equiv=\"Content-Security-Policy\" ";
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ";
+}
+
+bool is_ours(const fs::path& path) {
+  std::string begin(mark_of(path).size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == mark_of(path);
+}
+
+/// Gives a file another name, which no file has. Returns what to tell.
+std::string set_aside(const fs::path& path) {
+  fs::path other = path;
+  do other += "~";
+  while (fs::exists(other));
+  std::error_code error;
+  fs::rename(path, other, error);
+  if (error)
+    throw scenarios::OutputError("cannot write " + path.string() +
+                                 ": the file that is there cannot be renamed: " + error.message());
+  return "the " + path.string() + " that was there is kept as " + other.string();
+}
+
 }  // namespace
+
+std::vector<std::string> write_keeping(const std::string& directory,
+                                       const std::vector<scenarios::OutputFile>& files,
+                                       const std::vector<std::string>& data_sha256) {
+  std::vector<std::string> messages;
+  for (const scenarios::OutputFile& file : files) {
+    const fs::path path = fs::path(directory) / file.name;
+    if (fs::is_regular_file(path) && (!is_ours(path) || is_data(path, data_sha256)))
+      messages.push_back(set_aside(path));
+  }
+  scenarios::write_files(directory, files);
+  return messages;
+}
 
 std::vector<std::string> write_results(const std::string& directory, const std::string& source,
                                        const std::vector<std::string>& data_sha256,
@@ -43,9 +87,9 @@ std::vector<std::string> write_results(const std::string& directory, const std::
   if (before && before->source != source)
     messages.push_back(directory + " held the result of " + before->source +
                        ", which is replaced; --out DIR keeps results apart");
-  scenarios::write_files(directory, files);
+  std::ranges::copy(write_keeping(directory, files, data_sha256), std::back_inserter(messages));
   if (before) remove_stale(directory, *before, data_sha256, files);
-  scenarios::write_files(directory, {report_page(directory)});
+  std::ranges::copy(write_keeping(directory, {report_page(directory)}), std::back_inserter(messages));
   return messages;
 }
 

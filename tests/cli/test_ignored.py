@@ -98,6 +98,34 @@ class Ignored(case.Case):
             error = self.run_program("run", "base.yaml", "--set", drive, "--set", "analysis={type: simulate, duration: 0.5 s}", status=3).stderr
             self.assertIn(f"the largest number of column y is too {size} to compute with", error)
 
+    def test_files_of_the_user_are_kept(self):
+        """A table, a document and a drawing that the program did not write, where it is about to write its own."""
+        curve = BASE.replace("amplitude: 0.1 m, ", "").replace("{type: steady_state}", "{type: xy_curve, amplitudes: [0.1 m, 0.2 m]}")
+        self.write("curve.svg", curve)
+        self.write("out/curve.csv", "mine")
+        self.write("out/result.json", "mine too")
+        self.run_program("run", "curve.svg", "--out", "out", "--plot", "curve.svg")
+        again = self.run_program("run", "curve.svg~", "--out", "out", "--plot", "curve.svg").stderr
+        self.assertNotIn("kept as", again, "what this program wrote is replaced")
+        for name, text in (("out/curve.csv~", "mine"), ("out/result.json~", "mine too"), ("curve.svg~", curve)):
+            self.assertEqual((self.folder / name).read_text(), text)
+        self.write("both/compare.csv", "a,b\n")
+        self.assertIn("both/compare.csv that was there is kept as both/compare.csv~", self.run_program("compare", "out", "out", "--out", "both").stderr)
+        self.write("out/report.html", "<p>mine</p>")
+        self.assertIn("kept as out/report.html~", self.run_program("report", "out").stderr)
+        self.assertNotIn("kept as", self.run_program("report", "out").stderr)
+        self.assertEqual((self.folder / "out/report.html~").read_text(), "<p>mine</p>")
+        # Data under the name of a table: what is identified stays.
+        pairs = "Y [mm],x [mm]\n4.5,4.7\n5,7.21\n5.5,9.76\n6,12.2\n"
+        self.write("rig/estimates.csv", pairs)
+        self.run_program("identify", "rig/estimates.csv", "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz", "--out", "rig")
+        self.assertEqual((self.folder / "rig/estimates.csv~").read_text(), pairs)
+
+    def test_a_limit_that_is_none(self):
+        for limit in ("nan", "NaN", "-nan", "inf", "0x10", "0"):
+            with self.subTest(limit):
+                self.run_program("run", "base.yaml", f"--isolate-plugins={limit}", status=2)
+
     def test_names_that_are_another_place(self):
         for name in ("..yaml", "...yaml"):
             self.write(name, BASE)
