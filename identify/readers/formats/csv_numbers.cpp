@@ -1,4 +1,4 @@
-#include "identify/readers/csv_numbers.hpp"
+#include "identify/readers/formats/csv_numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "identify/readers/csv_text.hpp"
+#include "identify/readers/formats/csv_text.hpp"
 
 namespace dualdamp::identify {
 

@@ -1,4 +1,4 @@
-#include "identify/readers/mat_structure.hpp"
+#include "identify/readers/formats/mat_structure.hpp"
 
 #include <algorithm>
 #include <array>

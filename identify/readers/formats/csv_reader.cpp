@@ -1,4 +1,4 @@
-#include "identify/readers/csv_reader.hpp"
+#include "identify/readers/formats/csv_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "identify/readers/csv_header.hpp"
-#include "identify/readers/csv_layout.hpp"
-#include "identify/readers/csv_numbers.hpp"
+#include "identify/readers/formats/csv_header.hpp"
+#include "identify/readers/formats/csv_layout.hpp"
+#include "identify/readers/formats/csv_numbers.hpp"
 
 namespace dualdamp::identify {
 

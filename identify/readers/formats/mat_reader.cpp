@@ -1,4 +1,4 @@
-#include "identify/readers/mat_reader.hpp"
+#include "identify/readers/formats/mat_reader.hpp"
 
 #include <hdf5.h>
 #include <matio.h>
@@ -15,11 +15,10 @@
 
 #include "core/numbers.hpp"
 #include "identify/readers/column_factors.hpp"
-#include "identify/readers/csv_text.hpp"
+#include "identify/readers/formats/mat_content.hpp"
+#include "identify/readers/formats/mat_structure.hpp"
+#include "identify/readers/formats/mat_variable.hpp"
 #include "identify/readers/isolated.hpp"
-#include "identify/readers/mat_content.hpp"
-#include "identify/readers/mat_structure.hpp"
-#include "identify/readers/mat_variable.hpp"
 #include "identify/readers/text.hpp"
 
 namespace dualdamp::identify {

@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace dualdamp::identify {
+#include "identify/readers/text.hpp"
 
-/// Without blanks and tabs at its ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
+namespace dualdamp::identify {
 
 struct SourceLine {
   std::string_view text;  ///< without its line end
@@ -112,8 +111,5 @@ inline constexpr std::size_t most_columns = 1000;
 /// Fields of a line, the first of them where there are more than `most_columns`; those of an unclosed quote are
 /// what stands there.
 [[nodiscard]] std::vector<std::string> fields_of(std::string_view line, char separator);
-
-/// The beginning of `text` that fits into a message, cut between characters.
-[[nodiscard]] std::string excerpt(std::string_view text);
 
 }  // namespace dualdamp::identify

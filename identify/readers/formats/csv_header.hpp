@@ -6,7 +6,7 @@
 
 #include "identify/readers/column_factors.hpp"
 #include "identify/readers/columns.hpp"
-#include "identify/readers/csv_layout.hpp"
+#include "identify/readers/formats/csv_layout.hpp"
 #include "identify/readers/problems.hpp"
 #include "identify/readers/record_reader.hpp"
 

@@ -1,4 +1,4 @@
-#include "identify/readers/csv_layout.hpp"
+#include "identify/readers/formats/csv_layout.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "core/units.hpp"
 #include "identify/readers/columns.hpp"
-#include "identify/readers/csv_numbers.hpp"
+#include "identify/readers/formats/csv_numbers.hpp"
 
 namespace dualdamp::identify {
 

@@ -1,12 +1,6 @@
-#include "identify/readers/csv_text.hpp"
+#include "identify/readers/formats/csv_text.hpp"
 
 namespace dualdamp::identify {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 char separator_of(std::string_view header) {
   for (const char candidate : {'\t', ';', ','}) {
@@ -50,14 +44,6 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
   Fields fields(line, separator);
   while (result.size() <= most_columns && fields.next()) result.emplace_back(fields.text);
   return result;
-}
-
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t longest = 200;
-  if (text.size() <= longest) return std::string(text);
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // inside a character
-  return std::string(text.substr(0, end));
 }
 
 }  // namespace dualdamp::identify

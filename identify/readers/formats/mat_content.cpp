@@ -1,4 +1,4 @@
-#include "identify/readers/mat_content.hpp"
+#include "identify/readers/formats/mat_content.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "identify/readers/mat_variable.hpp"
+#include "identify/readers/formats/mat_variable.hpp"
 
 #include <matio.h>
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "identify/readers/csv_text.hpp"
+#include "identify/readers/formats/csv_text.hpp"
 #include "identify/readers/record_reader.hpp"
 
 namespace dualdamp::identify {

@@ -1,4 +1,4 @@
-#include "identify/readers/csv_header.hpp"
+#include "identify/readers/formats/csv_header.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/units.hpp"
-#include "identify/readers/csv_numbers.hpp"
+#include "identify/readers/formats/csv_numbers.hpp"
 
 namespace dualdamp::identify {
 
