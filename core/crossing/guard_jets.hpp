@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/guard.hpp"
+#include "core/crossing/guard.hpp"
 
 namespace dualdamp::core {
 

@@ -1,13 +1,13 @@
 #pragma once
 /// The search for the first root of one guard on one panel, with the proof that none is missed
-/// (`core/first_crossing.hpp` states it).
+/// (`core/crossing/first_crossing.hpp` states it).
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/grazing.hpp"
-#include "core/guard_jets.hpp"
-#include "core/search_result.hpp"
+#include "core/crossing/grazing.hpp"
+#include "core/crossing/guard_jets.hpp"
+#include "core/crossing/search_result.hpp"
 
 namespace dualdamp::core {
 

@@ -1,4 +1,4 @@
-#include "core/element_numbers.hpp"
+#include "core/crossing/element_numbers.hpp"
 
 namespace dualdamp::core {
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 
 namespace dualdamp::core {
 

@@ -1,7 +1,7 @@
 #pragma once
-/// What a search for the first crossing reports (`core/first_crossing.hpp`).
+/// What a search for the first crossing reports (`core/crossing/first_crossing.hpp`).
 
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 
 namespace dualdamp::core {
 

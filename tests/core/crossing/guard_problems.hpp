@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/first_crossing.hpp"
-#include "core/interval_start.hpp"
+#include "core/crossing/first_crossing.hpp"
+#include "core/crossing/interval_start.hpp"
 #include "tests/support/exponential_sum.hpp"
 
 namespace dualdamp::core::guard_problems {

@@ -1,10 +1,10 @@
-#include "core/element_numbers.hpp"
+#include "core/crossing/element_numbers.hpp"
 
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "core/divided_exponential.hpp"
-#include "core/exponential_basis.hpp"
+#include "core/crossing/divided_exponential.hpp"
+#include "core/crossing/exponential_basis.hpp"
 #include "tests/support/exponential_sum.hpp"
 #include "tests/support/random.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/short_chain.hpp"
+#include "core/crossing/short_chain.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "core/divided_exponential.hpp"
+#include "core/crossing/divided_exponential.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,29 +1,32 @@
 #pragma once
 /// The certified first crossing of guards on one mode.
 ///
-/// A guard (`core/guard.hpp`) is a function g(s) on an exponential basis that is positive while the mode holds.
+/// A guard (`core/crossing/guard.hpp`) is a function g(s) on an exponential basis that is positive while the mode
+/// holds.
 ///
 /// What triggers. The search returns the smallest s in (0, horizon) at which some guard goes from positive to
 ///   negative. The side of a guard is frozen: a guard counts as positive from the start of the mode, so a root that
 ///   rounding has stepped across is still a sign change on the panel that contains it.
 /// What happens exactly at an end point.
 ///   s = 0        The caller states how many zeros g has there (`known_zeros`: value, slope, curvature, ...;
-///                `core/interval_start.hpp` counts them). They are factored out of the first panel, never stepped
-///                over; g is taken positive just after 0.
+///                `core/crossing/interval_start.hpp` counts them). They are factored out of the first panel, never
+///                stepped over; g is taken positive just after 0.
 ///   s = horizon  Belongs to the next search: a guard that reaches zero there within rounding is not reported here
 ///                and the caller's check at the start of the next mode finds it. The same holds for a grazing of
 ///                one guard that is not over where another guard crosses.
-/// Grazing. A guard whose value is within its rounding (`core/guard_jets.hpp`) grazes zero: that is reported and is
+/// Grazing. A guard whose value is within its rounding (`core/crossing/guard_jets.hpp`) grazes zero: that is
+/// reported and is
 ///   not a crossing. A deeper dip is two crossings, of which the first is returned. Where g stays within that
 ///   rounding for a while there is one grazing; where that while ends with a crossing there is none
-///   (`core/grazing.hpp`).
+///   (`core/crossing/grazing.hpp`).
 /// Range. A guard that leaves the range of double precision ends the search with SearchEnd::left_range. Elements
 ///   that are not in a guard have no part in that. A guard with amplitudes beyond 1e60 or below 1e-60 is searched
 ///   multiplied by a power of two; one whose amplitudes have decayed by 1e-220 has no zeros any more.
 /// Length. A search of more than `most_panels` panels ends with SearchEnd::too_long: the guard turns too often
 /// before
 ///   the horizon, or a panel is divided without end.
-/// Why nothing can be missed (`core/panel_search.hpp`). The interval is covered by panels. On a panel of width h
+/// Why nothing can be missed (`core/crossing/panel_search.hpp`). The interval is covered by panels. On a panel of
+/// width h
 ///   the quintic Hermite interpolant H of (g, g', g'') at both ends obeys
 ///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,
 ///   M6 from the amplitudes, since every element's modulus is known. In Bernstein form of degree six that remainder
@@ -42,9 +45,9 @@
 #include <span>
 #include <vector>
 
-#include "core/exponential_basis.hpp"
-#include "core/guard.hpp"
-#include "core/search_result.hpp"
+#include "core/crossing/exponential_basis.hpp"
+#include "core/crossing/guard.hpp"
+#include "core/crossing/search_result.hpp"
 
 namespace dualdamp::core {
 

@@ -1,6 +1,6 @@
-#include "core/interval_start.hpp"
+#include "core/crossing/interval_start.hpp"
 
-#include "tests/core/guard_problems.hpp"
+#include "tests/core/crossing/guard_problems.hpp"
 
 using namespace dualdamp::core;
 using namespace dualdamp::core::guard_problems;

@@ -5,8 +5,8 @@
 #include <complex>
 #include <limits>
 
-#include "core/exponential_basis.hpp"
-#include "core/short_chain.hpp"
+#include "core/crossing/exponential_basis.hpp"
+#include "core/crossing/short_chain.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/random.hpp"
 

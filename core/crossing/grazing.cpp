@@ -1,4 +1,4 @@
-#include "core/grazing.hpp"
+#include "core/crossing/grazing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// How a function on an exponential basis begins: its sign just after the start of an interval, from its Taylor
 /// coefficients. An interval often starts where a guard is zero, and rounding must not decide its sign there.
 
-#include "core/guard.hpp"
+#include "core/crossing/guard.hpp"
 
 namespace dualdamp::core {
 

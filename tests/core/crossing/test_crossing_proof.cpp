@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/crossing/first_crossing.hpp"
 #include "tests/support/random_guards.hpp"
 
 namespace {

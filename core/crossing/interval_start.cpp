@@ -1,4 +1,4 @@
-#include "core/interval_start.hpp"
+#include "core/crossing/interval_start.hpp"
 
 #include <array>
 #include <cmath>

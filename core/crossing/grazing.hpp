@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/guard_jets.hpp"
-#include "core/search_result.hpp"
+#include "core/crossing/guard_jets.hpp"
+#include "core/crossing/search_result.hpp"
 
 namespace dualdamp::core {
 

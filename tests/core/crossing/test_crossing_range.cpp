@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/crossing/first_crossing.hpp"
 #include "guard_problems.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "core/guard_jets.hpp"
+#include "core/crossing/guard_jets.hpp"
 
 namespace dualdamp::core {
 

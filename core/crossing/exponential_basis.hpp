@@ -19,15 +19,16 @@
 ///
 /// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. Less: powers of s (chains
 /// of zeros), and one chain on two exponents and zeros for times that are short beside both
-/// (`core/short_chain.hpp`). No allocation for functions on up to 40 elements (`core/element_numbers.hpp`).
+/// (`core/crossing/short_chain.hpp`). No allocation for functions on up to 40 elements
+/// (`core/crossing/element_numbers.hpp`).
 
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <vector>
 
-#include "core/element_numbers.hpp"
-#include "core/short_chain.hpp"
+#include "core/crossing/element_numbers.hpp"
+#include "core/crossing/short_chain.hpp"
 
 namespace dualdamp::core {
 

@@ -1,6 +1,6 @@
-#include "core/first_crossing.hpp"
+#include "core/crossing/first_crossing.hpp"
 
-#include "tests/core/guard_problems.hpp"
+#include "tests/core/crossing/guard_problems.hpp"
 
 using namespace dualdamp::core;
 using namespace dualdamp::core::guard_problems;

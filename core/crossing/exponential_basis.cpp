@@ -1,4 +1,4 @@
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/divided_exponential.hpp"
+#include "core/crossing/divided_exponential.hpp"
 
 namespace dualdamp::core {
 

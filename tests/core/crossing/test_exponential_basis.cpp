@@ -1,4 +1,4 @@
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,12 +1,12 @@
-#include "core/first_crossing.hpp"
+#include "core/crossing/first_crossing.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/grazing.hpp"
-#include "core/panel_search.hpp"
+#include "core/crossing/grazing.hpp"
+#include "core/crossing/panel_search.hpp"
 
 namespace dualdamp::core {
 

@@ -1,4 +1,4 @@
-#include "core/panel_search.hpp"
+#include "core/crossing/panel_search.hpp"
 
 #include <array>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "core/guard.hpp"
+#include "core/crossing/guard.hpp"
 
 #include <cmath>
 
