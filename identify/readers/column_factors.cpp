@@ -7,7 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "core/units.hpp"
-#include "identify/readers/csv_text.hpp"
+#include "identify/readers/text.hpp"
 
 namespace dualdamp::identify {
 

@@ -4,8 +4,8 @@
 #include <cctype>
 
 #include "core/units.hpp"
-#include "identify/readers/csv_text.hpp"
 #include "identify/readers/record_reader.hpp"
+#include "identify/readers/text.hpp"
 
 namespace dualdamp::identify {
 

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "core/provenance.hpp"
-#include "identify/readers/csv_reader.hpp"
 #include "identify/readers/data_table.hpp"
-#include "identify/readers/mat_reader.hpp"
-#include "identify/readers/mat_structure.hpp"
+#include "identify/readers/formats/csv_reader.hpp"
+#include "identify/readers/formats/mat_reader.hpp"
+#include "identify/readers/formats/mat_structure.hpp"
+#include "identify/readers/formats/universal_file_reader.hpp"
 #include "identify/readers/record_assembly.hpp"
 #include "identify/readers/text.hpp"
-#include "identify/readers/universal_file_reader.hpp"
 
 namespace dualdamp::identify {
 

@@ -23,4 +23,10 @@ void refuse_binary(std::string_view text, const std::string& file);
 /// `text` where it is UTF-8, else read as Latin-1 ("m/s²"), with question marks for control characters.
 [[nodiscard]] std::string to_utf8(std::string_view text);
 
+/// Without blanks and tabs at its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// The beginning of `text` that fits into a message, cut between characters.
+[[nodiscard]] std::string excerpt(std::string_view text);
+
 }  // namespace dualdamp::identify

@@ -72,6 +72,17 @@ Field plain_field_of(const friction::Parameter& parameter) {
   return quantity(std::move(name), {std::string(parameter.unit)}, std::move(meaning));
 }
 
+/// Few keys are named; long lists have their own table on the page.
+std::string map_in_words(const Choice& choice) {
+  if (!choice.key.empty()) return "a map with the key '" + choice.key + "'";
+  constexpr std::size_t few = 5;
+  const std::vector<Field>& fields = choice.variants.front().section.fields;
+  if (fields.empty() || fields.size() > few) return "a map";
+  std::vector<std::string> names;
+  for (const Field& field : fields) names.push_back(field.name);
+  return "a map of " + core::joined(names);
+}
+
 }  // namespace
 
 Field&& Field::required() && {
@@ -278,7 +289,7 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
     case Kind::choice:
       break;
   }
-  const std::string map = field.choice->key.empty() ? "a map" : "a map with the key '" + field.choice->key + "'";
+  const std::string map = map_in_words(*field.choice);
   if (!field.short_for.empty())
     return "a " + field.short_for + ", a map with the key '" + field.short_for + "', or a list of them";
   if (field.only_listed) return "a list of maps";

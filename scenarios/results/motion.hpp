@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/first_crossing.hpp"
+#include "core/crossing/first_crossing.hpp"
 #include "scenarios/format/json.hpp"
 #include "scenarios/format/result_field.hpp"
 #include "scenarios/results/table.hpp"

@@ -26,6 +26,10 @@ FOLDERS = {
 }
 # What a room may include of its own folder, beside itself. "." is the folder's own top level.
 ROOMS = {
+    "core": {
+        ".": [],
+        "crossing": ["."],
+    },
     "friction_models": {
         ".": ["laws", "modifiers"],  # the list of laws; the wrapper of plugins
         "formulas": ["."],

@@ -6,9 +6,9 @@
 ///     m x'' + c x' + k x + kinetic sgn x' = drive amplitude cos(w t)
 ///
 /// Packs of 8, 4, 2 or 1 oscillators, as wide as the processor allows, pass along the closed form from reversal to
-/// reversal with the certificate of `core/first_crossing.hpp`. What this simple path cannot certify (sticking,
-/// grazing, a static limit met within 1e-9, critical damping, undamped resonance) the exact engine does, one
-/// oscillator at a time, in the same call.
+/// reversal with the certificate of `core/crossing/first_crossing.hpp`. What this simple path cannot certify
+/// (sticking, grazing, a static limit met within 1e-9, critical damping, undamped resonance) the exact engine does,
+/// one oscillator at a time, in the same call.
 ///
 /// Results are the same to the last bit for every width and number of threads: each lane only depends on its own
 /// numbers, and exp, sin, cos and atan2 are SLEEF's reproducible variants (shibata2020). They agree with the exact
@@ -22,8 +22,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/crossing/search_result.hpp"
 #include "core/outcome.hpp"
-#include "core/search_result.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/excitation.hpp"
 #include "sim/model.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// The first reversal of each oscillator of a pack, with the certificate of core/first_crossing.hpp.
+/// The first reversal of each oscillator of a pack, with the certificate of core/crossing/first_crossing.hpp.
 ///
 /// The guard is g = side v, positive while the interval lasts. A panel's quintic Hermite interpolant less the
 /// remainder of the sixth derivative, in Bernstein form of degree six, is a lower bound L of g: all coefficients

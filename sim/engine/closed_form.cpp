@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/divided_exponential.hpp"
+#include "core/crossing/divided_exponential.hpp"
 
 namespace dualdamp::sim {
 

@@ -13,7 +13,7 @@
 
 #include <array>
 
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 
 namespace dualdamp::sim {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 #include "sim/engine/drive_pieces.hpp"
 #include "sim/excitation.hpp"
 #include "sim/oscillator.hpp"

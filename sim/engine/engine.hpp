@@ -15,8 +15,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/crossing/search_result.hpp"
 #include "core/outcome.hpp"
-#include "core/search_result.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/state.hpp"

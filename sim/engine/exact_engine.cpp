@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/first_crossing.hpp"
+#include "core/crossing/first_crossing.hpp"
 #include "sim/engine/closed_form.hpp"
 #include "sim/engine/sticking_gate.hpp"
 #include "sim/validate.hpp"
@@ -198,8 +198,8 @@ void ExactEngine::jumped(std::size_t law, const friction::Memory& before, fricti
   sensitivity_.jump(model_.friction[law], law, before, memories_[law], trigger, now(), direction_);
 }
 
-/// How far x and v may be off at the end of an interval: as the search has it (core/first_crossing.hpp), of
-/// amplitudes that may be far larger than those of the interval to come; and when its guard reached zero.
+/// How far x and v may be off at the end of an interval: as the search has it (core/crossing/first_crossing.hpp),
+/// of amplitudes that may be far larger than those of the interval to come; and when its guard reached zero.
 void ExactEngine::keep_rounding(double s) {
   x_rounding_ = v_rounding_ = time_rounding_ = 0.0;
   const core::ExponentialBasis& basis = mode_->basis();

@@ -2,7 +2,7 @@
 /// The exact engine: walks from event to event for laws that are affine in every mode.
 ///
 /// Between events the motion is closed-form (`sim/engine/linear_mode.hpp`); the next event is found by the
-/// certified search (`core/first_crossing.hpp`). The driver knows no law by name.
+/// certified search (`core/crossing/first_crossing.hpp`). The driver knows no law by name.
 ///
 /// Cost: for Coulomb friction about one exp, two sincos and a few dozen multiplications an event; no allocation
 /// after the first period.
@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/guard.hpp"
-#include "core/interval_start.hpp"
-#include "core/search_result.hpp"
+#include "core/crossing/guard.hpp"
+#include "core/crossing/interval_start.hpp"
+#include "core/crossing/search_result.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/linear_mode.hpp"

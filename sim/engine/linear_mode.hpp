@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "core/exponential_basis.hpp"
+#include "core/crossing/exponential_basis.hpp"
 
 namespace dualdamp::sim {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/crossing/search_result.hpp"
 #include "core/outcome.hpp"
-#include "core/search_result.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/model.hpp"
 #include "sim/motion/energy.hpp"

@@ -120,6 +120,8 @@ std::optional<Orbit> Approach::closed(const State& state) {
   // A motion that depends on its past has no state that could be displaced.
   const Monodromy monodromy = has_past_ ? Monodromy::without : Monodromy::with;
   Orbit orbit{solver_.patient_map_over(periods).from(state, monodromy), periods};
+  // It may come back, at a loose tolerance, while it still moves across the border of another mode.
+  if (!orbit.period.ends_in_its_mode()) return std::nullopt;
   // An own motion that nothing damps comes back too where the frequencies fit.
   if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) {
     // A motion that winds towards its orbit comes back so period after period: the next look is not at once.

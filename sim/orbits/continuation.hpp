@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/crossing/search_result.hpp"
 #include "core/outcome.hpp"
-#include "core/search_result.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {

@@ -112,7 +112,7 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
   for (int i = 0; i < max_corrections; ++i) {
     if (!(node.parameter > 0.0)) return std::nullopt;
     node.period = period(node.parameter, start);
-    if (!same_mode(node.period.begin, node.period.end)) return std::nullopt;
+    if (!node.period.ends_in_its_mode()) return std::nullopt;
     const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
     if (node.period.closure(omega(node.parameter)) <= options_.tolerance) return node;
     const std::optional<VectorXd> slope = by_parameter(node);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/search_result.hpp"
+#include "core/crossing/search_result.hpp"
 #include "sim/orbits/newton.hpp"
 #include "sim/orbits/period_map.hpp"
 

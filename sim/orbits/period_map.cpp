@@ -28,7 +28,10 @@ double distance(const State& a, const State& b, double size, double omega) {
   return result;
 }
 
+bool ForcingPeriod::ends_in_its_mode() const { return same_mode(begin, end); }
+
 std::vector<std::complex<double>> ForcingPeriod::multipliers() const {
+  if (!ends_in_its_mode()) return {};
   if (monodromy.rows() == 2 && monodromy.cols() == 2) {
     // Without law states there are two: a quadratic equation, without the cost of a general solver.
     const double half_trace = 0.5 * (monodromy(0, 0) + monodromy(1, 1));
@@ -42,7 +45,7 @@ std::vector<std::complex<double>> ForcingPeriod::multipliers() const {
 }
 
 double ForcingPeriod::radius() const {
-  if (!monodromy.allFinite()) return std::numeric_limits<double>::infinity();
+  if (!ends_in_its_mode() || !monodromy.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const std::complex<double>& value : multipliers()) largest = std::max(largest, std::abs(value));
   return largest;
@@ -62,7 +65,7 @@ std::vector<Eigen::Index> ForcingPeriod::free_coordinates() const {
 }
 
 double ForcingPeriod::free_radius() const {
-  if (!monodromy.allFinite()) return std::numeric_limits<double>::infinity();
+  if (!ends_in_its_mode() || !monodromy.allFinite()) return std::numeric_limits<double>::infinity();
   const std::vector<Eigen::Index> free = free_coordinates();
   return monodromy(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
 }
@@ -124,11 +127,11 @@ State displaced(const State& state, const Eigen::VectorXd& change) {
 }
 
 Eigen::VectorXd newton_step(const ForcingPeriod& period) {
-  if (!same_mode(period.begin, period.end)) return {};
+  if (!period.ends_in_its_mode()) return {};
   const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
   // A neighbour's matrix, of an orbit that holds in another mode, has other coordinates.
-  if (period.monodromy.rows() != n) return {};
+  if (period.monodromy.rows() != n || period.monodromy.cols() != n) return {};
   Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - period.monodromy;
   for (Eigen::Index row = 2; row < n; ++row) {
     if (gap[row] == 0.0 && period.holds(row)) system(row, row) = 1.0;

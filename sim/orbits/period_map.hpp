@@ -33,10 +33,13 @@ struct ForcingPeriod {
 
   /// Distance of end and begin.
   [[nodiscard]] double closure(double omega) const { return distance(begin, end, size, omega); }
-  /// Floquet multipliers.
+  /// It ends in the mode in which it began, so that the monodromy matrix maps displacements to such of the same
+  /// kind.
+  [[nodiscard]] bool ends_in_its_mode() const;
+  /// Floquet multipliers; none of a period that ends in another mode.
   [[nodiscard]] std::vector<std::complex<double>> multipliers() const;
-  /// The largest modulus of them; infinite when the monodromy matrix is not finite: what is not known does not
-  /// attract.
+  /// The largest modulus of them; infinite when there are none or the monodromy matrix is not finite: what is not
+  /// known does not attract.
   [[nodiscard]] double radius() const;
   /// The same without the coordinates that a period leaves as they are, whatever the others do: sliders that never
   /// slip. Their Floquet multipliers are 1.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/crossing/search_result.hpp"
 #include "core/outcome.hpp"
-#include "core/search_result.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/model.hpp"

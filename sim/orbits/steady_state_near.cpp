@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/period_map.hpp"
@@ -45,7 +46,9 @@ bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const S
 KnownOrbit known_orbit(const Model& model, const SteadyState& state) {
   PeriodMap map(model);
   if (map.engine().has_past()) return {state.start, {}};
-  return {state.start, map.from(state.start, Monodromy::with).monodromy};
+  ForcingPeriod period = map.from(state.start, Monodromy::with);
+  if (!period.ends_in_its_mode()) return {state.start, {}};
+  return {state.start, std::move(period.monodromy)};
 }
 
 SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const SteadyStateOptions& options) {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/diagnostics.hpp"
-#include "identify/readers/mat_content.hpp"
+#include "identify/readers/formats/mat_content.hpp"
 #include "identify/readers/record_reader.hpp"
 #include "tests/fuzz/harness.hpp"
 

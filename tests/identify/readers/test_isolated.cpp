@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "identify/readers/mat_content.hpp"
+#include "identify/readers/formats/mat_content.hpp"
 
 using namespace dualdamp::identify;
 using namespace std::chrono_literals;

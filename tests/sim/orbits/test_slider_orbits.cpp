@@ -12,6 +12,7 @@
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/iwan.hpp"
+#include "sim/orbits/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/source_tree.hpp"
 
@@ -105,5 +106,26 @@ TEST_CASE("contact compliance approaches rigid Coulomb friction at order one hal
   for (std::size_t i = 1; i < distance.size(); ++i) {
     // A hundredfold stiffness: a tenth of the distance.
     CHECK(std::log(distance[i - 1] / distance[i]) / std::log(100.0) == Approx(0.5).margin(0.05));
+  }
+}
+
+TEST_CASE("an orbit that closes only at a loose tolerance, where a slider begins to slide, is that of a tight one",
+          "[contact_compliance]") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.2839};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 2.1645};
+  model.friction.emplace_back(friction::ContactCompliance(0.801952, 0.801952, 248.268, 0.0));
+  model.friction.emplace_back(friction::ContactCompliance(0.108755, 0.108755, 72.247, 0.0));
+  model.friction.emplace_back(friction::Coulomb(0.3, 0.3));
+  std::vector<double> amplitudes;
+  for (int i = 0; i < 25; ++i) amplitudes.push_back(0.020799 + i * (0.658436 - 0.020799) / 24.0);
+  const sim::Curve tight = sim::xy_curve(model, amplitudes);
+  model.solver.tolerance = 6e-4;
+  const sim::Curve loose = sim::xy_curve(model, amplitudes);
+  for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+    CAPTURE(amplitudes[i], loose.reason(loose.points[i]));
+    REQUIRE(loose.points[i].ok());
+    CHECK(loose.points[i].x == Approx(tight.points[i].x).epsilon(5e-3));
+    CHECK(loose.points[i].stable);
   }
 }

@@ -1,0 +1,253 @@
+#include "identify/readers/formats/csv_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "core/units.hpp"
+#include "identify/readers/formats/csv_numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
+
+class HeaderReader {
+ public:
+  HeaderReader(const Layout& layout, const ReadOptions& options, Problems& problems,
+               std::vector<std::string>& warnings)
+      : layout_(layout),
+        line_(layout.header),
+        options_(options),
+        problems_(problems),
+        warnings_(warnings),
+        factors_(options, problems, warnings) {}
+
+  CsvHeader run() {
+    if (layout_.header.number == 0 ? !read_first_row() : !read_headings()) return {};
+    fields_.resize(headings_.size());
+    for (const auto& [name, called] : options_.columns)
+      if (const KnownColumn* known = known_column(name)) rename(*known, called);
+    for (std::size_t i = 0; i < headings_.size() && line_.number > 0; ++i)
+      if (fields_[i].known == nullptr) take_by_name(headings_[i], fields_[i]);
+    report_missing();
+    return {std::move(fields_), factors_.take_units()};
+  }
+
+ private:
+  [[nodiscard]] core::SourcePlace at(int column) const {
+    return {options_.name, line_.number, column, excerpt(line_.text)};
+  }
+
+  void complain(int column, std::string message, std::string allowed = {}, std::string found = {},
+                std::string suggestion = {}) {
+    problems_.add({at(column), std::move(message), std::move(allowed), std::move(found), std::move(suggestion)});
+  }
+
+  bool read_headings() {
+    Fields fields(line_.text, layout_.separator);
+    while (fields.next()) {
+      if (headings_.size() == most_columns) {
+        complain(1, "the line has more than 1000 fields");
+        return false;
+      }
+      headings_.push_back(parse_heading(fields.text, fields.column));
+    }
+    if (fields.is_unclosed) complain(1, "a quoted field does not end with its quote");
+    if (!fields.is_unclosed && is_quoted_whole()) return false;
+    if (!fields.is_unclosed && layout_.units) read_units();
+    return !fields.is_unclosed;
+  }
+
+  /// As a spreadsheet writes it that had taken each row for one text.
+  bool is_quoted_whole() {
+    const bool whole = headings_.size() == 1 && trimmed(line_.text).starts_with('"') &&
+                       headings_.front().text.find_first_of(",;\t") != std::string::npos;
+    if (whole)
+      complain(1, "the whole row stands in quotes and is one field", "quotes around single fields, or none",
+               excerpt(line_.text));
+    return whole;
+  }
+
+  /// Columns without names have numbers.
+  bool read_first_row() {
+    Lines lines = layout_.lines;
+    if (lines.at_end()) {
+      problems_.add({{options_.name, 0, 0, {}}, "the file holds no header", std::string(allowed_columns), {}, {}});
+      return false;
+    }
+    const std::size_t count = std::min(fields_of(lines.next().text, layout_.separator).size(), most_columns);
+    for (std::size_t i = 0; i < count; ++i) headings_.push_back({std::to_string(i + 1), std::to_string(i + 1), {}});
+    if (!options_.columns.empty()) return true;
+    problems_.add({{options_.name, 0, 0, {}},
+                   "without a header nothing tells which column is which",
+                   "the numbers of the columns, such as --column t=1 --column x=2",
+                   std::to_string(count) + " columns",
+                   {}});
+    return false;
+  }
+
+  /// A unit in the heading, and another one below it.
+  void refuse_other_unit(const Heading& heading, const std::string& below) {
+    Heading named = heading;
+    const KnownColumn* const known = named_column(named);
+    if (known == nullptr || named.unit.empty() || below.empty()) return;
+    const auto stated = core::unit_factor(named.unit, known->unit).value;
+    const auto other = core::unit_factor(below, known->unit).value;
+    if (!stated || !other || *stated == *other) return;
+    complain(heading.column, "the unit of column " + std::string(known->name) + " is stated twice",
+             "one unit, in the heading or in the row below it",
+             "'" + excerpt(named.unit) + "' and, in line " + std::to_string(layout_.units->number) + ", '" +
+                 excerpt(below) + "'");
+  }
+
+  void read_units() {
+    std::size_t i = 0;
+    for (const std::string& field : fields_of(layout_.units->text, layout_.separator)) {
+      if (i == headings_.size()) return;
+      Heading& heading = headings_[i++];
+      refuse_other_unit(heading, unit_in(field));
+      if (!heading.unit.empty() || !heading.well_formed) continue;
+      const KnownColumn* const before = named_column(heading);
+      if (before == nullptr || heading.unit.empty()) heading.unit = unit_in(field);
+    }
+  }
+
+  /// The heading's number among all, or of those with this text.
+  [[nodiscard]] std::vector<std::size_t> find(const std::string& called) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < headings_.size(); ++i)
+      if (headings_[i].text == called || headings_[i].name == called) found.push_back(i);
+    std::size_t number = 0;
+    const auto [end, fault] = std::from_chars(called.data(), called.data() + called.size(), number);
+    if (found.empty() && fault == std::errc{} && end == called.data() + called.size() && number >= 1 &&
+        number <= headings_.size())
+      found.push_back(number - 1);
+    return found;
+  }
+
+  [[nodiscard]] std::string names() const {
+    std::string text;
+    for (const Heading& heading : headings_) text += (text.empty() ? "" : ", ") + quoted(heading.text);
+    return excerpt(text);
+  }
+
+  /// The column that the caller knows by what the file calls it.
+  void rename(const KnownColumn& known, const std::string& called) {
+    const std::vector<std::size_t> found = find(called);
+    if (is_taken(known)) {
+      problems_.add(
+          {{options_.name, 0, 0, {}}, "column " + std::string(known.name) + " is asked for twice", {}, {}, {}});
+      return;
+    }
+    if (found.size() == 1 && fields_[found.front()].known == nullptr) {
+      take(headings_[found.front()], known, fields_[found.front()]);
+      return;
+    }
+    const std::string subject = found.size() == 1 ? "column " + quoted(called) + " is asked for twice"
+                                                  : "there are several columns " + quoted(called);
+    complain(1,
+             found.empty() ? "there is no column " + quoted(called) + " to be used as " + std::string(known.name)
+                           : subject,
+             found.size() > 1 ? "the number of the column, counted from 1" : "one of " + names());
+  }
+
+  void take_by_name(Heading& heading, CsvField& field) {
+    const bool well_formed = heading.well_formed;
+    const KnownColumn* known = named_column(heading);
+    const bool is_left_alone = !options_.only.empty() && (known == nullptr || !is_wanted(options_, *known));
+    static constexpr std::array<std::string_view, 6> remarks = {"",     "Comment", "Comments",
+                                                                "Note", "Remark",  "comment"};
+    if (known == nullptr || is_left_alone) {
+      field.may_be_missing = std::ranges::find(remarks, heading.name) != remarks.end();
+      if (!heading.text.empty() && !is_left_alone) warnings_.push_back(ignored("column", excerpt(heading.text)));
+    } else if (find_for(options_.columns, *known) != nullptr) {
+      warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
+    } else if (!well_formed) {
+      complain(heading.column, "the unit of column " + heading.name + " is not in square brackets",
+               "'name' or 'name [unit]'", excerpt(heading.text));
+      field.known = known;
+    } else if (is_taken(*known)) {
+      complain(heading.column, "column " + std::string(known->name) + " stands there twice",
+               "one column " + std::string(known->name) + "; --column " + std::string(known->name) +
+                   "=NUMBER chooses one",
+               excerpt(heading.text));
+    } else {
+      take(heading, *known, field);
+    }
+  }
+
+  [[nodiscard]] bool is_taken(const KnownColumn& known) const {
+    return std::ranges::any_of(fields_, [&](const CsvField& field) { return field.known == &known; });
+  }
+
+  void take(Heading& heading, const KnownColumn& known, CsvField& field) {
+    field.known = &known;
+    if (heading.unit.empty()) {  // x_mm, if that is what the caller calls it
+      Heading same = heading;
+      if (named_column(same) == &known) heading.unit = same.unit;
+    }
+    core::Diagnostic where;
+    where.place = at(heading.column);
+    where.found = excerpt(heading.text);
+    if (layout_.units && !heading.unit.empty() && heading.text.find(heading.unit) == std::string::npos) {
+      where.place = {options_.name, layout_.units->number, 1, excerpt(layout_.units->text)};
+      where.found = excerpt(heading.unit);
+    }
+    field.factor = factors_.factor_of(known, excerpt(heading.unit), where);
+  }
+
+  void report_missing() {
+    const bool any = std::ranges::any_of(fields_, [](const CsvField& field) {
+      return field.known != nullptr && (field.known->is_signal || field.known->name == "Y");
+    });
+    const bool pairs_without_x = is_taken(*known_column("Y")) && !is_taken(*known_column("x"));
+    if (!options_.only.empty()) return;                           // the caller says what it misses
+    if ((any && !pairs_without_x) || !problems_.empty()) return;  // a fault of a heading may be why it is missing
+    const std::string other = ". Columns of other names: --column x=NAME";
+    if (is_transposed())
+      complain(1, "rows and columns are exchanged: the names stand in the first field of each row",
+               "the names of the columns in one row and a row for each sample", excerpt(line_.text));
+    else if (layout_.is_headless && line_.number > 0)
+      complain(1, "there is no column x: the first row holds numbers instead of the names of the columns",
+               std::string(allowed_columns) + "; or --no-header with --column x=2", excerpt(line_.text));
+    else
+      complain(1, "there is no column x; there are the columns " + names(), std::string(allowed_columns) + other,
+               excerpt(line_.text), suggestion());
+  }
+
+  [[nodiscard]] bool is_transposed() const {
+    if (headings_.size() < 2 || !layout_.is_headless) return false;
+    Heading first = headings_.front();
+    return named_column(first) != nullptr && std::all_of(headings_.begin() + 1, headings_.end(),
+                                                         [](const Heading& h) { return is_like_number(h.text); });
+  }
+
+  /// A column of one letter in the other case.
+  [[nodiscard]] std::string suggestion() const {
+    for (const Heading& heading : headings_)
+      if (heading.name == "X") return "--column x=" + heading.text;
+    return {};
+  }
+
+  const Layout& layout_;
+  SourceLine line_;
+  const ReadOptions& options_;
+  Problems& problems_;
+  std::vector<std::string>& warnings_;
+  ColumnFactors factors_;
+  std::vector<Heading> headings_;
+  std::vector<CsvField> fields_;
+};
+
+}  // namespace
+
+CsvHeader read_csv_header(const Layout& layout, const ReadOptions& options, Problems& problems,
+                          std::vector<std::string>& warnings) {
+  return HeaderReader(layout, options, problems, warnings).run();
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,255 @@
+#include "identify/readers/formats/csv_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/units.hpp"
+#include "identify/readers/columns.hpp"
+#include "identify/readers/formats/csv_numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Lines looked at for the header.
+constexpr std::size_t most_lines = 200;
+/// The same with comments and blank lines.
+constexpr int most_blank_lines = 10'000;
+/// Lines between a header and its rows: units, descriptions.
+constexpr std::size_t most_between = 3;
+
+constexpr std::array<char, 4> separators = {'\t', ';', ',', ' '};
+
+bool is_comment(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return text.starts_with('#') || text.starts_with('%') || text.starts_with("//");
+}
+
+bool is_empty_row(std::string_view line, char separator) {
+  const std::array<char, 3> blanks = {' ', '\t', separator};
+  return line.find_first_not_of(std::string_view(blanks.data(), blanks.size())) == std::string_view::npos;
+}
+
+using Words = std::vector<std::string>;
+
+bool holds_numbers(const Words& fields) { return std::ranges::any_of(fields, is_like_number); }
+
+/// Without the empty fields at the end that a separator there makes.
+std::size_t count_of(const Words& fields) {
+  std::size_t count = fields.size();
+  while (count > 1 && fields[count - 1].empty()) --count;
+  return count;
+}
+
+class Search {
+ public:
+  Search(std::string_view text, const ReadOptions& options) : options_(options), start_(text) { collect(); }
+
+  Layout run() {
+    if (lines_.empty()) return with_separator({});
+    if (options_.no_header) return headless();
+    for (const bool named : {true, false})
+      for (std::size_t i = 0; i < lines_.size(); ++i)
+        for (const char separator : candidates(lines_[i].line.text))
+          if (const auto row = first_row(i, separator, named))
+            return below(nearest(i, separator, *row, named), separator, *row);
+    if (auto layout = header_in_comment()) return *layout;
+    return first_line();
+  }
+
+ private:
+  struct Candidate {
+    SourceLine line;
+    Lines before;        ///< at this line
+    SourceLine comment;  ///< the last comment above it
+  };
+
+  void collect() {
+    Lines lines = start_;
+    SourceLine comment;
+    SourceLine line;
+    while (!lines.at_end() && lines_.size() < most_lines && line.number < most_blank_lines) {
+      const Lines before = lines;
+      line = lines.next();
+      if (line.number == 1 && line.text.size() == 5 && line.text.starts_with("sep=")) {
+        stated_separator_ = line.text.back();  // Excel's own
+      } else if (trimmed(line.text).starts_with("***End_of_Header***")) {
+        lines_.clear();  // LabVIEW: what stands above is no table
+      } else if (is_comment(line.text)) {
+        comment = line;
+      } else if (!trimmed(line.text).empty()) {
+        lines_.push_back({line, before, comment});
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<char> candidates(std::string_view header) const {
+    if (stated_separator_ != 0) return {stated_separator_};
+    std::vector<char> result;
+    for (const char separator : separators)
+      if (header.find(separator) != std::string_view::npos) result.push_back(separator);
+    if (result.empty()) result.push_back(options_.decimal == ',' ? ';' : ',');
+    return result;
+  }
+
+  [[nodiscard]] Layout with_separator(Layout layout) const {
+    if (stated_separator_ != 0) layout.separator = stated_separator_;
+    return layout;
+  }
+
+  /// Does a heading name a column of numbers, by itself or because the caller says so?
+  [[nodiscard]] bool names_column(const std::string& field) const {
+    Heading heading = parse_heading(field, 0);
+    const bool called = std::ranges::any_of(options_.columns, [&](const auto& entry) {
+      return entry.second == heading.text || entry.second == heading.name;
+    });
+    if (called) return true;
+    const KnownColumn* known = named_column(heading);
+    return known != nullptr && !known->unit.empty();
+  }
+
+  /// The first row below line `i`, if that line can be its header: no numbers in the header, as many fields in the
+  /// row, and numbers below the headings that are known (`named`), or in all fields.
+  [[nodiscard]] std::optional<std::size_t> first_row(std::size_t i, char separator, bool named) const {
+    const Words headings = fields_of(lines_[i].line.text, separator);
+    if (holds_numbers(headings)) return std::nullopt;
+    std::size_t row = i + 1;
+    while (row < lines_.size() && row <= i + most_between &&
+           !holds_numbers(fields_of(lines_[row].line.text, separator)))
+      ++row;
+    if (row == lines_.size() || row > i + most_between + 1) return std::nullopt;
+    const Words fields = fields_of(lines_[row].line.text, separator);
+    if (!holds_numbers(fields) || !fits(headings, fields, separator)) return std::nullopt;
+    bool any = false;
+    bool all = true;
+    for (std::size_t k = 0; k < std::min(fields.size(), headings.size()); ++k) {
+      if (!fields[k].empty()) all = all && is_like_number(fields[k]);
+      if (named && names_column(headings[k])) any = any || is_like_number(fields[k]);
+    }
+    return (named ? any : all) ? std::optional(row) : std::nullopt;
+  }
+
+  /// Of lines that can be the header of one row the nearest: what names a column above it may be its description.
+  [[nodiscard]] std::size_t nearest(std::size_t i, char separator, std::size_t row, bool named) const {
+    for (std::size_t k = row - 1; named && k > i; --k)
+      if (first_row(k, separator, true) == row) return k;
+    return i;
+  }
+
+  /// As many fields; a comma may also part decimal commas, which is for the reader to say.
+  [[nodiscard]] static bool fits(const Words& headings, const Words& fields, char separator) {
+    if (headings.size() == 1 && separator == ' ') return false;
+    const std::size_t wanted = count_of(headings);
+    const std::size_t found = count_of(fields);
+    return found == wanted || fields.size() == headings.size() || (separator == ',' && found == 2 * wanted) ||
+           (found < wanted && wanted <= fields.size());
+  }
+
+  [[nodiscard]] Layout below(std::size_t i, char separator, std::size_t row) const {
+    Layout layout{.separator = separator, .header = lines_[i].line, .lines = lines_[row].before, .lines_above = i};
+    const Words headings = fields_of(layout.header.text, separator);
+    for (std::size_t k = i + 1; k < row; ++k) {
+      layout.below_header.push_back(lines_[k].line.text);
+      if (!layout.units && (row == i + 2 || holds_units(headings, lines_[k].line.text, separator)))
+        layout.units = lines_[k].line;
+    }
+    return layout;
+  }
+
+  [[nodiscard]] static bool holds_units(const Words& headings, std::string_view line, char separator) {
+    const Words fields = fields_of(line, separator);
+    for (std::size_t k = 0; k < std::min(fields.size(), headings.size()); ++k) {
+      Heading heading = parse_heading(headings[k], 0);
+      const KnownColumn* known = named_column(heading);
+      const std::string unit = unit_in(fields[k]);
+      if (known != nullptr && !known->unit.empty() && !unit.empty() &&
+          (core::unit_factor(unit, known->unit).value || core::coordinate_told_by(unit, known->unit)))
+        return true;
+    }
+    return false;
+  }
+
+  /// `# t x` above rows of numbers, as numpy writes it.
+  [[nodiscard]] std::optional<Layout> header_in_comment() const {
+    const Candidate& first = lines_.front();
+    if (first.comment.number == 0) return std::nullopt;
+    SourceLine header = first.comment;
+    const std::size_t mark = header.text.find_first_not_of("#%/ \t");
+    if (mark == std::string_view::npos) return std::nullopt;
+    header.text.remove_prefix(mark);
+    for (const char separator : candidates(first.line.text)) {
+      const Words fields = fields_of(first.line.text, separator);
+      const Words headings = fields_of(header.text, separator);
+      const bool named = std::ranges::any_of(headings, [this](const std::string& h) { return names_column(h); });
+      if (named && headings.size() == fields.size() && holds_numbers(fields) && !holds_numbers(headings))
+        return Layout{.separator = separator, .header = header, .lines = first.before};
+    }
+    return std::nullopt;
+  }
+
+  /// The first line as header, though what is below it does not fit: the reader says what is wrong.
+  [[nodiscard]] Layout first_line() const {
+    std::size_t i = 0;
+    const auto names = [this](const Candidate& candidate) {
+      const Words fields = fields_of(candidate.line.text, separator_of(candidate.line.text));
+      return !holds_numbers(fields) &&
+             std::ranges::any_of(fields, [this](const std::string& field) { return names_column(field); });
+    };
+    if (const auto named = std::ranges::find_if(lines_, names); named != lines_.end())
+      i = static_cast<std::size_t>(named - lines_.begin());
+    const SourceLine& line = lines_[i].line;
+    Layout layout{
+        .separator = separator_of(line.text), .header = line, .lines = lines_[i].before, .lines_above = i};
+    layout.is_headless = holds_numbers(fields_of(line.text, layout.separator));
+    (void)layout.lines.next();
+    return with_separator(std::move(layout));
+  }
+
+  [[nodiscard]] Layout headless() const {
+    const std::string_view line = lines_.front().line.text;
+    Layout layout{.separator = separator_of(line), .lines = lines_.front().before, .is_headless = true};
+    // With decimal commas a comma separates nothing.
+    if (options_.decimal == ',' && layout.separator == ',')
+      layout.separator = trimmed(line).find(' ') != std::string_view::npos ? ' ' : ';';
+    return with_separator(std::move(layout));
+  }
+
+  const ReadOptions& options_;
+  Lines start_;
+  std::vector<Candidate> lines_;
+  char stated_separator_ = 0;
+};
+
+}  // namespace
+
+std::optional<SourceLine> Rows::next() {
+  restarted_ = false;
+  std::size_t empty = 0;  // at the end spreadsheets leave such rows, and nobody misses them
+  while (!lines_.at_end()) {
+    const SourceLine line = lines_.next();
+    if (!header_.empty() && line.text == header_) {
+      restarted_ = true;
+    } else if (std::ranges::find(below_header_, line.text) != below_header_.end() || is_comment(line.text) ||
+               trimmed(line.text).empty()) {
+      continue;
+    } else if (is_empty_row(line.text, separator_)) {
+      ++empty;
+    } else {
+      empty_rows_ += empty;
+      return line;
+    }
+  }
+  return std::nullopt;
+}
+
+Layout layout_of(std::string_view text, const ReadOptions& options) { return Search(text, options).run(); }
+
+std::string unit_in(std::string_view field) {
+  std::string_view unit = trimmed(field);
+  if (unit.size() >= 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
+  unit = trimmed(unit);
+  return unit == "-" ? std::string() : std::string(unit);
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,449 @@
+#include "identify/readers/formats/mat_reader.hpp"
+
+#include <hdf5.h>
+#include <matio.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/numbers.hpp"
+#include "identify/readers/column_factors.hpp"
+#include "identify/readers/formats/mat_content.hpp"
+#include "identify/readers/formats/mat_structure.hpp"
+#include "identify/readers/formats/mat_variable.hpp"
+#include "identify/readers/isolated.hpp"
+#include "identify/readers/text.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using MatFile = std::unique_ptr<mat_t, decltype([](mat_t* file) { Mat_Close(file); })>;
+using Variable = std::unique_ptr<matvar_t, decltype([](matvar_t* variable) { Mat_VarFree(variable); })>;
+
+/// What is wrong with a file is said by us, not on stderr by the libraries.
+void silence() {
+  Mat_LogInitFunc("dualdamp", [](int, char*) {});
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// HDF5 knows where its files end; matio takes one that cannot be opened for one without variables.
+bool is_whole_hdf5(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file >= 0) H5Fclose(file);
+  return file >= 0;
+}
+
+/// A variable of HDF5 that MATLAB did not write: the attribute tells MATLAB what its numbers are.
+bool lacks_class(const std::string& path, const std::string& variable) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return false;
+  const htri_t has = H5Aexists_by_name(file, variable.c_str(), "MATLAB_class", H5P_DEFAULT);
+  H5Fclose(file);
+  return has == 0;
+}
+
+/// A variable, a field of a struct, or a part of a matrix, by the name that the file or the caller gives it.
+struct Entry {
+  std::string name;
+  const matvar_t* variable = nullptr;
+  std::optional<Slice> slice = {};
+};
+
+/// What belongs to one test: the variables of the file, or the fields of an element of a struct.
+using Scope = std::vector<Entry>;
+
+bool is_number(const std::string& text) {
+  return !text.empty() && text.size() < 7 && text != "0" &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+class Reader {
+ public:
+  Reader(std::string path, const ReadOptions& options)
+      : path_(std::move(path)), file_(options.name), options_(options), factors_(options, problems_, warnings_) {}
+
+  MatContent run() {
+    read_variables();
+    problems_.throw_if_any();
+    MatContent content;
+    const std::vector<Scope> scopes = find_scopes();
+    for (std::size_t i = 0; i < scopes.size(); ++i) {
+      content.tests.push_back(test(scopes[i]));
+      if (scopes.size() > 1 && content.tests.back().label.empty())
+        content.tests.back().label = std::to_string(i + 1);
+    }
+    report_missing(content);
+    problems_.throw_if_any();
+    content.units = factors_.take_units();
+    content.row_labels = std::move(row_labels_);
+    content.warnings = std::move(warnings_);
+    return content;
+  }
+
+ private:
+  void complain(std::string message, std::string allowed = {}, std::string found = {}) {
+    problems_.add({{file_, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
+  }
+
+  /// The variables that are asked for, and structs; others are not read into memory.
+  void read_variables() {
+    const MatFile file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
+    const bool is_73 = file && Mat_GetVersion(file.get()) == MAT_FT_MAT73;
+    if (!file || (is_73 && !is_whole_hdf5(path_))) refuse_damaged_mat(file_);
+    while (true) {
+      Variable variable(Mat_VarReadNextInfo(file.get()));
+      if (!variable) break;
+      const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
+      listing_.push_back(name + " (" + describe(*variable) + ")");
+      if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
+        if (options_.only.empty()) warnings_.push_back(ignored("variable", name));
+        continue;
+      }
+      if (is_73 && variable->class_type == MAT_C_EMPTY && lacks_class(path_, variable->name)) {
+        refuse_foreign(name);
+        continue;
+      }
+      if (size_of(*variable) > most_mat_values)
+        refuse_file(file_, "variable '" + std::string(variable->name) + "' holds more than 20 million numbers");
+      if (size_of(*variable) > 0 && Mat_VarReadDataAll(file.get(), variable.get()) != 0) refuse_damaged_mat(file_);
+      variables_.push_back(std::move(variable));
+    }
+  }
+
+  void refuse_foreign(const std::string& name) {
+    complain("variable '" + name +
+                 "' has no attribute MATLAB_class: another program than MATLAB wrote it into the "
+                 "HDF5 file, and MATLAB itself could not read it",
+             "scipy.io.savemat, which writes MATLAB 5 files; or, of h5py, dataset.attrs['MATLAB_class'] = "
+             "numpy.bytes_('double'); or a CSV file");
+  }
+
+  /// The column that a name of the file stands for, and its unit where the name holds one, as `x_mm` does.
+  [[nodiscard]] std::pair<const KnownColumn*, std::string> column_of(const std::string& name) const {
+    Heading heading{name, name, {}};
+    const KnownColumn* known = named_column(heading);
+    for (const auto& [column, called] : options_.columns)
+      if (called == name) return {known_column(column), known == known_column(column) ? heading.unit : ""};
+    if (known == nullptr || find_for(options_.columns, *known) != nullptr || !identify::is_wanted(options_, *known))
+      return {nullptr, {}};
+    return {known, heading.unit};
+  }
+
+  /// `dt`, or a sample rate, beside the vectors.
+  [[nodiscard]] static bool is_sampling(const std::string& name) {
+    return name == "dt" || name == "fs" || name == "Fs";
+  }
+
+  [[nodiscard]] bool is_wanted(const std::string& name) const {
+    const auto holds = [&name](const auto& entry) {
+      const auto slice = parse_slice(entry.second);
+      return slice && slice->variable == name;
+    };
+    return is_sampling(name) || column_of(name).first != nullptr || std::ranges::any_of(options_.columns, holds);
+  }
+
+  /// Columns of the only matrix, by their numbers.
+  [[nodiscard]] bool wants_numbered() const {
+    return std::ranges::any_of(options_.columns, [](const auto& entry) { return is_number(entry.second); });
+  }
+
+  /// The parts of matrices that the caller asks for.
+  void add_slices(Scope& scope) {
+    std::vector<const matvar_t*> matrices;
+    for (const Entry& entry : scope)
+      if (is_matrix(*entry.variable)) matrices.push_back(entry.variable);
+    Scope slices;
+    for (const auto& [column, called] : options_.columns) {
+      if (const auto slice = parse_slice(called)) {
+        const auto of = std::ranges::find(scope, slice->variable, &Entry::name);
+        if (of != scope.end()) slices.push_back({called, of->variable, slice->slice});
+      } else if (is_number(called) && matrices.size() == 1) {
+        slices.push_back({called, matrices.front(), Slice{false, std::stoul(called) - 1}});
+      }
+    }
+    std::erase_if(scope, [this](const Entry& entry) {
+      return is_matrix(*entry.variable) && column_of(entry.name).first == nullptr;
+    });
+    scope.insert(scope.end(), slices.begin(), slices.end());
+  }
+
+  /// Every column that the caller asks for is there.
+  void report_missing(const MatContent& content) {
+    for (const auto& [column, called] : options_.columns) {
+      const KnownColumn* known = known_column(column);
+      const bool found = std::ranges::any_of(content.tests, [known](const TestColumns& test) {
+        return std::ranges::any_of(test.columns, [known](const DataColumn& c) { return c.known == known; });
+      });
+      if (!found && !known->unit.empty())
+        complain("there is no variable '" + called + "' to be used as " + column,
+                 "a vector of the file, a field of its struct, or a part of a matrix such as 'data(:,2)'",
+                 excerpt(listed(listing_)));
+    }
+  }
+
+  [[nodiscard]] bool holds_data(const Scope& scope) const {
+    return std::ranges::any_of(scope, [this](const Entry& entry) {
+      const KnownColumn* known = column_of(entry.name).first;
+      return known != nullptr && (known->is_signal || known->name == "Y");
+    });
+  }
+
+  std::vector<Scope> find_scopes() {
+    Scope whole;
+    Scope fields;  // of plain structs, as `run.x`
+    std::vector<std::vector<Scope>> structs;
+    for (const Variable& variable : variables_) {
+      if (variable->class_type != MAT_C_STRUCT) {
+        whole.push_back({variable->name, variable.get()});
+        continue;
+      }
+      std::vector<Scope> elements = elements_of(*variable);
+      for (Scope& element : elements) {
+        for (const Entry& entry : element)
+          if (elements.size() == 1)
+            fields.push_back({std::string(variable->name) + "." + entry.name, entry.variable});
+        add_slices(element);
+      }
+      if (!elements.empty() && holds_data(elements.front())) structs.push_back(std::move(elements));
+    }
+    add_slices(whole);
+    const auto is_asked_for = [this](const Entry& entry) { return column_of(entry.name).first != nullptr; };
+    std::ranges::copy_if(fields, std::back_inserter(whole), is_asked_for);
+    if (holds_data(whole)) return {whole};
+    if (structs.size() == 1) return std::move(structs.front());
+    refuse_file(file_,
+                structs.empty() ? "the MATLAB file holds no vector x and nothing else that could be used"
+                                : "several structs of the MATLAB file hold signals",
+                "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
+                    "; others by --column x=NAME, --column x='data(:,2)', --column x=run.x",
+                listing_.empty() ? "no variables" : excerpt(listed(listing_)));
+  }
+
+  [[nodiscard]] static std::vector<Scope> elements_of(const matvar_t& variable) {
+    auto* const record = const_cast<matvar_t*>(&variable);  // matio's readers take no const
+    const unsigned fields = Mat_VarGetNumberOfFields(record);
+    char* const* const names = Mat_VarGetStructFieldnames(record);
+    std::vector<Scope> elements;
+    if (variable.data == nullptr || names == nullptr) return elements;
+    for (std::size_t i = 0; i < size_of(variable); ++i) {
+      Scope scope;
+      for (unsigned field = 0; field < fields; ++field)
+        if (const matvar_t* value = Mat_VarGetStructFieldByIndex(record, field, i))
+          scope.push_back({names[field], value});
+      elements.push_back(std::move(scope));
+    }
+    return elements;
+  }
+
+  TestColumns test(const Scope& scope) {
+    TestColumns result;
+    std::optional<double> step;
+    for (const Entry& entry : scope) {
+      const auto& [known, unit] = column_of(entry.name);
+      if (is_sampling(entry.name)) {
+        take_step(entry, step);
+      } else if (known == nullptr) {
+        if (options_.only.empty()) warnings_.push_back(ignored("field", to_utf8(entry.name)));
+      } else if (known->unit.empty()) {
+        take_label(entry, result);
+      } else {
+        take(entry, *known, unit, result);
+      }
+    }
+    problems_.throw_if_any();
+    check_lengths(result);
+    add_times(result, step);
+    return result;
+  }
+
+  /// Real numbers in a row or column; nothing after a problem.
+  std::optional<std::vector<double>> vector(const Entry& entry) {
+    const matvar_t& variable = *entry.variable;
+    const std::string subject = "variable '" + to_utf8(entry.name) + "'";
+    const bool numeric = variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
+    const auto long_sides =
+        std::count_if(variable.dims, variable.dims + variable.rank, [](std::size_t side) { return side > 1; });
+    std::string fault;
+    if (variable.class_type == MAT_C_EMPTY || size_of(variable) == 0)
+      fault = " is empty";
+    else if (variable.class_type == MAT_C_CHAR)
+      fault = " is text";
+    else if (!numeric)
+      fault = " is no vector of numbers";
+    else if (variable.isComplex != 0)
+      fault = " holds complex numbers";
+    else if (long_sides > 1 && !entry.slice)
+      fault = " is a matrix";
+    else if (entry.slice && entry.slice->index >= variable.dims[entry.slice->is_row ? 0 : 1])
+      fault = " is beyond the last " + std::string(entry.slice->is_row ? "row" : "column");
+    if (!fault.empty()) {
+      complain(
+          subject + fault,
+          long_sides > 1 ? "a vector of real numbers, such as --column x='data(:,2)'" : "a vector of real numbers",
+          variable.rank > 0 ? describe(variable) : std::string());
+      return std::nullopt;
+    }
+    auto values = numbers(variable);
+    if (!values) refuse_damaged_mat(file_);
+    if (entry.slice) values = part_of(*values, variable, *entry.slice);
+    const auto bad = std::ranges::find_if(*values, [](double value) { return !std::isfinite(value); });
+    if (bad == values->end()) return values;
+    complain("element " + std::to_string(bad - values->begin() + 1) + " of " + subject + " is not a finite number",
+             "finite numbers");
+    return std::nullopt;
+  }
+
+  std::optional<double> scalar(const Entry& entry) {
+    const auto values = vector(entry);
+    if (!values) return std::nullopt;
+    if (values->size() == 1 && values->front() > 0.0) return values->front();
+    complain("variable '" + entry.name + "' is not one number above zero");
+    return std::nullopt;
+  }
+
+  /// Both `dt` and a rate may be there, if they say the same.
+  void take_step(const Entry& entry, std::optional<double>& step) {
+    const auto value = scalar(entry);
+    if (!value) return;
+    const double stated = entry.name == "dt" ? *value : 1.0 / *value;
+    constexpr double rounding = 1e-6;
+    if (step && !(std::abs(stated - *step) <= rounding * *step))
+      complain("dt and the sample rate contradict each other", "one of them, or both alike",
+               "steps of " + core::format_number(*step, 6) + " s and " + core::format_number(stated, 6) + " s");
+    step = stated;
+  }
+
+  void take(const Entry& entry, const KnownColumn& known, const std::string& unit, TestColumns& test) {
+    auto values = vector(entry);
+    if (!values) return;
+    core::Diagnostic where;
+    where.place.file = file_;
+    where.found = "variable '" + to_utf8(entry.name) + "'";
+    if (std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; }))
+      return complain("column " + std::string(known.name) + " stands there twice", {}, where.found);
+    // The letter says what the word "frequency" does not: rad/s.
+    const double factor = factors_.factor_of(known, unit.empty() && entry.name == "omega" ? "rad/s" : unit, where);
+    for (double& value : *values) value *= factor;
+    test.columns.push_back({&known, std::move(*values)});
+  }
+
+  /// A text or a number labels the test, a vector of numbers each row.
+  void take_label(const Entry& entry, TestColumns& test) {
+    const matvar_t& variable = *entry.variable;
+    if (variable.class_type == MAT_C_CHAR && variable.data_type == MAT_T_UINT8 && variable.data != nullptr) {
+      test.label = to_utf8({static_cast<const char*>(variable.data), size_of(variable)});
+      return;
+    }
+    const auto values = vector(entry);
+    if (!values) return;
+    if (values->size() == 1) {
+      test.label = core::format_number(values->front());
+      return;
+    }
+    row_labels_.emplace();
+    label_count_ = values->size();
+    for (std::size_t row = 0; row < values->size(); ++row)
+      if (row == 0 || (*values)[row] != (*values)[row - 1])
+        row_labels_->push_back({core::format_number((*values)[row]), row});
+  }
+
+  void check_lengths(const TestColumns& test) {
+    const auto length = [](const DataColumn& column) { return column.values.size(); };
+    bool alike = !row_labels_ || label_count_ == length(test.columns.front());
+    std::string lengths = row_labels_ ? "sweep " + std::to_string(label_count_) : "";
+    for (const DataColumn& column : test.columns) {
+      alike = alike && length(column) == length(test.columns.front());
+      lengths +=
+          (lengths.empty() ? "" : ", ") + std::string(column.known->name) + " " + std::to_string(length(column));
+    }
+    if (!alike) complain("the vectors are not of the same length", "vectors of equal length", lengths);
+    problems_.throw_if_any();
+  }
+
+  void add_times(TestColumns& test, const std::optional<double>& step) {
+    const auto has = [&test](std::string_view name) {
+      return std::ranges::any_of(test.columns, [name](const DataColumn& c) { return c.known->name == name; });
+    };
+    if (!step || has("Y")) return;
+    if (has("t")) {
+      warnings_.emplace_back("dt and Fs are not used: there are times t");
+      return;
+    }
+    std::vector<double> times(test.columns.front().values.size());
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) * *step;
+    test.columns.push_back({known_column("t"), std::move(times)});
+  }
+
+  std::string path_;
+  std::string file_;
+  const ReadOptions& options_;
+  Problems problems_;
+  std::vector<std::string> warnings_;
+  ColumnFactors factors_;
+  std::vector<std::string> listing_;  ///< all variables with their sizes
+  std::vector<Variable> variables_;
+  std::optional<std::vector<LabelRun>> row_labels_;
+  std::size_t label_count_ = 0;
+};
+
+/// A file of a gigabyte in two minutes, whatever is compressed in it, and one of no size in some seconds. Under
+/// load the clock on the wall runs faster than the processor's.
+IsolationLimits limits_of(const std::string& path) {
+  constexpr std::chrono::seconds least{2};
+  constexpr std::uintmax_t bytes_a_second = std::uintmax_t{8} << 20U;
+  constexpr int load = 8;
+  constexpr std::size_t memory = std::size_t{4} << 30U;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  const std::chrono::seconds time = least + std::chrono::seconds(error ? 0 : size / bytes_a_second);
+  return {time, load * time, memory};
+}
+
+[[noreturn]] void refuse_unread(const std::string& file, IsolatedEnd end) {
+  switch (end) {
+    case IsolatedEnd::out_of_time:
+      refuse_file(file, "the MATLAB file is damaged: reading it comes to no end", "the whole file");
+    case IsolatedEnd::out_of_memory:
+      refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
+                  "the whole file, or a part of the record");
+    case IsolatedEnd::not_started:
+      refuse_file(file, "the MATLAB file cannot be read: the system starts no process for it");
+    case IsolatedEnd::crashed:
+    case IsolatedEnd::done:
+      break;
+  }
+  refuse_damaged_mat(file);
+}
+
+}  // namespace
+
+DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
+                   std::vector<std::string>& warnings) {
+  check_names(options, problems);
+  problems.throw_if_any();
+  const IsolatedResult result = run_isolated(limits_of(path), [&](const ByteSink& sink) {
+    silence();
+    try {
+      send(Reader(path, options).run(), sink);
+    } catch (const core::InputError& error) {
+      send(error.diagnostics(), sink);
+    }
+  });
+  std::optional<MatContent> content = result.end == IsolatedEnd::done ? receive(result.bytes) : std::nullopt;
+  if (!content) refuse_unread(options.name, result.end);
+  DataTable table = join(options.name, content->tests);
+  table.units = std::move(content->units);
+  if (content->row_labels) table.sweeps = std::move(*content->row_labels);
+  std::ranges::move(content->warnings, std::back_inserter(warnings));
+  return table;
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,171 @@
+#include "identify/readers/formats/mat_structure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "identify/readers/data_table.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr std::size_t header_size = 128;  ///< of v5 to v7.3
+
+std::uint32_t word(std::string_view bytes, std::size_t at, bool swap) {
+  std::array<char, sizeof(std::uint32_t)> raw{};
+  std::copy_n(bytes.data() + at, raw.size(), raw.begin());
+  if (swap) std::reverse(raw.begin(), raw.end());
+  std::uint32_t value = 0;
+  std::memcpy(&value, raw.data(), raw.size());
+  return value;
+}
+
+/// Head of a matrix of version 4: type, rows, columns, complex, length of the name.
+struct Head4 {
+  std::uint64_t size = 0;  ///< of the matrix with head and name; 0: this is no such head
+};
+
+Head4 head4(std::string_view bytes, std::size_t at) {
+  constexpr std::size_t words = 5;
+  constexpr std::array<std::uint64_t, 6> precision = {8, 4, 4, 2, 2, 1};
+  if (bytes.size() - at < words * sizeof(std::uint32_t)) return {};
+  for (const bool swap : {false, true}) {
+    const auto entry = [&](std::size_t i) { return word(bytes, at + i * sizeof(std::uint32_t), swap); };
+    const std::uint32_t type = entry(0);
+    constexpr std::uint32_t most_type = 4052;
+    constexpr std::uint32_t longest_name = 64;
+    const std::uint32_t digit_P = type / 10 % 10;
+    if (type > most_type || type / 100 % 10 != 0 || digit_P >= precision.size() || type % 10 > 2) continue;
+    if (entry(3) > 1 || entry(4) < 2 || entry(4) > longest_name) continue;
+    const std::uint64_t values = std::uint64_t{entry(1)} * entry(2) * (1 + entry(3));
+    if (entry(1) >> 31U != 0 || entry(2) >> 31U != 0) continue;
+    return {words * sizeof(std::uint32_t) + entry(4) + values * precision[digit_P]};
+  }
+  return {};
+}
+
+bool is_mat_5(std::string_view bytes) {
+  if (bytes.size() < header_size || !bytes.starts_with("MATLAB")) return false;
+  const std::string_view mark = bytes.substr(header_size - 2, 2);
+  return mark == "IM" || mark == "MI";
+}
+
+bool is_mat_73(std::string_view bytes) { return is_mat_5(bytes) && bytes.starts_with("MATLAB 7.3"); }
+
+/// A data element of version 5: its type and where its content lies.
+struct Element {
+  std::uint32_t type = 0;
+  std::size_t begin = 0;
+  std::size_t size = 0;
+  std::size_t next = 0;  ///< where the following element begins
+};
+
+/// Holds a file of version 5 against its own statements: every element ends within the one around it, and every
+/// array of numbers has as many as its dimensions say. What is compressed is left to zlib's checksum.
+class Elements {
+ public:
+  Elements(std::string_view bytes, const std::string& file)
+      : bytes_(bytes), file_(file), swap_(word(bytes, header_size - 4, false) >> 16U != 0x4D49U) {}
+
+  void check() const {
+    for (std::size_t at = header_size; at < bytes_.size();) {
+      const Element element = read(at, bytes_.size());
+      if (element.type == matrix) check_matrix(element, 0);
+      at = element.next;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t matrix = 14;
+  static constexpr std::uint32_t compressed = 15;
+  static constexpr std::size_t tag = 8;
+
+  [[nodiscard]] Element read(std::size_t at, std::size_t end) const {
+    if (at > end || end - at < tag) refuse_damaged_mat(file_);
+    const std::uint32_t first = word(bytes_, at, swap_);
+    if (first >> 16U != 0) {  // up to four bytes in the tag itself
+      const std::size_t size = first >> 16U;
+      if (size > 4) refuse_damaged_mat(file_);
+      return {first & 0xFFFFU, at + 4, size, at + tag};
+    }
+    const std::size_t size = word(bytes_, at + 4, swap_);
+    if (size > end - at - tag) refuse_damaged_mat(file_);
+    const std::size_t padded = first == compressed ? size : (size + 7) / 8 * 8;
+    return {first, at + tag, size, std::min(at + tag + padded, end)};
+  }
+
+  void check_matrix(const Element& element, int depth) const {
+    constexpr int deepest = 16;
+    constexpr std::uint32_t cell = 1;
+    constexpr std::uint32_t structure = 2;
+    constexpr std::uint32_t first_numeric = 6;
+    constexpr std::uint32_t last_numeric = 15;
+    const std::size_t end = element.begin + element.size;
+    if (element.size == 0) return;  // an empty field
+    if (depth > deepest) refuse_damaged_mat(file_);
+    const Element flags = read(element.begin, end);
+    const Element sides = read(flags.next, end);
+    const Element name = read(sides.next, end);
+    if (flags.size < 8) refuse_damaged_mat(file_);
+    const std::uint32_t kind = word(bytes_, flags.begin, swap_) & 0xFFU;
+    if (kind >= first_numeric && kind <= last_numeric) {
+      const Element numbers = read(name.next, end);
+      if (count(sides) != static_cast<double>(numbers.size) / width(numbers.type)) refuse_damaged_mat(file_);
+      return;
+    }
+    if (kind != cell && kind != structure) return;
+    std::size_t at = name.next;
+    if (kind == structure) at = read(read(at, end).next, end).next;  // length and text of the names of its fields
+    while (at < end) {
+      const Element field = read(at, end);
+      if (field.type != matrix) refuse_damaged_mat(file_);
+      check_matrix(field, depth + 1);
+      at = field.next;
+    }
+  }
+
+  /// Numbers that the dimensions ask for; a double, which no product of them leaves.
+  [[nodiscard]] double count(const Element& sides) const {
+    double product = 1.0;
+    for (std::size_t i = 0; i + 4 <= sides.size; i += 4) product *= word(bytes_, sides.begin + i, swap_);
+    return product;
+  }
+
+  /// Bytes of a number of a type; of an unknown type it is infinite, which fits no count but zero.
+  [[nodiscard]] static double width(std::uint32_t type) {
+    constexpr std::array<double, 14> widths = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
+    return type < widths.size() && widths[type] > 0 ? widths[type] : std::numeric_limits<double>::infinity();
+  }
+
+  std::string_view bytes_;
+  const std::string& file_;
+  bool swap_;
+};
+
+}  // namespace
+
+bool is_mat(std::string_view bytes) { return is_mat_5(bytes) || head4(bytes, 0).size > 0; }
+
+void check_mat(std::string_view bytes, const std::string& file) {
+  if (is_mat_73(bytes)) return;  // HDF5 itself knows where its files end
+  const bool is_5 = is_mat_5(bytes);
+  if (is_5 && bytes.size() == header_size) refuse_file(file, "the MATLAB file is empty: it holds no variables");
+  if (is_5) {
+    Elements(bytes, file).check();
+    return;
+  }
+  for (std::uint64_t at = 0; at < bytes.size();) {
+    const std::uint64_t size = head4(bytes, at).size;
+    if (size == 0 || size > bytes.size() - at) refuse_damaged_mat(file);
+    at += size;
+  }
+}
+
+void refuse_damaged_mat(const std::string& file) {
+  refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
+}
+
+}  // namespace dualdamp::identify

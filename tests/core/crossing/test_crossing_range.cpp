@@ -1,0 +1,116 @@
+/// The search at the ends of the range: growth, amplitudes near the smallest and largest numbers, rates far apart.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/crossing/first_crossing.hpp"
+#include "guard_problems.hpp"
+
+namespace {
+
+using namespace dualdamp::core;
+using namespace dualdamp::core::guard_problems;
+
+Terms scaled(Terms terms, double factor) {
+  for (Term& term : terms) term.coefficient *= factor;
+  return terms;
+}
+
+/// The same guard under another unit of time.
+Terms faster(Terms terms, double factor) {
+  for (Term& term : terms) term.exponent *= factor;
+  return terms;
+}
+
+}  // namespace
+
+TEST_CASE("A guard that leaves the range of double precision ends the search, and says so") {
+  CHECK(search({{1.0, 1.0}}, 1e4).end == SearchEnd::left_range);
+  CHECK(search({{1.0, 1e-300}, constant(1.0)}, 1e4).end == SearchEnd::left_range);
+  CHECK(search({{Complex(1.0, 5.0), 1.0}, constant(1e200)}, 1e4).end == SearchEnd::crossing);
+  CHECK(search({{1.0, 1.0}}, 100.0).end == SearchEnd::horizon);
+  // Beside a guard that crosses before.
+  const Result both = search(Problem({{{1.0, 1.0}}, {constant(1.0), {0.0, 0.0}, {0.0, -1e-2, 1}}}), 1e4);
+  check_crossing(both, 1, 100.0, 1e-12);
+}
+
+TEST_CASE("A guard that turns too often before the horizon ends the search, and says so") {
+  // cos(s) + 1.5 never crosses; its panels up to here would take an hour.
+  const Terms wave = {{Complex(0.0, 1.0), 1.0}, constant(1.5)};
+  CHECK(search(wave, 1e10).end == SearchEnd::too_long);
+  CHECK(search(wave, 1e4).end == SearchEnd::horizon);
+}
+
+TEST_CASE("An element that has left the range has no part in guards without it") {
+  // Growth by e^24000 beside 1 - s/2000 and beside cos(s/1000), whose elements do not grow.
+  for (const double growth : {0.5, 6.0, 1e3}) {
+    for (const Complex own : {Complex(growth), Complex(growth, 8.0)}) {
+      CAPTURE(own);
+      const Terms linear{{own, 0.0}, constant(1.0), {0.0, -1.0 / 2000.0, 1}};
+      check_crossing(search(linear, 4000.0), 0, 2000.0, 2000.0 * 4 * epsilon);
+      const Terms slow{{own, 0.0}, cosine(1.0, 1e-3)};
+      check_crossing(search(slow, 4000.0), 0, 500.0 * pi, 2000.0 * 4 * epsilon);
+      const Terms chained{{own, 0.0}, {-own, 0.0, 0}, cosine(1.0, 1e-3)};
+      check_crossing(search(chained, 4000.0), 0, 500.0 * pi, 2000.0 * 4 * epsilon);
+      const Result positive = search({{own, 0.0}, constant(1.0), cosine(0.5, 1e-3)}, 4000.0);
+      CHECK(positive.end == SearchEnd::horizon);
+    }
+  }
+}
+
+TEST_CASE("A growth that crosses late is found wherever double precision reaches") {
+  // 1 - c e^s at ln(1/c).
+  for (const double c : {1e-20, 1e-100, 1e-200, 1e-290}) {
+    const double root = -std::log(c);
+    check_crossing(search({{1.0, -c}, constant(1.0)}, 705.0), 0, root, 8 * epsilon * root);
+  }
+  // e^s (1 + 1e-3 cos 5s) - c e^(s/2): starts negative of c, so turned around; at 2 ln c but for the ripple.
+  const Result late = search({{1.0, -1e-100}, {0.5, 1.0}}, 600.0);
+  check_crossing(late, 0, 2.0 * std::log(1e100), 1e-12);
+}
+
+TEST_CASE("The unit of a guard does not matter, from 1e-300 to 1e300") {
+  const std::vector<std::pair<Terms, double>> cases = {
+      {{cosine(1.0, 1.0)}, 10.0},
+      {{constant(0.3), {Complex(-0.05, 1.0), 1.0}, cosine(0.4, 2.3, 0.5)}, 30.0},
+      {{constant(1.0), cosine(1.0, 1.0)}, 10.0},                                      // grazes
+      {{{-1.0, 1.0}, {-1e3, 0.5}, {-1e-3, -1e-4}}, 100.0},                            // rates far apart
+      {{{-0.3, 1.0}, {Complex(-0.3, 1.0), 0.9}, {Complex(-0.2, 1.0), 1e-5}}, 300.0},  // far down a decay
+      {{{0.2, -1e-3}, {Complex(-0.1, 2.0), 0.5}, constant(2.0)}, 60.0},               // grows
+  };
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto& [terms, horizon] = cases[i];
+    const Result here = search(terms, horizon);
+    for (const int power : {-990, -700, -540, -270, -60, 60, 270, 540, 700, 990}) {
+      CAPTURE(i, power);
+      const Result there = search(scaled(terms, std::ldexp(1.0, power)), horizon);
+      CHECK(there.end == here.end);
+      CHECK(std::abs(there.crossing.s - here.crossing.s) <= 4 * epsilon * here.crossing.s);
+      CHECK(there.grazings.size() == here.grazings.size());
+    }
+    for (const double unit : {1e-40, 1e-12, 1e12, 1e40}) {
+      CAPTURE(i, unit);
+      const Result there = search(faster(terms, unit), horizon / unit);
+      CHECK(there.end == here.end);
+      CHECK(std::abs(there.crossing.s * unit - here.crossing.s) <= 16 * epsilon * here.crossing.s);
+    }
+  }
+}
+
+TEST_CASE("Panels follow the slow elements once the fast ones have died out, however far apart they are") {
+  for (const double decay : {1e2, 1e4, 1e6, 1e9}) {
+    CAPTURE(decay);
+    // A velocity under a heavy damper: driven at 1, a fast start of its own.
+    const Result driven = search({cosine(1.0, 1.0, -1.5), {-decay, 5.0}, {-1.0 / decay, -1e-9}}, 6.28);
+    CHECK(driven.end == SearchEnd::crossing);
+    CHECK(driven.count.panels + driven.count.splits < 40);
+    // Fast contacts beside it, each with its own rate.
+    Terms contacts{cosine(1.0, 1.0, -1.5)};
+    for (int i = 0; i < 12; ++i) contacts.push_back({-decay * std::pow(1.7, i), 0.1});
+    const Result many = search(contacts, 6.28);
+    CHECK(many.end == SearchEnd::crossing);
+    CHECK(many.count.panels + many.count.splits < 60);
+  }
+}
