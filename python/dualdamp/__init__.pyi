@@ -135,6 +135,48 @@ def run(
 ) -> Result: ...
 def check(scenario: Scenario, changes: Mapping[str, Any] | None = None) -> str: ...
 def load_plugin(path: Path) -> None: ...
+
+class Case:
+    number: int
+    mass: float
+    stiffness: float
+    frequency: float
+    sigma_x: float
+    sigma_Y: float
+    record: NDArray[Any]
+    decay: NDArray[Any] | None
+    random: NDArray[Any] | None
+    def identify(self, **options: Any) -> Result: ...
+
+def benchmark(
+    scenario: Scenario,
+    methods: Mapping[str, Callable[[Case], Mapping[str, Any] | None]],
+    *,
+    changes: Mapping[str, Any] | None = None,
+    seed: int | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Result: ...
+def stress_export(
+    scenario: Scenario,
+    directory: Path,
+    *,
+    changes: Mapping[str, Any] | None = None,
+    seed: int | None = None,
+    threads: int = 0,
+) -> int: ...
+def cases(directory: Path) -> Iterator[Case]: ...
+def stress_score(
+    scenario: Scenario,
+    key: Path,
+    answers: Mapping[str, Any],
+    *,
+    changes: Mapping[str, Any] | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Result: ...
 @overload
 def quantity(values: float, unit: str) -> str: ...
 @overload
@@ -607,6 +649,26 @@ def identify(
     gain_uncertainty: Mapping[str, Any] | None = None,
     least_change: Quantity | None = None,
     robust: bool | None = None,
+) -> Result: ...
+def next(
+    data: Path | Mapping[str, Any] | NDArray[Any] | Any,
+    *,
+    mass: Quantity | None = None,
+    stiffness: Quantity | None = None,
+    frequency: str | None = None,
+    units: Mapping[str, str] | None = None,
+    columns: Mapping[str, str] | None = None,
+    scale: Mapping[str, str] | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+    decimal: Literal[".", ","] | None = None,
+    no_header: bool | None = None,
+    largest_severity: Quantity | None = None,
+    law_error: Quantity | None = None,
+    severity_deviation: Quantity | None = None,
+    sigma_Y: Quantity | None = None,
+    sigma_x: Quantity | None = None,
+    without: Sequence[str] | None = None,
 ) -> Result: ...
 def fit(
     law: str | Law | Mapping[str, Any] | Sequence[str],

@@ -80,18 +80,57 @@ def identify(
     >>> round(found.answer.zeta, 3), round(found.answer.F0, 1)
     (0.099, 4.4)
     """
+    system = {"mass": mass, "stiffness": stiffness, "gravity_stiffness": gravity_stiffness, "coordinate": coordinate}
+    analysis = {"type": "identify", "methods": methods, "units": units, "columns": columns, "scale": scale, **options}
+    return run_source(_source(data, system, frequency, analysis), out=out, threads=threads)
+
+
+def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
+    data, *, mass=None, stiffness=None, frequency=None, units=None, columns=None, scale=None, out=None, threads=0, **options
+):
+    """Say which measurement would narrow the ranges over friction laws that a record leaves.
+
+    Parameters
+    ----------
+    data, mass, stiffness, frequency, units, columns, scale
+        As for `identify`; the data are steady states.
+    out, threads
+        As in `run`.
+    **options
+        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``candidates=[...]``, ....
+
+    Returns
+    -------
+    Result
+        ``candidates``: what to measure, the best first; ``advice``: the same in words.
+
+    Raises
+    ------
+    InvalidScenario
+        As `identify`; also for data that are no steady states.
+
+    Examples
+    --------
+    >>> import dualdamp as dd
+    >>> pairs = {"Y [mm]": [4.5, 5.0, 5.5, 6.0, 6.5], "x [mm]": [4.70, 7.21, 9.76, 12.25, 14.82]}
+    >>> advice = dd.next(pairs, mass="1.042 kg", stiffness="1568 N/m", frequency="6.17 Hz", sigma_x="20 um")
+    """
+    analysis = {"type": "design", "units": units, "columns": columns, "scale": scale, **options}
+    return run_source(_source(data, {"mass": mass, "stiffness": stiffness}, frequency, analysis), out=out, threads=threads)
+
+
+def _source(data, system, frequency, analysis):
+    """A scenario about one data file, or about data in memory."""
     texts = {}
     if isinstance(data, (str, os.PathLike)):
         name = os.fspath(data)
     else:
         name = _IN_MEMORY
         texts[name] = in_memory(data)
-    system = {"mass": mass, "stiffness": stiffness, "gravity_stiffness": gravity_stiffness, "coordinate": coordinate}
-    analysis = {"type": "identify", "data": name, "methods": methods, "units": units, "columns": columns, "scale": scale, **options}
-    scenario = {"system": system, "analysis": analysis}
+    scenario = {"system": system, "analysis": {"data": name, **analysis}}
     if frequency is not None:
         scenario["excitation"] = {"type": "base_harmonic", "frequency": frequency}
-    return run_source(source_of(scenario, data=texts), out=out, threads=threads)
+    return source_of(scenario, data=texts)
 
 
 def in_memory(data):

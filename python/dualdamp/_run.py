@@ -126,13 +126,13 @@ def source_of(scenario, changes=None, data=None):
     raise TypeError(f"a scenario is a dict, a text or a path, not {type(scenario).__name__}")
 
 
-def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, progress=None):
+def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, progress=None, key="", answers=()):
     report = _Progress() if progress is True else progress
     laws = sys.modules.get(__package__ + "._python_laws")  # where no law is written in Python, none can fail
     if laws is not None:
         laws.last_error = None
     try:
-        done = core.run(source, "" if out is None else os.fspath(out), threads, resume, overwrite, report)
+        done = core.run(source, "" if out is None else os.fspath(out), threads, resume, overwrite, report, key, list(answers))
     finally:
         if isinstance(report, _Progress):
             report.close()

@@ -9,6 +9,9 @@
 #include <variant>
 
 #include "bench/analyses.hpp"
+#include "bench/contest/contest.hpp"
+#include "bench/contest/export.hpp"
+#include "bench/stress_test.hpp"
 #include "cli/report/result_directory.hpp"
 #include "core/numbers.hpp"
 #include "python/src/interruptible.hpp"
@@ -39,14 +42,28 @@ struct Settings {
   int threads = 0;
   scenarios::FoundCases found = scenarios::FoundCases::refuse;  ///< of a campaign: cases of an earlier run
   std::optional<std::function<void(std::size_t, std::size_t)>> progress = {};
+  std::string key = {};  ///< of an exported stress test whose answers are scored; empty: a run as it is
+  std::vector<std::pair<std::string, std::string>> answers = {};  ///< name and file
 };
 
-scenarios::Scenario load(const Source& source) {
+scenarios::Scenario load(const Source& source, const std::vector<scenarios::Override>& values = {}) {
   scenarios::LoadOptions options{.data_anywhere = source.data_anywhere, .analyses = bench::analyses()};
   for (const auto& [name, text] : source.data) options.data_texts.emplace(name, text);
   for (const std::string& assignment : source.set) options.set.push_back({assignment, "set"});
+  options.set.insert(options.set.end(), values.begin(), values.end());
   if (source.is_file) return scenarios::load_scenario(source.name, options);
   return scenarios::parse_scenario(source.text, source.name, options);
+}
+
+bench::ContestLoader loader(const Source& source) {
+  return [&source](const std::vector<scenarios::Override>& values) { return load(source, values); };
+}
+
+scenarios::Scenario load(const Source& source, const Settings& settings) {
+  if (settings.key.empty()) return load(source);
+  std::vector<bench::Answers> answers;
+  for (const auto& [name, file] : settings.answers) answers.push_back({name, file});
+  return bench::scored_scenario(loader(source), settings.key, answers);
 }
 
 /// A campaign writes its cases while it runs: where nobody says where to, they live as long as the run.
@@ -99,12 +116,23 @@ Run run(const Source& source, const Settings& settings) {
   Run done;
   interruptible(
       [&] {
-        done.scenario = std::make_shared<const scenarios::Scenario>(load(source));
+        done.scenario = std::make_shared<const scenarios::Scenario>(load(source, settings));
         done.result = std::make_shared<const scenarios::RunResult>(compute(*done.scenario, settings, error));
         return true;
       },
       &error);
   return done;
+}
+
+/// Returns the number of cases. `seed`: empty for a hidden one.
+std::size_t export_cases(const Source& source, const std::string& directory, const std::string& seed, int threads) {
+  return interruptible([&] {
+    const scenarios::Scenario scenario =
+        bench::contest_scenario(loader(source), seed.empty() ? bench::hidden_seed() : seed, "seed");
+    const scenarios::RunOptions options{.directory = directory, .threads = threads};
+    return bench::export_cases(*bench::stress_test_of(*scenario.question), scenarios::context_of(scenario, options),
+                               directory);
+  });
 }
 
 std::string document(const Run& run) {
@@ -199,15 +227,19 @@ void add_runs(py::module_& module) {
   module.def(
       "run",
       [](const Source& source, const std::string& directory, int threads, bool resume, bool overwrite,
-         std::optional<std::function<void(std::size_t, std::size_t)>> progress) {
+         std::optional<std::function<void(std::size_t, std::size_t)>> progress, const std::string& key,
+         std::vector<std::pair<std::string, std::string>> answers) {
         return run(source, {directory, threads,
                             resume      ? scenarios::FoundCases::resume
                             : overwrite ? scenarios::FoundCases::overwrite
                                         : scenarios::FoundCases::refuse,
-                            std::move(progress)});
+                            std::move(progress), key, std::move(answers)});
       },
       py::arg("source"), py::arg("directory") = "", py::arg("threads") = 0, py::arg("resume") = false,
-      py::arg("overwrite") = false, py::arg("progress") = py::none());
+      py::arg("overwrite") = false, py::arg("progress") = py::none(), py::arg("key") = "",
+      py::arg("answers") = std::vector<std::pair<std::string, std::string>>{});
+  module.def("export_cases", &export_cases, py::arg("source"), py::arg("directory"), py::arg("seed"),
+             py::arg("threads"));
   module.def("resolved", [](const Source& source) { return load(source).resolved; }, py::arg("source"));
   module.def("csv_text", &csv_text, py::arg("columns"), py::arg("rows"));
 }

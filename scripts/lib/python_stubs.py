@@ -146,6 +146,48 @@ def run(
 ) -> Result: ...
 def check(scenario: Scenario, changes: Mapping[str, Any] | None = None) -> str: ...
 def load_plugin(path: Path) -> None: ...
+
+class Case:
+    number: int
+    mass: float
+    stiffness: float
+    frequency: float
+    sigma_x: float
+    sigma_Y: float
+    record: NDArray[Any]
+    decay: NDArray[Any] | None
+    random: NDArray[Any] | None
+    def identify(self, **options: Any) -> Result: ...
+
+def benchmark(
+    scenario: Scenario,
+    methods: Mapping[str, Callable[[Case], Mapping[str, Any] | None]],
+    *,
+    changes: Mapping[str, Any] | None = None,
+    seed: int | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Result: ...
+def stress_export(
+    scenario: Scenario,
+    directory: Path,
+    *,
+    changes: Mapping[str, Any] | None = None,
+    seed: int | None = None,
+    threads: int = 0,
+) -> int: ...
+def cases(directory: Path) -> Iterator[Case]: ...
+def stress_score(
+    scenario: Scenario,
+    key: Path,
+    answers: Mapping[str, Any],
+    *,
+    changes: Mapping[str, Any] | None = None,
+    out: Path | None = None,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Result: ...
 @overload
 def quantity(values: float, unit: str) -> str: ...
 @overload
@@ -245,6 +287,15 @@ def identify_function():
     return function("identify", ["data: Path | Mapping[str, Any] | NDArray[Any] | Any"], named, "Result")
 
 
+def next_function():
+    own = {"data", "units", "columns", "scale", "measurement", "sensors"}
+    keys = [key for key in entry("analyses", "design")["keys"] if key["name"] not in own]
+    named = ["mass: Quantity | None = None", "stiffness: Quantity | None = None", "frequency: str | None = None"]
+    named += [f"{name}: Mapping[str, str] | None = None" for name in ("units", "columns", "scale")]
+    named += ["out: Path | None = None", "threads: int = 0", *parameters_of(keys)]
+    return function("next", ["data: Path | Mapping[str, Any] | NDArray[Any] | Any"], named, "Result")
+
+
 def fit_functions():
     own = {"data", "laws", "validate"}
     keys = [key for key in entry("analyses", "fit")["keys"] if key["name"] not in own]
@@ -286,6 +337,7 @@ def main():
         *overloads("law", "name", laws, "Law"),
         *overloads("excitation", "type", drives, "Excitation"),
         identify_function(),
+        next_function(),
         *fit_functions(),
         *(analysis_function(name, False) for name in OF_SYSTEMS),
         system_class(),

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/score/key.hpp"
+#include "bench/contest/key.hpp"
 #include "core/diagnostics.hpp"
 #include "tests/fuzz/harness.hpp"
 

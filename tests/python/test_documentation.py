@@ -1,4 +1,4 @@
-"""The examples of docs/python.md and of every docstring give what they say; signatures and stub follow the tables."""
+"""The examples of the pages and of every docstring give what they say; signatures and stub follow the tables."""
 
 import doctest
 import inspect
@@ -23,8 +23,9 @@ def run_examples(text, name):
     return len(test.examples)
 
 
-def test_the_page():
-    assert run_examples((ROOT / "docs/python.md").read_text(), "python.md") > 20
+@pytest.mark.parametrize("page, least", [("python.md", 20), ("benchmark.md", 3)])
+def test_the_pages(page, least):
+    assert run_examples((ROOT / "docs" / page).read_text(), page) > least
 
 
 @pytest.mark.parametrize("name", sorted(set(dd.__all__) - {"laws", "methods", "excitations"}))
@@ -32,6 +33,12 @@ def test_docstring(name):
     text = inspect.getdoc(getattr(dd, name))
     assert text and len(text.splitlines()) >= 1
     run_examples(text, name)
+
+
+def test_the_reference_has_every_name():
+    text = (ROOT / "docs/site/python-reference.rst").read_text()
+    named = {line.split("::")[1].strip() for line in text.splitlines() if line.startswith(".. auto")}
+    assert named == set(dd.__all__) - {"laws", "methods", "excitations"}
 
 
 def test_there_are_examples():

@@ -1,4 +1,4 @@
-#include "bench/score/key.hpp"
+#include "bench/contest/key.hpp"
 
 #include <unistd.h>
 

@@ -5,14 +5,14 @@
 /// `cases/NNNNNN-decay.csv` beside it where the stress test has decays, `cases/NNNNNN-random.csv` where it has
 /// responses to a random drive. `constants.csv`: for each case the mass,
 /// the stiffness and the frequency that the laboratory believes in, and the standard deviations of an amplitude
-/// that its sensors have. The numbers are those of the key (`score/key.hpp`): neighbours have nothing to do with
+/// that its sensors have. The numbers are those of the key (`key.hpp`): neighbours have nothing to do with
 /// each other.
 ///
 /// Errors: `scenarios::OutputError`.
 
 #include <string>
 
-#include "bench/score/key.hpp"
+#include "bench/contest/key.hpp"
 #include "bench/stress_test.hpp"
 
 namespace dualdamp::bench {

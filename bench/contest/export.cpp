@@ -1,4 +1,4 @@
-#include "bench/export.hpp"
+#include "bench/contest/export.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,71 @@
+#include "bench/contest/contest.hpp"
+
+#include <cstdint>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "bench/contest/export.hpp"
+#include "bench/contest/key.hpp"
+#include "bench/stress_test.hpp"
+#include "core/diagnostics.hpp"
+#include "scenarios/run.hpp"
+
+namespace dualdamp::bench {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, std::string message, std::string allowed,
+                         std::string found = {}) {
+  throw core::InputError(
+      core::Diagnostic{{file, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
+}
+
+/// Answers do not know cases that have another truth, and none is sorted by a key that was changed.
+void check_key(const Key& key, const std::string& file, const scenarios::Scenario& scenario) {
+  const Key exported = key_of(*stress_test_of(*scenario.question), scenarios::context_of(scenario, {}));
+  if (key.scenario != exported.scenario)
+    refuse(file, "the key is that of another stress test",
+           "the scenario, with the same changes, that was exported");
+  if (key.numbers != exported.numbers)
+    refuse(file, "the key is not as the export wrote it",
+           "key.json of the export, whose cases are " + std::to_string(exported.numbers.size()));
+}
+
+}  // namespace
+
+std::string hidden_seed() {
+  std::random_device device;
+  constexpr unsigned bits = 21;
+  const std::uint64_t high = device() >> (32U - bits);
+  return std::to_string((high << 32U) | device());
+}
+
+scenarios::Scenario contest_scenario(const ContestLoader& load, const std::string& seed,
+                                     const std::string& origin) {
+  const scenarios::Scenario scenario = load({});
+  if (stress_test_of(*scenario.question) == nullptr)
+    refuse(scenario.file, "this scenario asks for no stress test", "analysis: {type: stress_test, ...}",
+           scenario.analysis_name);
+  // Only now: of another analysis the reader would refuse the seed, and not say why.
+  return load({{"analysis.seed=" + seed, origin}});
+}
+
+scenarios::Scenario scored_scenario(const ContestLoader& load, const std::string& key_file,
+                                    const std::vector<Answers>& answers) {
+  const Key key = read_key(key_file);
+  scenarios::Scenario scenario = contest_scenario(load, std::to_string(key.seed), key_file);
+  check_key(key, key_file, scenario);
+  StressTest question = *stress_test_of(*scenario.question);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < question.methods.size(); ++i) names.insert(question.entrant(i));
+  for (const Answers& entry : answers) {
+    if (!names.insert(entry.name).second)
+      refuse(entry.file, "two take part under one name", "another name", entry.name);
+    question.entries.push_back(read_entry(entry.name, entry.file, key));
+  }
+  scenario.question = question_of(std::move(question));
+  return scenario;
+}
+
+}  // namespace dualdamp::bench

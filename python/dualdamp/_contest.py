@@ -1,0 +1,233 @@
+"""The stress test as a benchmark that methods written in Python, and programs outside, take part in."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ._identification import identify, in_memory
+from ._library import core
+from ._run import run_source, source_of
+from ._systems import quantity
+
+# Of a row of answers; docs/benchmark.md says what each means.
+_COLUMNS = ("zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value", "usable")
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """What a laboratory has of one rig: records and constants, and no word of the truth.
+
+    Attributes
+    ----------
+    number : int
+        Of the case, from 1; cases are in a random order.
+    mass, stiffness, frequency : float
+        As the laboratory believes them to be [kg, N/m, rad/s].
+    sigma_x, sigma_Y : float
+        Standard deviation of an amplitude by the noise of the sensors [m].
+    record : numpy.ndarray
+        Structured array in SI: steady states with ``Y``, ``x``, perhaps ``omega``, ``phase``, ``fundamental``,
+        ``mean_square_speed``, ``sweep``; or histories, ``t``, ``x``, ``y``, ``v``, ``a``, ``force``.
+    decay : numpy.ndarray or None
+        Extremes of a free vibration, ``t`` and ``x``.
+    random : numpy.ndarray or None
+        Response to a random drive.
+    """
+
+    number: int
+    mass: float
+    stiffness: float
+    frequency: float
+    sigma_x: float
+    sigma_Y: float
+    record: np.ndarray
+    decay: np.ndarray | None = None
+    random: np.ndarray | None = None
+
+    def identify(self, **options):
+        """`dualdamp.identify` of the record on the constants of the case; `options` are its own."""
+        units = {name: unit for name, unit in (("omega", "rad/s"), ("phase", "rad")) if name in self.record.dtype.names}
+        frequency = quantity(self.frequency, "rad/s")
+        return identify(self.record, mass=self.mass, stiffness=self.stiffness, frequency=frequency, units=units, **options)
+
+
+def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0, progress=None):
+    """Score identification methods written in Python beside those of the program.
+
+    Parameters
+    ----------
+    scenario : mapping, str or path
+        With the analysis ``stress_test``, such as ``"scenarios/stress/benchmark.yaml"``.
+    methods : mapping of str to callable
+        Each is called as ``method(case)`` with a `Case`, and returns a mapping with any of ``zeta``, ``F0``, ``zeta_low``,
+        ``zeta_high``, ``F0_low``, ``F0_high`` (95 % intervals), ``p_value``, ``usable``; or None. Without ``zeta`` or without
+        ``F0`` it is no answer.
+    changes : mapping, optional
+        Values laid over the scenario, as in `run`.
+    seed : int, optional
+        Of all noise. Default: drawn at random.
+    out, threads, progress
+        As in `run`; `progress` is that of the program's own methods.
+
+    Returns
+    -------
+    Result
+        ``ranking``, ``scores``, ``families`` and more, with a row for each method.
+
+    Raises
+    ------
+    InvalidScenario
+        The scenario is no stress test; or an answer is none, by the number of its case.
+
+    Notes
+    -----
+    Exceptions of a method end the benchmark; a note says in which case. A method is called for one case at a time.
+
+    Examples
+    --------
+    >>> import dualdamp as dd, numpy as np
+    >>> def line(case):
+    ...     slope, intercept = np.polyfit(case.record["Y"], case.record["x"], 1)
+    ...     zeta, F0 = 1 / (2 * slope), -intercept / slope * np.pi / 4 * case.stiffness
+    ...     return {"zeta": zeta, "F0": F0, "zeta_low": 0.8 * zeta, "zeta_high": 1.2 * zeta, "F0_low": 0.9 * F0, "F0_high": 1.1 * F0}
+    >>> scored = dd.benchmark("scenarios/stress/small.yaml", {"line": line}, seed=1)
+    >>> [(row.method, round(row.interval_score, 2)) for row in scored.result.ranking]
+    [('resonance_least_squares', 1.2), ('den_hartog_fit', 1.59), ('resonance_two_point', 2.0), ('line', 2.35)]
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        stress_export(scenario, folder, changes=changes, seed=seed, threads=threads)
+        answers = {name: _answers(name, method, folder) for name, method in methods.items()}
+        key = Path(folder) / "key.json"
+        return stress_score(scenario, key, answers, changes=changes, out=out, threads=threads, progress=progress)
+
+
+def stress_export(scenario, directory, *, changes=None, seed=None, threads=0):
+    """Write the records of all cases of a stress test, their constants, and the key to them.
+
+    Parameters
+    ----------
+    scenario, changes
+        As in `benchmark`.
+    directory : path
+        For ``cases/``, ``constants.csv`` and ``key.json``; docs/benchmark.md says what they hold. `cases` reads them.
+    seed : int, optional
+        Of all noise. Default: a hidden one, drawn at random.
+    threads : int, optional
+        At most so many; 0: all cores.
+
+    Returns
+    -------
+    int
+        The number of cases.
+
+    Raises
+    ------
+    InvalidScenario
+        The scenario is no stress test.
+    OutputError
+        The files cannot be written.
+    """
+    return core.export_cases(source_of(scenario, changes), os.fspath(directory), "" if seed is None else str(seed), threads)
+
+
+def cases(directory):
+    """Read exported cases, one after the other.
+
+    Parameters
+    ----------
+    directory : path
+        Of an export, with or without its key.
+
+    Yields
+    ------
+    Case
+    """
+    folder = Path(directory)
+    for known in _table(folder / "constants.csv"):
+        number, *constants = known.tolist()
+        name = f"{int(number):06d}"
+        others = (_table(path) if (path := folder / "cases" / f"{name}-{kind}.csv").exists() else None for kind in ("decay", "random"))
+        yield Case(int(number), *constants, _table(folder / "cases" / f"{name}.csv"), *others)
+
+
+def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, progress=None):
+    """Score answers to an exported stress test beside the methods.
+
+    Parameters
+    ----------
+    scenario, changes
+        The same as for the export.
+    key : path
+        ``key.json`` of the export.
+    answers : mapping of str to path or columns
+        By the name of who takes part: a file of answers, or its columns as a DataFrame, a structured array or a dict.
+    out, threads, progress
+        As in `run`. A second call with the same `out` scores only: the answers of the methods are there.
+
+    Returns
+    -------
+    Result
+        ``ranking``, ``scores``, ``families`` and more.
+
+    Raises
+    ------
+    InvalidScenario
+        A key of another stress test; answers that are none, with their place.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        files = []
+        for i, (name, columns) in enumerate(answers.items()):
+            path = columns
+            if not isinstance(columns, (str, os.PathLike)):
+                # Messages name the file: who takes part, as far as a file can be named so.
+                path = Path(folder) / str(i) / (name if name.isidentifier() else "answers")
+                path.parent.mkdir()
+                path.write_text(in_memory(columns))
+            files.append((name, os.fspath(path)))
+        return run_source(source_of(scenario, changes), out=out, threads=threads, resume=True, progress=progress, key=os.fspath(key), answers=files)
+
+
+def _table(path):
+    """A structured array from a file that the program wrote; units of the names are SI."""
+    with open(path) as file:
+        names = [name.split(" ")[0] for name in file.readline().strip().split(",")]
+        numbers = np.loadtxt(file, delimiter=",", ndmin=2)
+    table = np.empty(len(numbers), [(name, float) for name in names])
+    for i, name in enumerate(names):
+        table[name] = numbers[:, i]
+    return table
+
+
+def _answers(name, method, directory):
+    """Columns of the answers of a method to exported cases."""
+    rows = []
+    for case in cases(directory):
+        try:
+            rows.append(_row(case.number, method(case)))
+        except Exception as error:
+            error.add_note(f"in case {case.number} of the method {name!r}")
+            raise
+    return dict(zip(("case", *_COLUMNS), map(list, zip(*rows)))) if rows else {"case": []}
+
+
+def _row(number, answer):
+    """The cells of one answer."""
+    if answer is None:
+        answer = {}
+    if not isinstance(answer, Mapping):
+        raise TypeError(f"a method returns a mapping or None, not {type(answer).__name__}")
+    if unknown := set(answer) - set(_COLUMNS):
+        raise TypeError(f"an answer has no {', '.join(map(repr, sorted(unknown)))}; it may have {', '.join(_COLUMNS)}")
+    return [number, *(_cell(answer.get(column)) for column in _COLUMNS)]
+
+
+def _cell(value):
+    if value is None:
+        return ""
+    return ("yes" if value else "no") if isinstance(value, (bool, np.bool_)) else repr(float(value))

@@ -1,0 +1,106 @@
+"""Methods written in Python in the benchmark: cases as exported, scores as of the program."""
+
+import warnings
+
+import dualdamp as dd
+import numpy as np
+import pytest
+
+SMALL = "scenarios/stress/small.yaml"
+INSIDE = "resonance_least_squares"
+
+
+def again(case):
+    """A method of the program by way of the package."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.IncompleteResult)
+        found = case.identify(methods=[INSIDE])
+    estimate = found.result.estimates[0]
+    if estimate.get("zeta") is None:
+        return None
+    interval = estimate.get("interval95") or {}
+    ends = {f"{name}_{end}": limit for name in ("zeta", "F0") if interval.get(name) for end, limit in zip(("low", "high"), interval[name])}
+    lack = estimate.diagnostics.lack_of_fit
+    return {"zeta": estimate.zeta, "F0": estimate.F0, **ends, "p_value": lack.p_value, "usable": not lack.fired}
+
+
+def test_a_method_of_the_program_scores_as_itself():
+    scored = dd.benchmark(SMALL, {"again": again}, seed=11)
+    inside, outside = ({k: v for k, v in row.items() if k != "method"} for name in (INSIDE, "again") for row in scored.result.ranking if row.method == name)
+    assert inside == outside
+
+
+def test_the_export_of_the_program(program, tmp_path):
+    assert dd.stress_export(SMALL, tmp_path / "here", seed=7) == 40
+    assert program("stress", "export", SMALL, "--seed", 7, "--out", tmp_path / "there")[0] == 0
+    files = sorted(path.relative_to(tmp_path / "here") for path in (tmp_path / "here").rglob("*.*"))
+    assert len(files) == 42
+    for file in files:
+        assert (tmp_path / "here" / file).read_bytes() == (tmp_path / "there" / file).read_bytes()
+    cases = list(dd.cases(tmp_path / "here"))
+    assert [case.number for case in cases] == list(range(1, 41))
+    assert cases[0].record.dtype.names[:2] == ("Y", "x")
+    text = np.genfromtxt(tmp_path / "here/cases/000003.csv", delimiter=",", skip_header=1)
+    assert np.array_equal(cases[2].record["x"], text[:, 1])
+    assert cases[0].decay is None and cases[0].random is None
+
+
+def test_cases_with_decays(tmp_path):
+    changes = {"analysis.decay": {"displacement": "20 mm", "peaks": 6}, "analysis.seeds": 1}
+    dd.stress_export(SMALL, tmp_path, changes=changes)
+    case = next(dd.cases(tmp_path))
+    assert case.decay.dtype.names == ("t", "x") and np.ptp(np.diff(case.decay["t"])) < 0.02
+
+
+def test_answers_from_a_file_and_from_columns(tmp_path):
+    dd.stress_export(SMALL, tmp_path, seed=7)
+    numbers = np.arange(1, 41)
+    columns = {"case": numbers, "zeta": numbers / 400, "F0": np.full(40, 4.0), "usable": numbers > 20}
+    (tmp_path / "answers.csv").write_text("case,zeta,F0,usable\n" + "".join(f"{n},{n / 400},4,{'yes' if n > 20 else 'no'}\n" for n in numbers))
+    scored = dd.stress_score(SMALL, tmp_path / "key.json", {"file": tmp_path / "answers.csv", "columns": columns}, out=tmp_path / "out")
+    rows = {row.method: {k: v for k, v in row.items() if k != "method"} for row in scored.result.ranking}
+    assert rows["file"] == rows["columns"]
+    assert (tmp_path / "out/ranking.csv").exists()
+
+
+@pytest.mark.parametrize(
+    "answer, error, message",
+    [
+        ({"beta": 1}, TypeError, "has no 'beta'"),
+        (3, TypeError, "a mapping or None, not int"),
+        ({"zeta": "much"}, ValueError, "could not convert"),
+        ({"zeta_low": 0.1}, dd.InvalidScenario, "an interval has one end"),
+        ({"p_value": 2}, dd.InvalidScenario, "'p_value' is out of range"),
+    ],
+)
+def test_answers_that_are_none(answer, error, message):
+    with pytest.raises(error, match=message) as caught:
+        dd.benchmark(SMALL, {"mine": lambda case: answer}, seed=1)
+    if error is not dd.InvalidScenario:
+        assert caught.value.__notes__ == ["in case 1 of the method 'mine'"]
+    else:
+        assert "mine:2" in str(caught.value)
+
+
+def test_refusals(tmp_path):
+    with pytest.raises(dd.InvalidScenario, match="asks for no stress test"):
+        dd.benchmark("scenarios/examples/coulomb.yaml", {})
+    with pytest.raises(dd.InvalidScenario, match="under one name"):
+        dd.benchmark(SMALL, {INSIDE: lambda case: None})
+    dd.stress_export(SMALL, tmp_path, seed=7)
+    with pytest.raises(dd.InvalidScenario, match="that of another stress test"):
+        dd.stress_score(SMALL, tmp_path / "key.json", {}, changes={"analysis.seeds": 5})
+    with pytest.raises(dd.InvalidScenario, match="analysis.seed"):
+        dd.stress_export(SMALL, tmp_path, seed=-1)
+
+
+def test_next_as_the_program(program, tmp_path):
+    import json
+
+    rig = {"mass": "1.042 kg", "stiffness": "1568 N/m", "frequency": "6.17 Hz"}
+    options = [part for name, value in rig.items() for part in (f"--{name}", value)]
+    status, text, _ = program("next", "scenarios/examples/my_rig.csv", *options, "--json", "--out", tmp_path)
+    assert status == 0
+    assert dd.next("scenarios/examples/my_rig.csv", **rig).result == json.loads(text)["result"]
+    with pytest.raises(dd.InvalidScenario, match="these are a free vibration"):
+        dd.next("scenarios/examples/free_run.csv", mass=1.0, stiffness=1000.0)
