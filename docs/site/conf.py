@@ -23,6 +23,7 @@ autodoc_member_order = "bysource"
 html_theme = "furo"
 html_title = f"dualdamp {version}"
 html_static_path = ["static"]
+html_extra_path = [str(root / "build/site/extra")]  # cpp/: the C++ reference by Doxygen
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False

@@ -123,7 +123,8 @@ def public_headers(root):
             text = re.sub(r"#.*", "", cmake.read_text())
             names = [name for part in HEADER_LIST.findall(text) for name in part.split()]
             names += [name + ".hpp" for part in PAIR_LIST.findall(text) for name in part.split()]
-            found |= {str((cmake.parent / name).relative_to(root)) for name in names}
+            paths = (cmake.parent / name for name in names)
+            found |= {str(path.relative_to(root)) for path in paths if path.suffix in (".hpp", ".h") and path.exists()}
     return found
 
 

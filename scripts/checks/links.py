@@ -46,13 +46,15 @@ def pages(root):
 
 def link_faults(root, page, text):
     plain = CODE.sub(blank, FENCE.sub(blank, text))
-    folder = root / "docs" if page.parent == root / "docs/site" else page.parent
+    # Those of docs/site/ find their neighbours there and in docs/.
+    folders = [root / "docs", page.parent] if page.parent == root / "docs/site" else [page.parent]
     for match in LINK.finditer(plain):
         target = match[1]
         if ELSEWHERE.match(target):
             continue
         name, _, anchor = unquote(target).partition("#")
-        path = (folder / name).resolve() if name else page
+        places = [(folder / name).resolve() for folder in folders] if name else [page]
+        path = next((place for place in places if place.exists()), places[0])
         where = f"{page.relative_to(root)}:{plain.count(chr(10), 0, match.start()) + 1}"
         if not path.exists():
             yield f"{where}: no file '{target}'"
