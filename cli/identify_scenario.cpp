@@ -73,7 +73,7 @@ scenarios::Scenario scenario_of(const NextCommand& command) {
   scenarios::LoadOptions options;
   const bool from_scenario = is_scenario(command.data);
   options.data_anywhere = !from_scenario;
-  if (from_scenario) options.set.push_back({"analysis.type=design", "next"});
+  if (from_scenario) options.instead = "design";
   if (!from_scenario) options.set.push_back({"analysis.data=" + quoted(command.data), "DATA"});
   if (!from_scenario && !command.frequency.empty())
     options.set.push_back({"excitation.type=base_harmonic", "--frequency"});

@@ -37,6 +37,31 @@ void refuse_other_schema(const Document& document) {
                        {}});
 }
 
+/// Asks another analysis of the record of the document, of which a measurement is the mark. Returns what it left
+/// out, in words.
+std::string ask_instead(Document& document, const LoadOptions& options) {
+  const Entry* section = document.root().find("analysis");
+  const Entry* type = section == nullptr ? nullptr : section->value.find("type");
+  const Analysis* asked = type == nullptr ? nullptr : find_analysis(options.analyses, type->value.text);
+  if (options.instead.empty() || asked == nullptr || asked->name == options.instead) return {};
+  if (asked->keys.find("measurement") == nullptr)
+    throw core::InputError(
+        core::Diagnostic{document.locate(type->value.place),
+                         "this scenario has no record to ask '" + std::string(options.instead) + "' of",
+                         "a scenario of the analysis identify or " + std::string(options.instead),
+                         std::string(asked->name),
+                         {}});
+  const Analysis& wanted = *find_analysis(options.analyses, options.instead);
+  std::string left_out;
+  for (const Field& field : asked->keys.fields)
+    if (wanted.keys.find(field.name) == nullptr && document.take("analysis." + field.name))
+      left_out += (left_out.empty() ? "analysis." : ", analysis.") + field.name;
+  if (document.take("expect")) left_out += left_out.empty() ? "expect" : ", expect";
+  document.take("analysis.type");
+  document.set("analysis.type=" + std::string(options.instead), "analysis");
+  return left_out;
+}
+
 core::Coordinate coordinate_of(const Json& system) {
   return system.value("coordinate", "") == core::name_of(core::Coordinate::angle) ? core::Coordinate::angle
                                                                                   : core::Coordinate::displacement;
@@ -237,6 +262,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
 
 Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
   Document document(name, text);
+  const std::string left_out = ask_instead(document, options);
   for (const Override& item : options.set) document.set(item.assignment, item.origin, item.replaceable);
   refuse_other_schema(document);
   const bool is_sweep = document.root().find("sweep") != nullptr;
@@ -245,6 +271,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
                           : scenario_of(document, read(document, scenario_format(options.analyses)), name, options);
   scenario.file_sha256 = core::sha256(text);
   for (const Override& item : options.set) scenario.overrides.push_back(item.assignment);
+  if (!left_out.empty())
+    scenario.warnings.push_back("'" + std::string(options.instead) + "' does not use " + left_out + ": left out");
   return scenario;
 }
 

@@ -65,6 +65,9 @@ struct LoadOptions {
   bool data_anywhere = false;
   DataTexts data_texts = {};
   AnalysisList analyses = scenarios::analyses();  ///< what the file may ask for
+  /// Asks this analysis of the record that the file has another one for (`design` of that of `identify`): keys that
+  /// only the other one has, and `expect`, are left out with a warning. Empty: what the file asks.
+  std::string_view instead = {};
 };
 
 /// Reads a file. A file that cannot be read is an `InputError` too.

@@ -72,7 +72,9 @@ std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& stat
       at_levels({low->Y, high->Y}, shared_out(count, 2), omega), has_phase);
   add("three levels: half of the states at the lowest, a quarter in the middle, a quarter at the highest",
       at_levels({low->Y, middle, high->Y}, shared_out(count, 3), omega), has_phase);
-  add("the same states at levels twice as high", scaled(same, 2.0, 1.0), has_phase);
+  const States higher = scaled(same, 2.0, 1.0);
+  if (!has_phase) add("the same states at levels twice as high", higher, false);
+  add("the same states at levels twice as high, with phases", higher, true);
   const double aside = 1.0 + std::clamp(zeta, 0.01, 0.2);
   const States other_frequency = scaled(same, 1.0, aside);
   const States curve = resonance_curve(middle, natural, zeta, std::max(count, 5));
@@ -80,6 +82,10 @@ std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& stat
   add("the same levels at a frequency above, off the resonance by zeta, with phases", other_frequency, true);
   if (!has_phase) add("the resonance curve at the middle level", curve, false);
   add("the resonance curve at the middle level, with phases", curve, true);
+  add("the resonance curve at the lowest level, with phases",
+      resonance_curve(low->Y, natural, zeta, std::max(count, 5)), true);
+  add("the resonance curve at the highest level, with phases",
+      resonance_curve(high->Y, natural, zeta, std::max(count, 5)), true);
   list.push_back({"release the mass from the largest amplitude and read its extremes",
                   PlannedDecay{largest_x, std::max(count, 8)}, false, false, 1.0});
   return list;

@@ -222,11 +222,19 @@ void Document::put(std::string_view path, Node value, const std::function<Place(
   *node = std::move(value);
 }
 
-std::optional<Entry> Document::take(std::string_view key) {
-  const auto found = std::ranges::find(root_.entries, key, &Entry::key);
-  if (found == root_.entries.end()) return std::nullopt;
+std::optional<Entry> Document::take(std::string_view path) {
+  const std::size_t dot = path.find('.');
+  std::vector<Entry>* entries = &root_.entries;
+  if (dot != std::string_view::npos) {
+    const auto section = std::ranges::find(*entries, path.substr(0, dot), &Entry::key);
+    if (section == entries->end()) return std::nullopt;
+    entries = &section->value.entries;
+    path.remove_prefix(dot + 1);
+  }
+  const auto found = std::ranges::find(*entries, path, &Entry::key);
+  if (found == entries->end()) return std::nullopt;
   Entry entry = std::move(*found);
-  root_.entries.erase(found);
+  entries->erase(found);
   return entry;
 }
 

@@ -26,7 +26,7 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
   const auto answer = testing::result_of(scenarios::run(scenarios::parse_scenario(scenario, "test.yaml")));
   const auto& candidates = answer.at("candidates");
   // The simulated states have phases: recording them is no candidate.
-  REQUIRE(candidates.size() == 7);
+  REQUIRE(candidates.size() == 9);
   double before = 0.0;
   for (const auto& candidate : candidates) {
     const double zeta = candidate.at("hull_shrinks_to").at("zeta").get<double>();
@@ -40,6 +40,25 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
     before = size;
   }
   CHECK(answer.at("advice") == candidates[0].at("text"));
+}
+
+TEST_CASE("design: of the record that another scenario identifies", "[scenarios][design]") {
+  const std::string all = scenario;
+  const std::string head = all.substr(0, all.find("analysis:"));
+  const std::string record =
+      "measurement: {type: xy_curve, amplitudes: {from: 4 mm, to: 7.5 mm, count: 6}}, sigma_x: 0.03 mm";
+  const scenarios::LoadOptions options{.instead = "design"};
+  const scenarios::Scenario asked =
+      scenarios::parse_scenario(head + "analysis: {type: identify, methods: [any_law], bootstrap: 100, " + record +
+                                    "}\nexpect: [{value: \"estimates[0].usable\", equals: true}]\n",
+                                "test.yaml", options);
+  CHECK(asked.analysis_name == "design");
+  REQUIRE(asked.warnings.size() == 1);
+  CHECK(asked.warnings[0] == "'design' does not use analysis.methods, analysis.bootstrap, expect: left out");
+  CHECK(scenarios::parse_scenario(scenario, "test.yaml", options).warnings.empty());
+  CHECK(asked.resolved == scenarios::parse_scenario(all, "test.yaml").resolved);
+  CHECK_THROWS_WITH(scenarios::parse_scenario(head + "analysis: {type: steady_state}\n", "test.yaml", options),
+                    Catch::Contains("no record to ask 'design' of"));
 }
 
 TEST_CASE("design: laws that are left out take no part", "[scenarios][design]") {
