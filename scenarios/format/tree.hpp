@@ -75,8 +75,8 @@ class Document {
 
   /// The same with a value that is already there; `place` is that of PATH, for messages.
   void put(std::string_view path, Place place, Node value);
-  /// Takes a key of the root, or of one of its sections (`analysis.methods`), out with its value; nothing when it is
-  /// not there.
+  /// Takes a key of the root, or of one of its sections (`analysis.methods`), out with its value; nothing when it
+  /// is not there.
   std::optional<Entry> take(std::string_view path);
   /// A part of this document, as one of its own that has no problems yet.
   [[nodiscard]] Document part(Node root) const;
