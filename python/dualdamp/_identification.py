@@ -122,12 +122,14 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
 def _source(data, system, frequency, analysis):
     """A scenario about one data file, or about data in memory."""
     texts = {}
+    title = None
     if isinstance(data, (str, os.PathLike)):
         name = os.fspath(data)
+        title = os.path.basename(name) or None
     else:
         name = _IN_MEMORY
         texts[name] = in_memory(data)
-    scenario = {"system": system, "analysis": {"data": name, **analysis}}
+    scenario = {"title": title, "system": system, "analysis": {"data": name, **analysis}}
     if frequency is not None:
         scenario["excitation"] = {"type": "base_harmonic", "frequency": frequency}
     return source_of(scenario, data=texts)
