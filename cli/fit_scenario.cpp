@@ -74,7 +74,8 @@ void add_drive(const RecordCommand& command, scenarios::LoadOptions& options) {
 /// The document of a fit.
 Json fitted_document(const std::string& path) {
   namespace fs = std::filesystem;
-  const fs::path file = fs::is_directory(path) ? fs::path(path) / "result.json" : fs::path(path);
+  std::error_code error;  // of what cannot be looked at reading tells more
+  const fs::path file = fs::is_directory(path, error) ? fs::path(path) / "result.json" : fs::path(path);
   constexpr std::size_t largest = std::size_t{1} << 26U;
   Json document = scenarios::parse_json(scenarios::read_file(file.string(), largest));
   if (!document.is_object() || document.value("analysis", Json()) != "fit" || !document.contains("result"))

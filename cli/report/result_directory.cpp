@@ -54,9 +54,9 @@ bool is_ours(const fs::path& path) {
 /// Gives a file another name, which no file has. Returns what to tell.
 std::string set_aside(const fs::path& path) {
   fs::path other = path;
-  do other += "~";
-  while (fs::exists(other));
   std::error_code error;
+  do other += "~";
+  while (fs::exists(other, error));
   fs::rename(path, other, error);
   if (error)
     throw scenarios::OutputError("cannot write " + path.string() +
@@ -72,7 +72,8 @@ std::vector<std::string> write_keeping(const std::string& directory,
   std::vector<std::string> messages;
   for (const scenarios::OutputFile& file : files) {
     const fs::path path = fs::path(directory) / file.name;
-    if (fs::is_regular_file(path) && (!is_ours(path) || is_data(path, data_sha256)))
+    std::error_code unseen;  // a place that cannot be looked at cannot be written either: that is told below
+    if (fs::is_regular_file(path, unseen) && (!is_ours(path) || is_data(path, data_sha256)))
       messages.push_back(set_aside(path));
   }
   scenarios::write_files(directory, files);

@@ -71,8 +71,10 @@ bool belongs_to(const std::map<std::string, std::string>& identity, const fs::pa
 std::vector<fs::path> tables_of(const fs::path& directory, const Json& document) {
   const std::map<std::string, std::string> identity = identity_of(document);
   std::vector<fs::path> paths;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
-    if (entry.path().extension() == ".csv" && entry.is_regular_file() && belongs_to(identity, entry.path()))
+  std::error_code error;  // what cannot be read is no table
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error))
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(error) &&
+        belongs_to(identity, entry.path()))
       paths.push_back(entry.path());
   std::ranges::sort(paths);
   return paths;

@@ -109,7 +109,10 @@ std::string CaseFile::part_path(int part) const {
 /// Those that are there, in order.
 std::vector<int> CaseFile::parts() const {
   std::vector<int> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory_)) {
+  std::error_code error;
+  const fs::directory_iterator entries(directory_, error);
+  if (error) throw OutputError("cannot read " + directory_ + ": " + error.message());
+  for (const fs::directory_entry& entry : entries) {
     const std::string name = entry.path().filename().string();
     if (name == name_ + ".jsonl") found.push_back(0);
     if (!name.starts_with(name_ + ".") || !name.ends_with(".jsonl")) continue;
