@@ -3,7 +3,10 @@
 # HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
 # A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
 # say PAIRS, the test ROOM/test_NAME.cpp: one line for each law, method or analysis.
-# PUBLIC and PRIVATE are what it links. PRECOMPILED are headers of libraries that most of its sources would read anew.
+# PUBLIC and PRIVATE are what it links. PRECOMPILED are headers of libraries that most of its sources would read anew,
+# beside those of the standard library that most sources of every folder read.
+set(DUALDAMP_PRECOMPILED <algorithm> <cmath> <functional> <limits> <map> <memory> <optional> <span> <string> <variant> <vector>)
+
 function(dualdamp_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE;PRECOMPILED")
   if(arg_UNPARSED_ARGUMENTS)
@@ -29,9 +32,7 @@ function(dualdamp_module name)
   if(name IN_LIST DUALDAMP_BRIEF_FOLDERS)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:dualdamp_brief_options>)
   endif()
-  if(arg_PRECOMPILED)
-    target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILED})
-  endif()
+  target_precompile_headers(${target} PRIVATE ${DUALDAMP_PRECOMPILED} ${arg_PRECOMPILED})
   if(name IN_LIST DUALDAMP_LINK_TIME_FOLDERS)
     target_compile_options(${target} PRIVATE "$<${DUALDAMP_LINK_TIME}:-flto=auto;-ffat-lto-objects;${DUALDAMP_SHORT_LOOPS}>")
   endif()
