@@ -73,8 +73,7 @@ std::vector<fs::path> tables_of(const fs::path& directory, const Json& document)
   std::vector<fs::path> paths;
   std::error_code error;  // what cannot be read is no table
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == ".csv" && entry.is_regular_file(error) &&
-        belongs_to(identity, entry.path()))
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(error) && belongs_to(identity, entry.path()))
       paths.push_back(entry.path());
   std::ranges::sort(paths);
   return paths;
