@@ -36,7 +36,7 @@ sim::Model far_from_the_origin(double sign) {
 
 TEST_CASE("smooth engine: a slip does not end where the forces drive the mass on", "[sim][smooth]") {
   // rate_state with mu0/a = 28: at a slip's end the mass creeps on, at speeds that an explicit step passes over. It
-  // was taken to reverse there, and chattered.
+  // was taken to reverse there once.
   sim::Model model;
   model.oscillator = {.mass = 0.01652273347721008, .stiffness = 870.5875366082995, .damping = 0.14186497616955548};
   model.excitation = {.type = sim::ExcitationType::base_harmonic,
