@@ -296,6 +296,10 @@ bool SmoothEngine::move(double left, Hit& hit, bool& found) {
     const double whole = taken_;
     grazings_.clear();
     found = find_hit(hit);
+    if (found && ends_against_flow(hit) && use_implicit_steps()) {
+      h_ = 0.0;
+      continue;
+    }
     if (found && may_be_swing_of_output(hit)) {
       h_ = 0.25 * whole;
       continue;

@@ -121,6 +121,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] double dip(std::size_t watch, Triple around);
   [[nodiscard]] bool falls_at_edge(std::size_t watch, std::size_t edge, Triple& around) const;
   [[nodiscard]] double crossing(std::size_t watch, double before, double negative) const;
+  [[nodiscard]] bool ends_against_flow(const Hit& hit) const;
   [[nodiscard]] bool may_be_swing_of_output(const Hit& hit) const;
   [[nodiscard]] bool land(const Hit& hit);
   [[nodiscard]] bool move(double left, Hit& hit, bool& found);

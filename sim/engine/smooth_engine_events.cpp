@@ -341,6 +341,20 @@ bool SmoothEngine::may_be_swing_of_output(const Hit& hit) const {
   return is<SlipEnd>(watch.ending) && watch.values.back() > 0.0 && taken_ > shortest_part * longest_step();
 }
 
+/// Whether a slip is found to end where the equation of motion drives the mass on: friction that turns over within
+/// a speed far below the step's reach, so that an explicit step passes over the creep at which the forces balance.
+bool SmoothEngine::ends_against_flow(const Hit& hit) const {
+  if (!is<SlipEnd>(watches_[hit.watch].ending)) return false;
+  constexpr double clear = 1e-6;
+  flow_.evaluate(X_, local_time_, rates_);
+  const double before = std::abs(rates_[1]);
+  probe_.resize(end_.size());
+  stepper_->at(hit.part, probe_);
+  probe_[1] = 0.0;
+  flow_.evaluate(probe_, local_time_ + hit.part * taken_, rates_);
+  return friction::sign(direction_) * rates_[1] > clear * before;
+}
+
 /// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
 /// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
 bool SmoothEngine::land(const Hit& hit) {
