@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/fit/compromise.hpp"
 #include "identify/fit/fit.hpp"
 
 namespace dualdamp::identify {
@@ -29,6 +30,8 @@ struct Prediction {
   double attainable = unknown;   ///< `error` of the rig fitted to this record
   double attainable_noise_units = unknown;
   double uncertainty = unknown;  ///< what the parameters' uncertainty adds to `error`, by itself
+  /// One rig against two: the fitted numbers and those of this record alone (`compromise.hpp`).
+  Compromise compromise;
   bool is_wrong = false;
   std::string text;
   std::vector<PredictionBand> bands;  ///< of the first sampled signal
