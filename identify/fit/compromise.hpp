@@ -6,12 +6,12 @@
 ///
 /// the likelihood ratio of two rigs to one, with A's likelihood by its estimate p_A and covariance C_A, both in the
 /// coordinates of the search (logarithms of positive numbers). s: what the rig fitted to B alone leaves, or the
-/// stated noise; n' of the n samples count as independent. Of one rig and normal errors T is chi-square with as many
-/// degrees of freedom as parameters that A knows; of deviations that were estimated T/f is Fisher's F. What B has of
-/// its own, its first state, is free in both. A parameter that A does not know takes any value.
+/// stated noise; n' of the n samples count as independent. Of one rig and normal errors T is chi-square with as
+/// many degrees of freedom as parameters that A knows; of deviations that were estimated T/f is Fisher's F. What B
+/// has of its own, its first state, is free in both. A parameter that A does not know takes any value.
 ///
-/// Source: wilks1938. Errors: `p_value` is unknown where A knows nothing, or B is not determined. Cost: four short
-/// searches.
+/// Source: wilks1938. Errors: `p_value` is unknown where A knows nothing, or B is not determined. Cost: nine
+/// motions; two short searches unless one of these has a chance of 0.2 already, whose T is an upper bound.
 
 #include <Eigen/Core>
 #include <vector>

@@ -175,6 +175,10 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     return found;
   }
   found.error = error_of(found.fit);
+  if (std::isnan(found.error)) {
+    found.text = "the record holds no motion to predict";
+    return found;
+  }
   found.noise_units = found.fit.noise_units;
   found.bands = bands_of(found.fit, experiments);
   found.uncertainty = uncertainty_of(found.fit, rig, parameters, covariance, experiments);
