@@ -138,11 +138,10 @@ bool lasts(const Fit& fit) {
 }
 
 void judge(Prediction& found, const Fit& attainable) {
-  const double excess = std::sqrt(std::max(found.error * found.error - found.attainable * found.attainable, 0.0));
-  // Three deviations of the parameters' own uncertainty, and a tenth of what the class can reach.
-  constexpr double deviations = 3.0;
-  constexpr double share = 0.45;  // beside the attainable error: 10 % more of it
-  const bool does_not_carry_over = excess > std::max(deviations * found.uncertainty, share * found.attainable);
+  // Significant, and more than a tenth of what the class can reach.
+  constexpr double level = 1e-3;
+  constexpr double share = 1.1;
+  const bool does_not_carry_over = found.compromise.p_value < level && found.error > share * found.attainable;
   // Noise is not alike from sample to sample; what the law leaves is.
   constexpr double units = 1.2;
   const bool cannot = attainable.noise_units > units && lasts(attainable);
@@ -155,8 +154,8 @@ void judge(Prediction& found, const Fit& attainable) {
     found.text += ": the law is wrong here, for even its own fit leaves " +
                   core::format_number(attainable.noise_units, 3) + " times the noise";
   else if (does_not_carry_over)
-    found.text += ": the law is wrong, or the rig has changed, for the uncertainty of its parameters explains " +
-                  percent(found.uncertainty) + " only";
+    found.text += ": the law is wrong, or the rig has changed, for no one set of its numbers suits both (chance " +
+                  core::format_number(found.compromise.p_value, 2) + ")";
   else
     found.text += ": the law carries over to this record";
 }
@@ -176,6 +175,10 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     return found;
   }
   found.error = error_of(found.fit);
+  if (std::isnan(found.error)) {
+    found.text = "the record holds no motion to predict";
+    return found;
+  }
   found.noise_units = found.fit.noise_units;
   found.bands = bands_of(found.fit, experiments);
   found.uncertainty = uncertainty_of(found.fit, rig, parameters, covariance, experiments);
@@ -188,6 +191,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     all.push_back(parameter);
     if (same.size() == 1) all.back().stated = same.front().stated;
   }
+  const std::vector<FitParameter> shared = all;
   std::ranges::move(own_parameters(experiments), std::back_inserter(all));
   const Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
@@ -198,6 +202,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   const Fit& best = error_of(attainable) < found.error ? attainable : found.fit;
   found.attainable = error_of(best);
   found.attainable_noise_units = best.noise_units;
+  found.compromise = compromise_of({rig, shared, covariance}, experiments, found.fit, attainable);
   judge(found, best);
   return found;
 }

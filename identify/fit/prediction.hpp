@@ -2,8 +2,10 @@
 /// Prediction: a record of the same rig, simulated with the parameters of a fit to other records.
 ///
 /// What the record has of its own, its first state, is fitted to it; the rig is not. Attainable is what the same
-/// rig reaches when it is fitted to the record itself. A rig is wrong where the prediction misses by more than its
-/// parameters are uncertain, or where even its own fit leaves what is not noise.
+/// rig reaches when it is fitted to the record itself. A rig is wrong where no one set of its numbers suits both
+/// records
+/// (`compromise.hpp`, a chance below 0.001) and the prediction misses by a tenth more than the attainable error, or
+/// where even its own fit leaves what is not noise.
 ///
 /// Bands: the residual of a sampled signal in octaves, by Haar's wavelets: sums and differences of neighbours,
 /// whose squares add up to those of the residual.
@@ -11,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/fit/compromise.hpp"
 #include "identify/fit/fit.hpp"
 
 namespace dualdamp::identify {
@@ -29,6 +32,8 @@ struct Prediction {
   double attainable = unknown;   ///< `error` of the rig fitted to this record
   double attainable_noise_units = unknown;
   double uncertainty = unknown;  ///< what the parameters' uncertainty adds to `error`, by itself
+  /// One rig against two: the fitted numbers and those of this record alone (`compromise.hpp`).
+  Compromise compromise;
   bool is_wrong = false;
   std::string text;
   std::vector<PredictionBand> bands;  ///< of the first sampled signal

@@ -111,6 +111,10 @@ Json validation_json(const identify::Prediction& prediction) {
                {"attainable", finite_or_null(prediction.attainable)},
                {"attainable_noise_units", finite_or_null(prediction.attainable_noise_units)},
                {"uncertainty", finite_or_null(prediction.uncertainty)},
+               {"compromise",
+                {{"statistic", finite_or_null(prediction.compromise.statistic)},
+                 {"freedom", prediction.compromise.freedom},
+                 {"p_value", finite_or_null(prediction.compromise.p_value)}}},
                {"wrong", prediction.is_wrong},
                {"text", prediction.text},
                {"bands", Json::array()}};
@@ -170,6 +174,12 @@ ResultFields validation_fields(const std::string& prefix) {
           {prefix + "attainable", "1", "error that the same laws reach when they are fitted to this record itself"},
           {prefix + "attainable_noise_units", "1", "the same over the noise"},
           {prefix + "uncertainty", "1", "error that the uncertainty of the fitted parameters explains"},
+          {prefix + "compromise.statistic", "1",
+           "-2 ln of the likelihood of one set of numbers for the fitted records and these, over that of two sets"},
+          {prefix + "compromise.freedom", "1", "its degrees of freedom: numbers that the fit knows"},
+          {prefix + "compromise.p_value", "1",
+           "chance of so much where one rig made both; null: the fit knows no number, or these records do not "
+           "determine the rig"},
           {prefix + "wrong", "", "the law, or the rig, is not that of the fitted records"},
           {prefix + "text", "", "what that means"},
           {prefix + "bands[].from", "Hz", "lower end of a band of frequencies"},

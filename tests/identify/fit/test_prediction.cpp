@@ -1,5 +1,6 @@
 #include "identify/fit/prediction.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -77,4 +78,45 @@ TEST_CASE("prediction: a wrong law is called wrong", "[identify][fit]") {
   CHECK(wrong.is_wrong);
   CHECK_THAT(wrong.text, Catch::Contains("the law is wrong"));
   CHECK(wrong.noise_units > 2.0);
+}
+
+TEST_CASE("prediction: one rig against two tells a wrong law that the own fit does not", "[identify][fit]") {
+  // Coulomb friction suits either record of a Stribeck rig by itself, with other numbers: its own fit of the second
+  // leaves the noise, the prediction three times as much.
+  const test::RandomRig rig = test::random_rig("stribeck", test::MotionKind::forced, 1);
+  const test::RandomRig second = test::driven_again(rig, 1.5, 100'000 + 1);
+  const auto predicted_as = [&](const char* law) {
+    test::RandomRig other = rig;
+    other.sought.laws.front() = {friction::find_law(law), {}};
+    const identify::Fit fit = test::fit_of(other);
+    REQUIRE(fit.outcome.ok());
+    identify::Rig fitted = fit.rig;
+    fitted.known.excitation = second.truth.known.excitation;
+    std::vector<identify::FitParameter> parameters;
+    for (const identify::FittedParameter& found : fit.parameters) parameters.push_back(found.parameter);
+    return identify::predict_records(fitted, parameters, identify::shared_covariance(fit),
+                                     experiments_of(second.record));
+  };
+  const identify::Prediction wrong = predicted_as("coulomb");
+  CAPTURE(wrong.text, wrong.compromise.statistic);
+  CHECK(wrong.attainable_noise_units < 1.2);
+  CHECK(wrong.compromise.p_value < 1e-3);
+  CHECK(wrong.is_wrong);
+  CHECK_THAT(wrong.text, Catch::Contains("no one set of its numbers"));
+  const identify::Prediction right = predicted_as("stribeck");
+  CAPTURE(right.text, right.compromise.statistic);
+  CHECK(right.compromise.p_value > 1e-3);
+  CHECK(!right.is_wrong);
+}
+
+TEST_CASE("prediction: a record without motion is not judged", "[identify][fit]") {
+  const test::RandomRig rig = test::random_rig("coulomb", test::MotionKind::forced, 1);
+  identify::Record still = rig.record;
+  for (std::vector<double>* signal : {&still.histories.front().x, &still.histories.front().v})
+    std::ranges::fill(*signal, 0.0);
+  identify::Rig held = rig.truth;
+  held.known.excitation.amplitude = 0.0;
+  const identify::Prediction found = identify::predict_records(held, {}, {}, experiments_of(still));
+  CHECK(!found.is_wrong);
+  CHECK_THAT(found.text, Catch::Contains("no motion"));
 }

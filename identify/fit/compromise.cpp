@@ -1,0 +1,210 @@
+#include "identify/fit/compromise.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "identify/fit/problem.hpp"
+#include "identify/statistics/distributions.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double size_of_stated(const FitParameter& parameter) {
+  const double size = std::abs(parameter.stated);
+  return size > 0.0 && std::isfinite(size) ? size : 1.0;
+}
+
+class Compromiser {
+ public:
+  Compromiser(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone)
+      : parameters_(all_of(known, held)),
+        sizes_(sizes_of(parameters_)),
+        alone_(alone),
+        problem_(known.rig, parameters_, second, sizes_) {
+    Eigen::VectorXd at_held(size());
+    for (Eigen::Index i = 0; i < size(); ++i) at_held[i] = parameters_[static_cast<std::size_t>(i)].stated;
+    held_ = problem_.coordinates(at_held);
+    weigh(alone);
+    whiten(known);
+  }
+
+  [[nodiscard]] Compromise run() const {
+    Compromise found;
+    if (whitening_.rows() == 0) return found;
+    found.freedom = static_cast<double>(whitening_.rows());
+    const double least = squares(end_of_alone(), false);
+    const double one = least_of_both(least);
+    if (!std::isfinite(least) || !std::isfinite(one)) return found;
+    found.statistic = std::max(one - least, 0.0);
+    found.p_value = chance_of(found.statistic);
+    return found;
+  }
+
+ private:
+  [[nodiscard]] double chance_of(double statistic) const {
+    const auto freedom = static_cast<double>(whitening_.rows());
+    return f_test_p_value(std::max(statistic, 0.0) / freedom, freedom, denominator_);
+  }
+
+  static std::vector<FitParameter> all_of(const KnownRig& known, const Fit& held) {
+    std::vector<FitParameter> all = known.parameters;
+    for (const FittedParameter& fitted : held.parameters) {
+      all.push_back(fitted.parameter);
+      all.back().stated = fitted.value;
+    }
+    return all;
+  }
+
+  static std::vector<double> sizes_of(const std::vector<FitParameter>& parameters) {
+    std::vector<double> sizes;
+    for (const FitParameter& parameter : parameters) sizes.push_back(size_of_stated(parameter));
+    return sizes;
+  }
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(parameters_.size()); }
+
+  [[nodiscard]] Eigen::VectorXd end_of_alone() const {
+    Eigen::VectorXd values(size());
+    for (Eigen::Index i = 0; i < size(); ++i) values[i] = alone_.parameters[static_cast<std::size_t>(i)].value;
+    return problem_.coordinates(values);
+  }
+
+  void weigh(const Fit& alone) {
+    weights_.resize(problem_.rows());
+    double independent = 0.0;
+    bool all_stated = true;
+    for (const FittedSignal& signal : alone.signals) {
+      const Eigen::Index count = signal.rows.end - signal.rows.begin;
+      const double share = signal.independent / static_cast<double>(count);
+      const double spent = static_cast<double>(size()) / static_cast<double>(problem_.rows());
+      const double own = signal.rms / std::sqrt(1.0 - std::min(spent, 0.9));
+      // Of a stated noise only what it does not explain is added.
+      const bool as_stated = problem_.signal(signal.rows).is_stated && own < signal.noise;
+      const double deviation = std::max(as_stated ? signal.noise : own, std::numeric_limits<double>::min());
+      weights_.segment(signal.rows.begin, count).setConstant(std::sqrt(share) / deviation);
+      independent += signal.independent;
+      all_stated = all_stated && as_stated;
+    }
+    constexpr double known = 1e9;
+    denominator_ = all_stated ? known : std::max(1.0, independent - static_cast<double>(size()));
+  }
+
+  /// Rows of W with W^T W = C_A^-1, over the parameters that A knows.
+  void whiten(const KnownRig& known) {
+    const auto shared = static_cast<Eigen::Index>(known.parameters.size());
+    whitening_.resize(0, size());
+    if (shared == 0 || known.covariance.rows() != shared || !known.covariance.allFinite()) return;
+    const Eigen::MatrixXd inverse = problem_.slope(held_).topLeftCorner(shared, shared).inverse();
+    const Eigen::MatrixXd covariance = inverse * known.covariance * inverse.transpose();
+    std::vector<Eigen::Index> in;
+    for (Eigen::Index i = 0; i < shared; ++i)
+      if (known.covariance(i, i) > 0.0 && covariance(i, i) > 0.0) in.push_back(i);
+    const auto count = static_cast<Eigen::Index>(in.size());
+    if (count == 0) return;
+    Eigen::MatrixXd part(count, count);
+    const auto deviation = [&](Eigen::Index a) {
+      return std::sqrt(covariance(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(a)]));
+    };
+    for (Eigen::Index a = 0; a < count; ++a)
+      for (Eigen::Index b = 0; b < count; ++b)
+        part(a, b) = covariance(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(b)]) /
+                     (deviation(a) * deviation(b));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(part);
+    whitening_ = Eigen::MatrixXd::Zero(count, size());
+    constexpr double rounding = 1e-10;
+    for (Eigen::Index row = 0; row < count; ++row)
+      for (Eigen::Index a = 0; a < count; ++a)
+        whitening_(row, in[static_cast<std::size_t>(a)]) =
+            spectrum.eigenvectors()(a, row) / deviation(a) /
+            std::sqrt(std::max(spectrum.eigenvalues()[row], rounding));
+  }
+
+  [[nodiscard]] double squares(const Eigen::VectorXd& q, bool both) const {
+    Eigen::VectorXd outputs;
+    if (!problem_.outputs(q, outputs)) return infinity;
+    double sum = (outputs - problem_.measured()).cwiseProduct(weights_).squaredNorm();
+    if (both) sum += (whitening_ * (q - held_)).squaredNorm();
+    return std::isfinite(sum) ? sum : infinity;
+  }
+
+  /// From points between the two estimates: beside the compromise lie false minima, one for each stick more or
+  /// less.
+  [[nodiscard]] double least_of_both(double least_of_two) const {
+    const Eigen::VectorXd alone = end_of_alone();
+    constexpr std::size_t points = 9;
+    std::vector<std::pair<double, std::size_t>> order(points);
+    const auto at = [&](std::size_t i) {
+      const double share = static_cast<double>(i) / static_cast<double>(points - 1);
+      return Eigen::VectorXd(held_ + share * (alone - held_));
+    };
+    sim::in_parts(points, 1, 0, [&](std::size_t i, std::size_t) { order[i] = {squares(at(i), true), i}; });
+    const double at_held = order.front().first;
+    std::ranges::sort(order);
+    double least = at_held;
+    constexpr std::size_t starts = 2;
+    // Each search can only find less: what is no surprise already needs none.
+    constexpr double enough = 0.2;
+    for (std::size_t s = 0; s < starts && std::isfinite(order[s].first); ++s)
+      if (chance_of(std::min(least, order[s].first) - least_of_two) < enough)
+        least = std::min({least, order[s].first, improved(at(order[s].second))});
+      else
+        least = std::min(least, order[s].first);
+    return least;
+  }
+
+  [[nodiscard]] double improved(const Eigen::VectorXd& start) const {
+    LeastSquaresProblem least;
+    const Eigen::Index rows = problem_.rows();
+    least.residuals = rows + whitening_.rows();
+    least.start = start;
+    least.low.resize(size());
+    least.high.resize(size());
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      least.low[i] = problem_.coordinates()[static_cast<std::size_t>(i)].low;
+      least.high[i] = problem_.coordinates()[static_cast<std::size_t>(i)].high;
+    }
+    constexpr double fine = 1e-5;
+    least.tolerance = fine;
+    least.most_iterations = 12;
+    least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
+      Eigen::VectorXd outputs;
+      Eigen::MatrixXd slopes;
+      if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, slopes, true))
+        return false;
+      residuals.resize(least.residuals);
+      residuals << (outputs - problem_.measured()).cwiseProduct(weights_), whitening_ * (q - held_);
+      if (jacobian == nullptr) return true;
+      jacobian->resize(least.residuals, size());
+      *jacobian << weights_.asDiagonal() * slopes, whitening_;
+      return true;
+    };
+    const LeastSquaresFit found = fit(least);
+    return found.parameters.size() == size() ? squares(found.parameters, true) : infinity;
+  }
+
+  std::vector<FitParameter> parameters_;  ///< shared ones, then B's own
+  std::vector<double> sizes_;
+  const Fit& alone_;
+  FitProblem problem_;
+  Eigen::VectorXd held_;       ///< A's estimate, with the state of B that suits it best
+  Eigen::VectorXd weights_;    ///< of each reading of B
+  Eigen::MatrixXd whitening_;  ///< W
+  double denominator_ = 1.0;   ///< degrees of freedom of the deviations
+};
+
+}  // namespace
+
+Compromise compromise_of(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone) {
+  if (alone.parameters.size() != known.parameters.size() + held.parameters.size()) return {};
+  return Compromiser(known, second, held, alone).run();
+}
+
+}  // namespace dualdamp::identify
