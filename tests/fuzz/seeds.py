@@ -173,6 +173,7 @@ def write_seeds(root, folder):
         else:
             write("records", name, bytes([64 * (i % 5 == 0)]) + content[:4000])
     write("mat", "sent", b"\1" + sent_columns())
+    write("mat", "empty", b"\1" + struct.pack("<6Q", 1, 1, 0, 1, 0, 0))  # a column without values
     write("mat", "problem", b"\1" + struct.pack("<3Q", 2, 1, 4) + b"file" + struct.pack("<Q", 5) + b"wrong" + bytes(32))
     write("resume", "points", POINTS)
     write("resume", "parts", POINTS[:POINTS.index("\n") + 1] + "\0" + POINTS)
