@@ -183,6 +183,7 @@ def write_seeds(root, folder):
         write("plugin", f"{i}", bytes(min(random_.randrange(256), 199 if i % 2 else 255) for _ in range(120)))
     write("plugin", "sound", bytes(120))
     write("answers", "answers.csv", ANSWERS)
+    write("answers", "large", ANSWERS + "\0" + json.dumps({"scenario": "0" * 64, "seed": 7, "numbers": [1, 1e126]}))
     write("answers", "key", ANSWERS + "\0" + json.dumps({"scenario": "0" * 64, "seed": 7, "numbers": list(range(8, -1, -1))}))
 
 
