@@ -5,6 +5,7 @@ result.json.
 usage: test_report.py PROGRAM ROOT [TEST...]
 """
 
+import hashlib
 import html
 import json
 import re
@@ -399,6 +400,7 @@ class Page(unittest.TestCase):
         result["scenario"]["system"]["friction"]["law"] = script
         result["analysis"] = script
         result["provenance"]["source"] = script
+        del result["provenance"]["tables"]  # who changes a table changes its sum, too
         (out / "result.json").write_text(json.dumps(result))
         table = (out / "curve.csv").read_text()
         (out / "curve.csv").write_text(re.sub("^# source: .*$", "# source: " + script, table, flags=re.M).replace("\nY [m]", "\n" + script))
@@ -423,6 +425,28 @@ class Page(unittest.TestCase):
         (out / "report.html").unlink()
         self.run_program("report", out)
         self.assertEqual((out / "report.html").read_bytes(), first)
+
+    def test_a_table_that_was_changed_is_refused(self):
+        """One digit, by hand; also without its lines of provenance. A run anew takes no table of the user's away."""
+        out = self.folder / "by_hand"
+        self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", out, "--quiet")
+        table = out / "curve.csv"
+        written = table.read_text()
+        self.assertEqual(json.loads((out / "result.json").read_text())["provenance"]["tables"]["curve.csv"], hashlib.sha256(written.encode()).hexdigest())
+        at = max(written.rindex(digit) for digit in "123456789")
+        digit = written[:at] + str(10 - int(written[at])).replace("5", "6") + written[at + 1:]
+        rows = "".join(line for line in written.splitlines(True) if not line.startswith("#"))
+        for changed in (digit, rows, ""):
+            table.write_text(changed)
+            for line in (["report", out], ["report", out, "--plot", self.folder / "a.svg"], ["compare", out, out, "--out", self.folder / "both"]):
+                with self.subTest(f"{line[0]} of {len(changed)} characters"):
+                    self.assertIn("curve.csv: error: the table is not as the run wrote it", self.run_program(*line, status=3).stderr)
+        self.run_program("run", ROOT / "scenarios/examples/coulomb.yaml", "--out", out, "--quiet")
+        self.assertEqual(table.read_text(), "")
+        table.unlink()
+        self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", out, "--quiet")
+        self.run_program("run", ROOT / "scenarios/examples/coulomb.yaml", "--out", out, "--quiet")
+        self.assertFalse(table.exists())
 
     def test_a_long_table_is_thinned_out_and_the_page_says_so(self):
         out = self.folder / "long"
