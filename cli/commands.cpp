@@ -311,8 +311,8 @@ int execute(const ReportCommand& command) {
     const Report report = guarded([&] {
       // Where there is no directory there is no result either: nothing is created.
       if (std::error_code error; !fs::is_directory(directory, error))
-        return refused(ExitStatus::invalid_input, directory + ": there is no such directory" +
-                                                      (error ? " (" + error.message() + ")" : ""));
+        return refused(ExitStatus::invalid_input,
+                       directory + ": there is no such directory" + (error ? " (" + error.message() + ")" : ""));
       Report done;
       for (const std::string& told : write_keeping(directory, {report_page(directory, command.shown_units)}))
         done.messages += told + "\n";
