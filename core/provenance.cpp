@@ -12,11 +12,28 @@
 
 namespace dualdamp::core {
 
-std::string sha256(std::string_view bytes) {
+namespace {
+
+void expect(bool works) {
+  if (!works) throw std::runtime_error("the SHA-256 of OpenSSL is not available");
+}
+
+}  // namespace
+
+void Sha256::Free::operator()(evp_md_ctx_st* context) const { EVP_MD_CTX_free(context); }
+
+Sha256::Sha256() : context_(EVP_MD_CTX_new()) {
+  expect(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+}
+
+void Sha256::add(std::string_view bytes) {
+  expect(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+}
+
+std::string Sha256::text() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("the SHA-256 of OpenSSL is not available");
+  expect(EVP_DigestFinal_ex(context_.get(), digest.data(), &length) == 1);
   static constexpr std::string_view hexadecimal = "0123456789abcdef";
   std::string text;
   for (unsigned int i = 0; i < length; ++i) {
@@ -24,6 +41,12 @@ std::string sha256(std::string_view bytes) {
     text += hexadecimal[digest.at(i) & 0xFU];
   }
   return text;
+}
+
+std::string sha256(std::string_view bytes) {
+  Sha256 sum;
+  sum.add(bytes);
+  return sum.text();
 }
 
 const std::vector<Library>& libraries() {

@@ -1,15 +1,33 @@
 #pragma once
 /// Provenance: what made an artefact, from what, with what, and when. Every file the program writes opens with it.
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+struct evp_md_ctx_st;  // of OpenSSL
+
 namespace dualdamp::core {
 
 /// SHA-256 of `bytes` as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
+
+/// The same of bytes that come piece by piece.
+class Sha256 {
+ public:
+  Sha256();
+  void add(std::string_view bytes);
+  /// Once, after the last piece.
+  [[nodiscard]] std::string text();
+
+ private:
+  struct Free {
+    void operator()(evp_md_ctx_st* context) const;
+  };
+  std::unique_ptr<evp_md_ctx_st, Free> context_;
+};
 
 /// A library and its version, as found when the program was configured; sorted by name.
 struct Library {

@@ -192,27 +192,31 @@ std::string csv_value(const Column& column, std::size_t row) {
 
 }  // namespace
 
-Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<const RunResult> result) {
-  return [scenario = std::move(scenario), result = std::move(result)](std::ostream& out) {
-    Json json = frame(result->status);
-    json["provenance"] = provenance_json(result->provenance);
-    if (!scenario->written_units.empty()) json["provenance"]["written_units"] = scenario->written_units;
-    json["scenario"] = Json::parse(scenario->resolved);
-    json["analysis"] = scenario->analysis_name;
-    if (scenario->model.oscillator.coordinate == core::Coordinate::angle)
-      json["units"] = units_json(scenario->result_fields);
-    json["warnings"] = result->warnings;
-    json["checks"] = checks_json(result->checks);
-    if (result->verification) json["verification"] = verification_json(*result->verification);
-    if (!result->failure.empty()) json["errors"].push_back({{"message", result->failure}});
-    write_members(out, json, "", [&](const std::string& key, const Json& value, const std::string& margin) {
-      if (key == "result")
-        write_result(out, *result, margin);
-      else
-        out << indented(value, margin);
-    });
-    out << "\n";
-  };
+Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<const RunResult> result,
+                     std::vector<OutputFile> tables) {
+  return
+      [scenario = std::move(scenario), result = std::move(result), tables = std::move(tables)](std::ostream& out) {
+        Json json = frame(result->status);
+        json["provenance"] = provenance_json(result->provenance);
+        if (!scenario->written_units.empty()) json["provenance"]["written_units"] = scenario->written_units;
+        for (const OutputFile& table : tables)
+          if (table.sha256 && !table.sha256->empty()) json["provenance"]["tables"][table.name] = *table.sha256;
+        json["scenario"] = Json::parse(scenario->resolved);
+        json["analysis"] = scenario->analysis_name;
+        if (scenario->model.oscillator.coordinate == core::Coordinate::angle)
+          json["units"] = units_json(scenario->result_fields);
+        json["warnings"] = result->warnings;
+        json["checks"] = checks_json(result->checks);
+        if (result->verification) json["verification"] = verification_json(*result->verification);
+        if (!result->failure.empty()) json["errors"].push_back({{"message", result->failure}});
+        write_members(out, json, "", [&](const std::string& key, const Json& value, const std::string& margin) {
+          if (key == "result")
+            write_result(out, *result, margin);
+          else
+            out << indented(value, margin);
+        });
+        out << "\n";
+      };
 }
 
 Writer json_refusal(core::ExitStatus status, const std::vector<core::Diagnostic>& errors) {
@@ -252,9 +256,10 @@ std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
   for (const Table& table : result->tables)
     if (table.is_file)
       files.push_back({table.name + ".csv",
-                       [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); }});
+                       [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); },
+                       std::make_shared<std::string>()});
   // Last: where result.json is, the tables are complete.
-  files.push_back({"result.json", json_document(std::move(scenario), std::move(result))});
+  files.push_back({"result.json", json_document(std::move(scenario), std::move(result), files)});
   return files;
 }
 

@@ -17,8 +17,9 @@
 namespace dualdamp::scenarios {
 
 /// Writers keep what they need of a run; they are called once for a file, once more for stdout.
+/// `tables`: files whose SHA-256 the document states, where they are written by then.
 [[nodiscard]] Writer json_document(std::shared_ptr<const Scenario> scenario,
-                                   std::shared_ptr<const RunResult> result);
+                                   std::shared_ptr<const RunResult> result, std::vector<OutputFile> tables = {});
 
 /// The document of a run that did not take place: status, errors, and a result of null.
 [[nodiscard]] Writer json_refusal(core::ExitStatus status, const std::vector<core::Diagnostic>& errors);
@@ -28,7 +29,7 @@ namespace dualdamp::scenarios {
 
 void write_csv(std::ostream& out, const Table& table, const core::Provenance& provenance);
 
-/// result.json and the tables.
+/// The tables, and result.json, which tells by their sums whether somebody has changed them since.
 [[nodiscard]] std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
                                                    std::shared_ptr<const RunResult> result);
 

@@ -64,7 +64,9 @@ def run_all(program, chosen, directory):
 
 def flat(value, path=""):
     """Every leaf of a JSON document with its path."""
-    if isinstance(value, dict):
+    if value == {}:
+        yield path, value
+    elif isinstance(value, dict):
         for key, item in value.items():
             if key not in VARYING:
                 yield from flat(item, f"{path}.{key}")
@@ -108,6 +110,8 @@ def main():
     parser.add_argument("--only", action="append", default=[])
     options = parser.parse_args()
     chosen = jobs(options.only)
+    if not chosen:
+        parser.error("no job has such a name: nothing would be compared")
     if options.record:
         run_all(options.program, chosen, options.baseline)
         print(f"recorded {len(chosen)} jobs")

@@ -180,14 +180,22 @@ scenarios::OutputFile key_file(const Key& key) {
 }
 
 Key read_key(const std::string& path) {
-  const scenarios::Json json = scenarios::parse_json(scenarios::read_file(path, most_key_bytes));
+  using scenarios::Json;
+  const Json json = scenarios::parse_json(scenarios::read_file(path, most_key_bytes));
+  const auto refuse_key = [&] {
+    refuse(path, 0, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
+  };
+  // The conversions cut fractions, and of numbers beyond their type they are undefined.
+  const auto is_whole = [](const Json& value) { return value.is_number_integer(); };
   Key key;
   try {
+    const Json& numbers = json.at("numbers");
+    if (!is_whole(json.at("seed")) || !std::ranges::all_of(numbers, is_whole)) refuse_key();
     key.scenario = json.at("scenario").get<std::string>();
     key.seed = json.at("seed").get<std::int64_t>();
-    key.numbers = json.at("numbers").get<std::vector<std::size_t>>();
-  } catch (const scenarios::Json::exception&) {
-    refuse(path, 0, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
+    key.numbers = numbers.get<std::vector<std::size_t>>();
+  } catch (const Json::exception&) {
+    refuse_key();
   }
   std::vector<bool> there(key.numbers.size(), false);
   for (const std::size_t number : key.numbers) {

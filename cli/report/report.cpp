@@ -1,9 +1,10 @@
 #include "cli/report/report.hpp"
 
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <sstream>
 #include <vector>
 
 #include "cli/report/assets.hpp"
@@ -20,10 +21,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// A table as the page gets it: its text without the lines of provenance, all rows or every `step`-th.
-Json table(const fs::path& path) {
+Json table(const StoredRun& run, const fs::path& path) {
   const std::size_t most_rows = path.stem() == "map" ? 200'000 : 50'000;
   std::vector<std::string> lines;
-  std::ifstream file(path);
+  std::istringstream file(run.text_of(path));
   for (std::string line; std::getline(file, line);)
     if (!line.starts_with("#") && !line.empty()) lines.push_back(std::move(line));
   const std::size_t rows = lines.empty() ? 0 : lines.size() - 1;
@@ -35,7 +36,7 @@ Json table(const fs::path& path) {
 
 Json tables(const StoredRun& run) {
   Json json = Json::object();
-  for (const fs::path& path : run.tables()) json[path.stem().string()] = table(path);
+  for (const fs::path& path : run.tables()) json[path.stem().string()] = table(run, path);
   return json;
 }
 
@@ -67,7 +68,9 @@ std::optional<StoredResult> stored_result(const std::string& directory) {
     StoredResult stored;
     if (const auto identity = identity_of(run.document()); identity.contains("source"))
       stored.source = identity.at("source");
-    for (const fs::path& path : run.tables()) stored.tables.push_back(path.filename().string());
+    for (const fs::path& path : run.tables())  // one that the user has changed is his
+      if (run.is_as_written(path, scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max())))
+        stored.tables.push_back(path.filename().string());
     return stored;
   } catch (const core::InputError&) {
     return std::nullopt;  // no result of ours

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "core/provenance.hpp"
+#include "scenarios/results/files.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
@@ -68,12 +71,27 @@ bool belongs_to(const std::map<std::string, std::string>& identity, const fs::pa
   return !identity.empty() && found == identity.size();
 }
 
-std::vector<fs::path> tables_of(const fs::path& directory, const Json& document) {
+/// SHA-256 of the tables by name; empty: the run states none.
+std::map<std::string, std::string> sums_of(const fs::path& directory, const Json& document) {
+  const Json& provenance = document.value("provenance", Json());
+  if (!provenance.is_object() || !provenance.contains("tables")) return {};
+  std::map<std::string, std::string> sums;
+  if (!provenance["tables"].is_object()) refuse(directory / "result.json", as_no_run_writes);
+  for (const auto& [name, sum] : provenance["tables"].items()) {
+    if (!sum.is_string()) refuse(directory / "result.json", as_no_run_writes);
+    sums[name] = sum.get<std::string>();
+  }
+  return sums;
+}
+
+std::vector<fs::path> tables_of(const fs::path& directory, const Json& document,
+                                const std::map<std::string, std::string>& sums) {
   const std::map<std::string, std::string> identity = identity_of(document);
   std::vector<fs::path> paths;
   std::error_code error;  // what cannot be read is no table
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == ".csv" && entry.is_regular_file(error) && belongs_to(identity, entry.path()))
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(error) &&
+        (sums.contains(entry.path().filename().string()) || belongs_to(identity, entry.path())))
       paths.push_back(entry.path());
   std::ranges::sort(paths);
   return paths;
@@ -146,7 +164,8 @@ const StoredColumn* StoredTable::find(std::string_view name) const {
 StoredRun::StoredRun(const std::string& directory, const std::string& units)
     : directory_(directory),
       document_(read_document(directory_ / "result.json")),
-      tables_(tables_of(directory_, document_)) {
+      sums_(sums_of(directory_, document_)),
+      tables_(tables_of(directory_, document_, sums_)) {
   if (units.empty()) return;
   read([&] {
     std::map<std::string, std::string> written = written_units(*this);
@@ -167,11 +186,22 @@ void StoredRun::read(const std::function<void()>& work) const {
   }
 }
 
+bool StoredRun::is_as_written(const fs::path& table, std::string_view text) const {
+  const auto sum = sums_.find(table.filename().string());
+  return sum == sums_.end() || sum->second == core::sha256(text);
+}
+
+std::string StoredRun::text_of(const fs::path& table) const {
+  std::string text = scenarios::read_file(table.string(), std::numeric_limits<std::size_t>::max());
+  if (!is_as_written(table, text)) refuse(table, "the table is not as the run wrote it: run the scenario again");
+  return text;
+}
+
 StoredTable StoredRun::table(std::string_view name) const {
   StoredTable table;
   const auto path = std::ranges::find(tables_, name, [](const fs::path& p) { return p.stem().string(); });
   if (path == tables_.end()) return table;
-  std::ifstream file(*path);
+  std::istringstream file(text_of(*path));
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line.starts_with("#")) continue;
     const std::vector<std::string> row = fields(line);

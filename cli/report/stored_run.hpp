@@ -46,7 +46,11 @@ class StoredRun {
   [[nodiscard]] const Json& document() const { return document_; }
   /// The tables of this run, sorted; not those that somebody else put there.
   [[nodiscard]] const std::vector<std::filesystem::path>& tables() const { return tables_; }
-  /// Reads a table; one without columns when the run has none of that name.
+  /// The text of one of them. Errors: `core::InputError` where somebody has changed it since the run.
+  [[nodiscard]] std::string text_of(const std::filesystem::path& table) const;
+  /// Has a table this text since the run? Of a run that states no sums nobody knows.
+  [[nodiscard]] bool is_as_written(const std::filesystem::path& table, std::string_view text) const;
+  /// Reads a table, as `text_of` does; one without columns when the run has none of that name.
   [[nodiscard]] StoredTable table(std::string_view name) const;
   /// Does work that reads the document. Errors: `core::InputError` where it is not of the form that a run writes.
   void read(const std::function<void()>& work) const;
@@ -56,6 +60,7 @@ class StoredRun {
  private:
   std::filesystem::path directory_;
   Json document_;
+  std::map<std::string, std::string> sums_;
   std::vector<std::filesystem::path> tables_;
 };
 

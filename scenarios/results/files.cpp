@@ -13,6 +13,7 @@
 #include <streambuf>
 
 #include "core/diagnostics.hpp"
+#include "core/provenance.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -57,6 +58,8 @@ bool write_all(int descriptor, std::string_view content) {
 class DescriptorBuffer : public std::streambuf {
  public:
   explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { empty(); }
+  /// Of all that was written.
+  [[nodiscard]] std::string sha256() { return sum_.text(); }
   /// errno of the first failure.
   [[nodiscard]] int error() const { return error_; }
 
@@ -67,8 +70,10 @@ class DescriptorBuffer : public std::streambuf {
     return traits_type::not_eof(character);
   }
   int sync() override {
-    const bool arrived = write_all(descriptor_, {pbase(), static_cast<std::size_t>(pptr() - pbase())});
+    const std::string_view bytes(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+    const bool arrived = write_all(descriptor_, bytes);
     if (!arrived) error_ = errno;
+    sum_.add(bytes);
     empty();
     return arrived ? 0 : -1;
   }
@@ -78,19 +83,21 @@ class DescriptorBuffer : public std::streambuf {
 
   int descriptor_;
   int error_ = 0;
+  core::Sha256 sum_;
   std::array<char, 1 << 16> buffer_{};
 };
 
-bool write_all(int descriptor, const Writer& write) {
+bool write_all(int descriptor, const OutputFile& content) {
   DescriptorBuffer buffer(descriptor);
   std::ostream stream(&buffer);
-  write(stream);
+  content.write(stream);
   stream.flush();
   if (!stream) errno = buffer.error();
+  if (content.sha256) *content.sha256 = buffer.sha256();
   return stream.good();
 }
 
-void write_file(const std::string& path, const Writer& write) {
+void write_file(const std::string& path, const OutputFile& content) {
   static std::atomic<unsigned> serial{0};
   const std::string partial = path + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".partial";
   const auto refuse = [&] {
@@ -101,7 +108,7 @@ void write_file(const std::string& path, const Writer& write) {
   Descriptor file(::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file.number() < 0) refuse();
   try {
-    if (!write_all(file.number(), write) || !file.close()) refuse();
+    if (!write_all(file.number(), content) || !file.close()) refuse();
     if (::rename(partial.c_str(), path.c_str()) != 0) refuse();
   } catch (...) {
     ::unlink(partial.c_str());
@@ -138,8 +145,7 @@ void write_files(const std::string& directory, const std::vector<OutputFile>& fi
   if (error || !std::filesystem::is_directory(directory))
     throw OutputError("cannot create the directory " + directory + ": " +
                       (error ? error.message() : "a file of that name is there"));
-  for (const OutputFile& file : files)
-    write_file((std::filesystem::path(directory) / file.name).string(), file.write);
+  for (const OutputFile& file : files) write_file((std::filesystem::path(directory) / file.name).string(), file);
 }
 
 }  // namespace dualdamp::scenarios

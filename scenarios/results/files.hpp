@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ using Writer = std::function<void(std::ostream&)>;
 struct OutputFile {
   std::string name;
   Writer write;
+  std::shared_ptr<std::string> sha256 = {};  ///< where there is one: gets that of the bytes, when they are written
 };
 
 /// Creates `directory` if need be and puts the files there, each written beside its place and moved in when

@@ -173,6 +173,7 @@ def write_seeds(root, folder):
         else:
             write("records", name, bytes([64 * (i % 5 == 0)]) + content[:4000])
     write("mat", "sent", b"\1" + sent_columns())
+    write("mat", "empty", b"\1" + struct.pack("<6Q", 1, 1, 0, 1, 0, 0))  # a column without values
     write("mat", "problem", b"\1" + struct.pack("<3Q", 2, 1, 4) + b"file" + struct.pack("<Q", 5) + b"wrong" + bytes(32))
     write("resume", "points", POINTS)
     write("resume", "parts", POINTS[:POINTS.index("\n") + 1] + "\0" + POINTS)
@@ -182,6 +183,7 @@ def write_seeds(root, folder):
         write("plugin", f"{i}", bytes(min(random_.randrange(256), 199 if i % 2 else 255) for _ in range(120)))
     write("plugin", "sound", bytes(120))
     write("answers", "answers.csv", ANSWERS)
+    write("answers", "large", ANSWERS + "\0" + json.dumps({"scenario": "0" * 64, "seed": 7, "numbers": [1, 1e126]}))
     write("answers", "key", ANSWERS + "\0" + json.dumps({"scenario": "0" * 64, "seed": 7, "numbers": list(range(8, -1, -1))}))
 
 

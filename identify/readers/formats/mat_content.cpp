@@ -56,6 +56,7 @@ class Receiver {
   std::vector<double> values() {
     const std::uint64_t count = number();
     if (count > bytes_.size() / sizeof(double)) throw Nonsense{};
+    if (count == 0) return {};  // memcpy takes no null pointer, not even for nothing
     std::vector<double> values(count);
     std::memcpy(values.data(), take(count * sizeof(double)).data(), count * sizeof(double));
     return values;

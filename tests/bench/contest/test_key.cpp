@@ -38,7 +38,10 @@ TEST_CASE("key: reads back as it was written, and refuses anything else") {
   CHECK(back.numbers == key.numbers);
   for (const char* text :
        {"", "{}", "[1]", R"({"scenario":"a","seed":1,"numbers":[0,0]})",
-        R"({"scenario":"a","seed":1,"numbers":[1,2]})", R"({"scenario":"a","seed":"x","numbers":[0]})"}) {
+        R"({"scenario":"a","seed":1,"numbers":[1,2]})", R"({"scenario":"a","seed":"x","numbers":[0]})",
+        R"({"scenario":"a","seed":1.5,"numbers":[0]})", R"({"scenario":"a","seed":1e300,"numbers":[0]})",
+        R"({"scenario":"a","seed":1,"numbers":[0.5]})", R"({"scenario":"a","seed":1,"numbers":[8,1e126]})",
+        R"({"scenario":"a","seed":1,"numbers":[false]})", R"({"scenario":"a","seed":1,"numbers":3})"}) {
     std::ofstream(folder / "bad.json") << text;
     CHECK_THROWS_AS(bench::read_key(folder / "bad.json"), core::InputError);
   }

@@ -174,6 +174,9 @@ TEST_CASE("Content of a sender gone astray is refused") {
   MatContent ragged = two_tests();
   ragged.tests[0].columns[1].values.push_back(1.0);
   CHECK_FALSE(receive(bytes_of(ragged)).has_value());
+  MatContent empty = two_tests();  // a list without room has no address, which undefined behaviour begins with
+  for (DataColumn& column : empty.tests[0].columns) column.values.clear();
+  CHECK_FALSE(receive(bytes_of(empty)).has_value());
   MatContent beyond = two_tests();
   beyond.row_labels->back().first_row = 6;
   CHECK_FALSE(receive(bytes_of(beyond)).has_value());
