@@ -49,7 +49,7 @@ def test_cases_with_decays(tmp_path):
     changes = {"analysis.decay": {"displacement": "20 mm", "peaks": 6}, "analysis.seeds": 1}
     dd.stress_export(SMALL, tmp_path, changes=changes)
     case = next(dd.cases(tmp_path))
-    assert case.decay.dtype.names == ("t", "x") and np.ptp(np.diff(case.decay["t"])) < 0.02
+    assert case.decay.dtype.names == ("t", "x") and np.all(np.diff(case.decay["t"]) > 0)
 
 
 def test_answers_from_a_file_and_from_columns(tmp_path):
