@@ -310,9 +310,11 @@ int execute(const ReportCommand& command) {
   for (const std::string& directory : command.directories) {
     const Report report = guarded([&] {
       // Where there is no directory there is no result either: nothing is created.
-      if (std::error_code error; !fs::is_directory(directory, error))
-        return refused(ExitStatus::invalid_input,
-                       directory + ": there is no such directory" + (error ? " (" + error.message() + ")" : ""));
+      if (std::error_code error; !fs::is_directory(directory, error)) {
+        const bool says_more = error && error != std::errc::no_such_file_or_directory;
+        return refused(ExitStatus::invalid_input, directory + ": there is no such directory" +
+                                                      (says_more ? " (" + error.message() + ")" : ""));
+      }
       Report done;
       for (const std::string& told : write_keeping(directory, {report_page(directory, command.shown_units)}))
         done.messages += told + "\n";

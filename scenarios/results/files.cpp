@@ -142,7 +142,7 @@ std::string read_file(const std::string& path, std::size_t limit) {
 void write_files(const std::string& directory, const std::vector<OutputFile>& files) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error || !std::filesystem::is_directory(directory))
+  if (error || !std::filesystem::is_directory(directory, error))
     throw OutputError("cannot create the directory " + directory + ": " +
                       (error ? error.message() : "a file of that name is there"));
   for (const OutputFile& file : files) write_file((std::filesystem::path(directory) / file.name).string(), file);

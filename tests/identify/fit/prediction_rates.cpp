@@ -15,23 +15,6 @@ using namespace dualdamp;
 
 namespace {
 
-identify::Experiments experiments_of(const identify::Record& record) {
-  std::string fault;
-  return identify::experiments_of(record, {.name = "random"}, fault);
-}
-
-std::vector<identify::FitParameter> parameters_of(const identify::Fit& fit) {
-  std::vector<identify::FitParameter> parameters;
-  for (const identify::FittedParameter& fitted : fit.parameters) parameters.push_back(fitted.parameter);
-  return parameters;
-}
-
-identify::Prediction predicted(const identify::Fit& fit, const test::RandomRig& second) {
-  identify::Rig rig = fit.rig;
-  rig.known.excitation = second.truth.known.excitation;
-  return identify::predict_records(rig, parameters_of(fit), shared_covariance(fit), experiments_of(second.record));
-}
-
 struct Rates {
   int rigs = 0, within = 0, called_wrong = 0, off = 0, off_and_called = 0;
   double worst = 0.0;
@@ -71,12 +54,12 @@ void run(const std::string& law, std::uint64_t first, std::uint64_t last) {
     const test::RandomRig second = test::driven_again(rig, 1.5, 100'000 + seed);
     const identify::Fit fit = test::fit_of(rig);
     const identify::Prediction truth =
-        identify::predict_records(second.truth, {}, {}, experiments_of(second.record));
+        identify::predict_records(second.truth, {}, {}, test::experiments_of(second));
     if (!fit.outcome.ok() || !truth.outcome.ok()) {
       std::printf("%s, seed %d: no fit\n", law.c_str(), static_cast<int>(seed));
       continue;
     }
-    const identify::Prediction found = predicted(fit, second);
+    const identify::Prediction found = test::predicted_by(fit, second);
     if (!(found.error > 0.0))
       std::printf("%s, seed %d: no prediction, %s\n", law.c_str(), static_cast<int>(seed),
                   found.outcome.reason.c_str());
@@ -87,7 +70,7 @@ void run(const std::string& law, std::uint64_t first, std::uint64_t last) {
     other.sought.laws.front() = {friction::find_law("coulomb"), {}};
     const identify::Fit beside = test::fit_of(other);
     if (!beside.outcome.ok()) continue;
-    const identify::Prediction missed = predicted(beside, second);
+    const identify::Prediction missed = test::predicted_by(beside, second);
     count(missed, truth.error, wrong);
     describe(law + " as coulomb", seed, rig.noise, missed, truth.error);
   }

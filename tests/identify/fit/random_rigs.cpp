@@ -134,9 +134,16 @@ RandomRig driven_again(const RandomRig& rig, double factor, std::uint64_t seed) 
   return again;
 }
 
-identify::Fit fit_of(const RandomRig& rig, bool profile) {
+identify::Experiments experiments_of(const RandomRig& rig) {
   std::string fault;
-  const identify::Experiments experiments = identify::experiments_of(rig.record, {.name = "random"}, fault);
+  identify::Experiments experiments = identify::experiments_of(rig.record, {.name = "random"}, fault);
+  if (!fault.empty()) throw std::runtime_error("a random record cannot be used: " + fault);
+  return experiments;
+}
+
+identify::Fit fit_of(const RandomRig& rig, bool profile) {
+  const identify::Experiments experiments = experiments_of(rig);
+  std::string fault;
   std::vector<std::string> faults;
   std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig.sought, faults);
   if (rig.sought.laws.front().entry->name == "coulomb" && rig.truth.laws.front().values.has("static")) {
@@ -149,6 +156,14 @@ identify::Fit fit_of(const RandomRig& rig, bool profile) {
   for (const identify::Own own : experiments.at(0)->own_free)
     parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
   return identify::fit_rig(rig.sought, std::move(parameters), experiments, {.profile = profile});
+}
+
+identify::Prediction predicted_by(const identify::Fit& fit, const RandomRig& second) {
+  identify::Rig rig = fit.rig;
+  rig.known.excitation = second.truth.known.excitation;
+  std::vector<identify::FitParameter> parameters;
+  for (const identify::FittedParameter& fitted : fit.parameters) parameters.push_back(fitted.parameter);
+  return identify::predict_records(rig, parameters, shared_covariance(fit), experiments_of(second));
 }
 
 bool ends_at_noise(const RandomRig& rig, const identify::Fit& fit) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "identify/fit/fit.hpp"
+#include "identify/fit/prediction.hpp"
 
 namespace dualdamp::test {
 
@@ -32,6 +33,12 @@ struct RandomRig {
 
 /// As a user would have it: of what the rig leaves out, with the beginning of the motion.
 [[nodiscard]] identify::Fit fit_of(const RandomRig& rig, bool profile = false);
+
+/// What was measured of it, as `fit_rig` takes it.
+[[nodiscard]] identify::Experiments experiments_of(const RandomRig& rig);
+
+/// Another record of the rig by what was fitted to it.
+[[nodiscard]] identify::Prediction predicted_by(const identify::Fit& fit, const RandomRig& second);
 
 /// The fit leaves what the noise was, within 2 %.
 [[nodiscard]] bool ends_at_noise(const RandomRig& rig, const identify::Fit& fit);

@@ -59,12 +59,7 @@ TEST_CASE("prediction: an own fit that ends beside the prediction proves nothing
   const test::RandomRig second = test::driven_again(rig, 1.5, 100'008);
   const identify::Fit fit = test::fit_of(rig);
   REQUIRE(fit.outcome.ok());
-  identify::Rig fitted = fit.rig;
-  fitted.known.excitation = second.truth.known.excitation;
-  std::vector<identify::FitParameter> parameters;
-  for (const identify::FittedParameter& found : fit.parameters) parameters.push_back(found.parameter);
-  const identify::Prediction found = identify::predict_records(fitted, parameters, identify::shared_covariance(fit),
-                                                               experiments_of(second.record));
+  const identify::Prediction found = test::predicted_by(fit, second);
   CAPTURE(found.text);
   CHECK(found.noise_units == Approx(1.0).margin(0.1));
   CHECK(found.attainable_noise_units <= found.noise_units);
@@ -90,12 +85,7 @@ TEST_CASE("prediction: one rig against two tells a wrong law that the own fit do
     other.sought.laws.front() = {friction::find_law(law), {}};
     const identify::Fit fit = test::fit_of(other);
     REQUIRE(fit.outcome.ok());
-    identify::Rig fitted = fit.rig;
-    fitted.known.excitation = second.truth.known.excitation;
-    std::vector<identify::FitParameter> parameters;
-    for (const identify::FittedParameter& found : fit.parameters) parameters.push_back(found.parameter);
-    return identify::predict_records(fitted, parameters, identify::shared_covariance(fit),
-                                     experiments_of(second.record));
+    return test::predicted_by(fit, second);
   };
   const identify::Prediction wrong = predicted_as("coulomb");
   CAPTURE(wrong.text, wrong.compromise.statistic);
