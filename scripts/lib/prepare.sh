@@ -81,7 +81,9 @@ configure() {
 compile() {
   local tree=$root/build/$1 quiet=(--quiet)
   shift
-  if [ "$(ninja -C "$tree" -n "$@" 2>/dev/null </dev/null | grep -c 'Building CXX')" -gt 1 ]; then
+  # Of a tree that has compiled nothing yet a dry run tells only that the lists of files are looked at first.
+  if ! grep -qs '\.o	' "$tree/.ninja_log" ||
+    [ "$(ninja -C "$tree" -n "$@" 2>/dev/null </dev/null | grep -c 'Building CXX')" -gt 1 ]; then
     say "building ${tree#"$root/"}; from scratch this takes some minutes"
     quiet=()
   fi
