@@ -1,7 +1,10 @@
 #include "sim/engine/flow.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <tuple>
 
 #include "friction_models/state_sizes.hpp"
 
@@ -78,18 +81,30 @@ void Flow::scatter(std::span<const double> X, std::vector<Memory>& memories) con
 }
 
 const Memory& Flow::memory(std::size_t i, std::span<const double> X) const {
-  std::ranges::copy(X.subspan(first_[i], count_[i]), memories_[i].state.begin());
+  std::vector<double>& state = memories_[i].state;
+  for (std::size_t k = 0; k < count_[i]; ++k) state[k] = X[first_[i] + k];
   return memories_[i];
 }
 
-Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const {
+/// What all laws see alike.
+Instant Flow::instant(std::span<const double> X, double t) const {
   Instant now{.t = offset_ + t, .x = X[0], .v = X[1]};
-  const double delay = model_.friction[i].delay();
-  if (delay > 0.0) now.past_velocity = past_.at(t - delay);
   if (model_.excitation.is_harmonic()) {
     now.angle_rate = model_.excitation.frequency;
     now.angle = now.angle_rate * t;
   }
+  return now;
+}
+
+/// What law i sees of the past.
+void Flow::remember(std::size_t i, Instant& now, double t) const {
+  const double delay = model_.friction[i].delay();
+  if (delay > 0.0) now.past_velocity = past_.at(t - delay);
+}
+
+Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const {
+  Instant now = instant(X, t);
+  remember(i, now, t);
   return now;
 }
 
@@ -98,7 +113,7 @@ Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const 
 /// states rises with speed, a speed within rounding makes that part of the rise which it is of the slowest speed
 /// that is known. A force that falls lets the mass go at once, however steeply: it is as its law says.
 template <class Force>
-double Flow::resolved_force(std::size_t i, Instant now, const Force& law) const {
+double Flow::resolved_force(std::size_t i, const Instant& now, const Force& law) const {
   const double slowest = rounded * scales_[1];
   if (count_[i] > 0 || direction_ == Direction::none || !(std::abs(now.v) < slowest)) return law(now);
   Instant other = now;
@@ -110,21 +125,19 @@ double Flow::resolved_force(std::size_t i, Instant now, const Force& law) const 
   return at_rest + friction::sign(direction_) * now.v / slowest * rise;
 }
 
-double Flow::respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const {
+double Flow::respond(std::size_t i, std::span<const double> X, const Instant& now, std::span<double> rates) const {
   ++responses_;
-  return resolved_force(i, instant(i, X, t), [&](const Instant& now) {
-    return model_.friction[i].respond(memory(i, X), now, direction_, rates);
-  });
+  const Memory& remembered = memory(i, X);
+  return resolved_force(
+      i, now, [&](const Instant& then) { return model_.friction[i].respond(remembered, then, direction_, rates); });
 }
 
 const Drive::Value& Flow::drive(double t) const {
-  for (const KnownDrive& known : known_drives_) {
-    if (known.t == t && known.piece == drive_.piece()) return known.value;
-  }
-  KnownDrive& next = known_drives_[oldest_drive_];
-  oldest_drive_ = (oldest_drive_ + 1) % known_drives_.size();
-  next = {t, drive_.piece(), drive_.at(t)};
-  return next.value;
+  constexpr std::uint64_t spread = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio: neighbours fall far apart
+  static_assert(std::tuple_size_v<decltype(known_drives_)> == 16);
+  KnownDrive& known = known_drives_[std::bit_cast<std::uint64_t>(t) * spread >> 60];
+  if (!(known.t == t && known.piece == drive_.piece())) known = {t, drive_.piece(), drive_.at(t)};
+  return known.value;
 }
 
 /// Spring, damper and external force on the mass.
@@ -137,7 +150,11 @@ double Flow::driving(double x, double v, const Drive::Value& drive) const {
 
 void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates) const {
   double force = 0.0;
-  for (std::size_t i = 0; i < first_.size(); ++i) force += respond(i, X, t, rates.subspan(first_[i], count_[i]));
+  Instant now = instant(X, t);
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    remember(i, now, t);
+    force += respond(i, X, now, rates.subspan(first_[i], count_[i]));
+  }
   if (direction_ == Direction::none) {
     rates[0] = rates[1] = 0.0;
     return;
@@ -153,7 +170,7 @@ Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std
   displaced_.assign(X.begin(), X.end());
   displaced_[column] += step;
   const double exact_step = displaced_[column] - X[column];
-  const double force = respond(i, displaced_, t, displaced_rates_);
+  const double force = respond(i, displaced_, instant(i, displaced_, t), displaced_rates_);
   for (std::size_t k = 0; k < count_[i]; ++k)
     displaced_rates_[k] = (displaced_rates_[k] - base_rates_[k]) / exact_step;
   return {(force - base) / exact_step, std::abs(force - base) > resolved * (std::abs(force) + std::abs(base))};
@@ -191,7 +208,7 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
   for (std::size_t i = 0; i < first_.size(); ++i) {
     base_rates_.assign(count_[i], 0.0);
     displaced_rates_.assign(count_[i], 0.0);
-    const double base = respond(i, X, t, base_rates_);
+    const double base = respond(i, X, instant(i, X, t), base_rates_);
     for (const std::size_t column : {std::size_t{0}, std::size_t{1}})
       differentiate_law(i, column, X, t, base, columns);
     for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, base, columns);

@@ -60,11 +60,14 @@ class Flow final : public VectorField {
   [[nodiscard]] Sample sample(std::span<const double> X, double t) const;
 
  private:
+  [[nodiscard]] friction::Instant instant(std::span<const double> X, double t) const;
   [[nodiscard]] friction::Instant instant(std::size_t i, std::span<const double> X, double t) const;
+  void remember(std::size_t i, friction::Instant& now, double t) const;
   const friction::Memory& memory(std::size_t i, std::span<const double> X) const;
   template <class Force>
-  double resolved_force(std::size_t i, friction::Instant now, const Force& law) const;
-  double respond(std::size_t i, std::span<const double> X, double t, std::span<double> rates) const;
+  double resolved_force(std::size_t i, const friction::Instant& now, const Force& law) const;
+  double respond(std::size_t i, std::span<const double> X, const friction::Instant& now,
+                 std::span<double> rates) const;
   [[nodiscard]] double resisting(std::span<const double> X, double t) const;
   [[nodiscard]] const Drive::Value& drive(double t) const;
   [[nodiscard]] double driving(double x, double v, const Drive::Value& drive) const;
@@ -99,8 +102,7 @@ class Flow final : public VectorField {
     long piece = 0;
     Drive::Value value{};
   };
-  mutable std::array<KnownDrive, 8> known_drives_;
-  mutable std::size_t oldest_drive_ = 0;
+  mutable std::array<KnownDrive, 16> known_drives_;  ///< by the bits of the time
 };
 
 }  // namespace dualdamp::sim

@@ -90,20 +90,23 @@ void OrbitAccount::join_stick_across_boundary() {
 }
 
 /// A mass that friction comes to hold creeps to its rest for ever: the n-th slip is shorter by a share 3/n than the
-/// one before. Once it is held all the time but for slips that rounding hides it counts as resting.
-bool OrbitAccount::is_at_rest(double period) const {
-  constexpr double hidden = 1e-10;  // of the position
+/// one before. Once it is held all the time but for slips that rounding hides it counts as resting. The slips of
+/// several forcing periods add up.
+bool OrbitAccount::is_at_rest(double period, int forcing_periods) const {
+  constexpr double hidden = 1e-10;  // of the position, in a forcing period
   constexpr double held = 0.99;     // of the period
   double time = 0.0;
   for (const Stick& stick : sticks_) time += stick.duration;
   return stops_ > 0 && period > 0.0 && time > held * period &&
-         peak_ - trough_ <= hidden * std::max(std::abs(peak_), std::abs(trough_));
+         peak_ - trough_ <= forcing_periods * hidden * std::max(std::abs(peak_), std::abs(trough_));
 }
 
 void OrbitAccount::write(SteadyState& result) {
   join_stick_across_boundary();
-  const bool rests = is_at_rest(result.period);
+  const bool rests = is_at_rest(result.period, result.period_ratio);
   if (rests) {
+    result.period /= result.period_ratio;
+    result.period_ratio = 1;
     peak_ = trough_ = sticks_.front().position;
     sticks_ = {{.start = 0.0, .duration = result.period, .position = peak_}};
     sequence_.clear();

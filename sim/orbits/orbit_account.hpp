@@ -24,7 +24,7 @@ class OrbitAccount final : public PeriodObserver {
   [[nodiscard]] int slow_spans(double period) const;
   void collect_stick(const Interval& interval, double x);
   void join_stick_across_boundary();
-  [[nodiscard]] bool is_at_rest(double period) const;
+  [[nodiscard]] bool is_at_rest(double period, int forcing_periods) const;
 
   bool full_;
   double drive_phase_;

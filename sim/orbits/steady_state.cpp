@@ -147,7 +147,8 @@ void OrbitFinder::describe(SteadyState& result) {
     PeriodMap map(model_, result.period_ratio);
     account_for_orbit(model_, map, options_.full_account, result, options_.judge_rests);
     searched_ += map.engine().count();
-    result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
+    if (result.period_ratio > 1)
+      result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
   add_mirror_images(result);
   // Beside a mass that never moves other rests are no news.
