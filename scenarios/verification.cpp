@@ -74,6 +74,22 @@ bool is_compared(const Table& table, const Column& column) {
   return !table.key.empty() || column.name == "t" || column.name == "x" || column.name == "v";
 }
 
+/// The largest mean speed between two rows of a motion [m/s], which is met on the way: at events a mass often
+/// rests.
+double fastest_between_rows(const Table& table) {
+  const auto t = std::ranges::find(table.columns, "t", &Column::name);
+  const auto x = std::ranges::find(table.columns, "x", &Column::name);
+  if (t == table.columns.end() || x == table.columns.end() || t->unit != "s" || x->unit != "m") return 0.0;
+  if (t->numbers.empty()) return 0.0;
+  double fastest = 0.0;
+  const double rounding = 1e-9 * std::abs(t->numbers.back() - t->numbers.front());
+  for (std::size_t i = 1; i < std::min(t->numbers.size(), x->numbers.size()); ++i) {
+    const double duration = t->numbers[i] - t->numbers[i - 1];
+    if (duration > rounding) fastest = std::max(fastest, std::abs(x->numbers[i] - x->numbers[i - 1]) / duration);
+  }
+  return fastest;
+}
+
 class Comparison {
  public:
   /// `rounding`: sizes at which a number of a unit is rounding only.
@@ -113,6 +129,7 @@ class Comparison {
     for (const Table& table : answer_.tables)
       for (const Column& column : table.columns)
         for (const double value : column.numbers) add(column.unit, value);
+    for (const Table& table : answer_.tables) add("m/s", fastest_between_rows(table));
   }
 
   void differ(const std::string& quantity, const std::string& reason) {
@@ -256,7 +273,7 @@ struct Way {
   sim::Solver solver;
 };
 
-/// The first that can be used: steps of the other kind; where they give up those of the same kind, but tight.
+/// Steps of the other kind; for a motion of the exact engine those of both kinds.
 std::vector<Way> other_ways(const sim::Model& model) {
   const std::string end = " at tolerance " + core::format_number(tight, 1);
   const Way explicit_way = {"smooth engine, explicit steps" + end, {sim::SolverKind::explicit_steps, tight}};
@@ -266,26 +283,39 @@ std::vector<Way> other_ways(const sim::Model& model) {
   return {implicit_way};
 }
 
-/// The other answer, by the first way that has one.
-struct OtherAnswer {
-  Answer answer;
-  std::string words;
-  sim::Model model;
-};
-
-OtherAnswer other_answer(const Scenario& scenario, const Question& question, const RunOptions& options) {
-  OtherAnswer other{{}, {}, scenario.model};
-  for (const Way& way : other_ways(scenario.model)) {
-    other.model.solver = way.solver;
-    other.words = way.words;
-    try {
-      other.answer = question.run({other.model, tight, scenario.resolved, options});
-    } catch (const friction::LawFault& fault) {
-      other.answer = failed(fault.what());
-    }
-    if (!other.answer.result.is_null()) break;
+Answer answer_by(const Way& way, const Scenario& scenario, const Question& question, const RunOptions& options) {
+  sim::Model model = scenario.model;
+  model.solver = way.solver;
+  try {
+    return question.run({model, tight, scenario.resolved, options});
+  } catch (const friction::LawFault& fault) {
+    return failed(fault.what());
   }
-  return other;
+}
+
+/// Of the first way that agrees, else of the first that has a result.
+Verification compare_ways(const Scenario& scenario, const Question& question, const std::string& part,
+                          const RunOptions& options, const Answer& answer) {
+  std::optional<Verification> apart;
+  Verification none{.agrees = false};
+  for (const Way& way : other_ways(scenario.model)) {
+    const Answer other = answer_by(way, scenario, question, options);
+    none.engine = way.words + part;
+    if (other.result.is_null()) {
+      none.reason = answer.result.is_null() ? "there is no result to verify: " + other.failure
+                                            : "the other computation has no result: " + other.failure;
+      continue;
+    }
+    if (answer.result.is_null()) {
+      none.reason = "the other computation has a result, this one none";
+      return none;
+    }
+    Verification result = compare_answers(answer, other, scenario.result_fields, sizes_of_rounding(scenario.model));
+    result.engine = way.words + part;
+    if (result.agrees) return result;
+    if (!apart) apart = std::move(result);
+  }
+  return apart ? *std::move(apart) : none;
 }
 
 /// The graver one of both.
@@ -332,20 +362,9 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
       all.result.is_null() ? std::optional<Sampled>() : scenario.question->sampled();
   const std::optional<Answer> part = sampled ? std::optional(sampled->part(all)) : std::nullopt;
   const Answer& answer = part ? *part : all;
-  const OtherAnswer other = other_answer(scenario, sampled ? *sampled->question : *scenario.question, options);
-  const std::string words = other.words + (sampled ? ", " + sampled->words : "");
-  if (answer.result.is_null() || other.answer.result.is_null()) {
-    Verification result{.engine = words, .agrees = false};
-    if (answer.result.is_null())
-      result.reason = other.answer.result.is_null() ? "there is no result to verify: " + other.answer.failure
-                                                    : "the other computation has a result, this one none";
-    else
-      result.reason = "the other computation has no result: " + other.answer.failure;
-    return result;
-  }
-  const SizesOfUnits rounding = sizes_of_rounding(scenario.model);
-  Verification result = compare_answers(answer, other.answer, scenario.result_fields, rounding);
-  result.engine = words;
+  Verification result = compare_ways(scenario, sampled ? *sampled->question : *scenario.question,
+                                     sampled ? ", " + sampled->words : "", options, answer);
+  if (result.quantities == 0) return result;
   const std::optional<OtherWay> more =
       scenario.question->other_way({scenario.model, scenario.tolerance, scenario.resolved, options}, answer);
   if (!more) return result;
@@ -356,8 +375,10 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
   Answer same = failed({});
   for (const auto& [key, value] : more->answer.result.items())
     if (answer.result.contains(key)) same.result[key] = answer.result.at(key);
-  result = worse(std::move(result), compare_answers(same, more->answer, scenario.result_fields, rounding));
-  result.engine = words + "; " + more->words;
+  const std::string words = result.engine + "; " + more->words;
+  result = worse(std::move(result),
+                 compare_answers(same, more->answer, scenario.result_fields, sizes_of_rounding(scenario.model)));
+  result.engine = words;
   return result;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 /// The result of a run computed again in another way: by the other engine, or by other steps of the smooth engine,
-/// at a tight tolerance; a steady state also by following the transient. Then every quantity is compared.
+/// at a tight tolerance; a steady state also by following the transient. Then every quantity is compared. A result
+/// of the exact engine that one kind of steps does not confirm is computed by the other kind too, and one of both
+/// must agree: errors of many steps add up, and no fault of the exact engine is repeated by either.
 ///
 /// A difference is relative: to the point's own value in curves and maps, else to the largest value of the same
-/// unit in the result, so that a position near zero is not asked for digits that the motion does not have, or to
-/// what is rounding beside the drive, where the mass never moves. Phases
-/// differ modulo 2 pi, Floquet multipliers are compared as a set. Counts, words and truths are equal or not. Left
-/// out are the numbers that tell how a result was computed (`certificate`, `energy.defect`) and grazings, which
-/// rounding decides; the order of events at one time and the period with which a subharmonic motion begins are no
-/// difference (`aligned_answer.hpp`).
+/// unit in the result (of a speed also the largest mean one between two events or samples), so that a position near
+/// zero is not asked for digits that the motion does not have, or to what is rounding beside the drive, where the
+/// mass never moves. Phases differ modulo 2 pi, Floquet multipliers are compared as a set. Counts, words and truths
+/// are equal or not. Left out are the numbers that tell how a result was computed (`certificate`, `energy.defect`)
+/// and grazings, which rounding decides; the order of events at one time and the period with which a subharmonic
+/// motion begins are no difference (`aligned_answer.hpp`).
 
 #include <map>
 #include <string>

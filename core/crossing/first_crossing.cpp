@@ -153,6 +153,38 @@ void drop_unfinished(const ExponentialBasis& basis, std::span<const Guard> guard
   }
 }
 
+/// So many panels are searched before a wider stretch is tried.
+constexpr long fewest_panels = 64;
+
+/// What is left of a guard's constant beside the largest values of all its other elements: below this it does not
+/// fall while the bounds hold.
+double least(const ExponentialBasis& basis, const Guard& guard, const ElementNumbers& bounds) {
+  double constant = 0.0;
+  double moduli = 0.0;
+  for (int k = 0; k < basis.size(); ++k) {
+    if (basis.exponent(k) != 0.0 || basis.parent(k) != ExponentialBasis::no_parent) continue;
+    const auto i = static_cast<std::size_t>(k);
+    constant += guard.value.re[i];
+    moduli += std::abs(guard.value.re[i]);
+  }
+  return constant + moduli - bound(basis, guard.value, bounds);
+}
+
+/// How far from a on, at least fewest_panels, no guard comes near zero; 0: that is not seen. So a guard that turns
+/// a million times far from zero is passed in a few steps, each half as long as what is left.
+double quiet_stretch(const ExponentialBasis& basis, std::span<const Guard> guards,
+                     const ExponentialBasis::Values& values, double a, double horizon) {
+  ElementNumbers bounds;
+  for (double width = horizon - a; width > static_cast<double>(fewest_panels) * basis.panel(); width *= 0.5) {
+    bound_elements(basis, values, a, width, bounds);
+    if (std::ranges::all_of(guards, [&](const Guard& guard) {
+          return least(basis, guard, bounds) > guard_rounding * guard.amplitude;
+        }))
+      return width;
+  }
+  return 0.0;
+}
+
 /// Beyond these a guard is searched multiplied by a power of two.
 constexpr double smallest_amplitude = 0x1p-200;
 constexpr double largest_amplitude = 0x1p200;
@@ -185,9 +217,22 @@ bool needs_scaling(const Guard& guard) {
   constexpr long split = 16;  // panels that take as long
   const auto cost = [&] { return count.panels + split * count.splits; };
   const long last = cost() + most_panels;
+  long next_try = count.panels + fewest_panels;
   double a = 0.0;
   while (a < horizon) {
     if (cost() > last) return SearchEnd::too_long;
+    if (count.panels >= next_try) {
+      const double quiet = quiet_stretch(basis, guards, *left, a, horizon);
+      next_try = count.panels + (quiet > 0.0 ? 1 : fewest_panels);
+      if (quiet > 0.0) {
+        ++count.panels;
+        a = quiet == horizon - a ? horizon : a + quiet;
+        ExponentialBasis::Values& room = ends[left == &ends[0] ? 1 : 0];
+        basis.evaluate(a, room);
+        left = &room;
+        continue;
+      }
+    }
     const Panel panel = next_panel(basis, guards, a, horizon, *left, ends[left == &ends[0] ? 1 : 0]);
     const PanelResult result = search_panel(basis, guards, panel, crossing, grazings, count);
     if (result == PanelResult::not_finite) return SearchEnd::left_range;

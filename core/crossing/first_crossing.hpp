@@ -39,6 +39,9 @@
 ///   (ExponentialBasis::expected), the panel from the start to that root is tried before all others, by the same
 ///   two conditions.
 ///
+///   Where a search has taken 64 panels wider stretches are tried: where the constant of each guard outweighs the
+///   largest moduli of all its other elements there is no zero.
+///
 /// Cost: on a basis without chains a panel costs a few dozen multiplications and no transcendental function; a
 /// crossing costs one evaluation of the basis, none where it was expected. No allocation unless guards graze.
 

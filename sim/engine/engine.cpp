@@ -116,7 +116,26 @@ const Interval* Engine::next_in_period() {
   return step(drive_.period() - local_time_, true);
 }
 
-State Engine::state() const { return {x_, v_, direction_, memories_}; }
+/// A law whose force or memory changes with the direction of slip makes it a part of the mode.
+bool Engine::turns_freely() const {
+  if (direction_ == Direction::none) return false;
+  friction::Instant turning = now();
+  turning.v = 0.0;
+  const Direction back = direction_ == Direction::forward ? Direction::backward : Direction::forward;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    const friction::Law& law = model_.friction[i];
+    if (law.holds_mass() || law.force(memories_[i], turning, direction_) != law.force(memories_[i], turning, back))
+      return false;
+    friction::Memory turned = memories_[i];
+    law.jump(turned, {}, turning, back);
+    if (turned != memories_[i]) return false;
+  }
+  return true;
+}
+
+State Engine::state() const {
+  return {.x = x_, .v = v_, .direction = direction_, .memories = memories_, .turns_freely = turns_freely()};
+}
 
 void Engine::track_sensitivity(bool track) {
   tracking_ = track;

@@ -140,6 +140,7 @@ class Engine {
 
  private:
   void place();
+  [[nodiscard]] bool turns_freely() const;
 
   int repeats_ = 0;
 };

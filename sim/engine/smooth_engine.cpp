@@ -172,8 +172,20 @@ double SmoothEngine::shortest_period() const {
   return 2.0 * std::numbers::pi / fastest;
 }
 
+/// As far as implicit steps see it: an overdamped oscillator has no period of its own, and they pass over the fast
+/// one of its two decays where nothing is left of it.
+double SmoothEngine::shortest_seen() const {
+  const Oscillator& rig = model_.oscillator;
+  const double own = natural_frequency(rig);
+  const double ratio = rig.damping / (2.0 * rig.mass * own);
+  if (!is_implicit_ || !(ratio > 1.0)) return shortest_period();
+  double fastest = own / (ratio + std::sqrt(ratio * ratio - 1.0));
+  for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
+  return 2.0 * std::numbers::pi / fastest;
+}
+
 double SmoothEngine::longest_step() const {
-  double longest = part_of_period * shortest_period();
+  double longest = part_of_period * shortest_seen();
   for (const friction::Law& law : model_.friction) {
     if (law.delay() > 0.0) longest = std::min(longest, law.delay());
   }
@@ -296,8 +308,9 @@ bool SmoothEngine::move(double left, Hit& hit, bool& found) {
     const double whole = taken_;
     grazings_.clear();
     found = find_hit(hit);
-    if (found && ends_against_flow(hit) && use_implicit_steps()) {
-      h_ = 0.0;
+    if (found && !is_implicit_ && ends_against_flow(hit)) {
+      // Where explicit steps are asked for by name shorter ones follow the creep, or say that they are too many.
+      h_ = use_implicit_steps() ? 0.0 : 0.25 * whole;
       continue;
     }
     if (found && may_be_swing_of_output(hit)) {

@@ -87,6 +87,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool has_run_away() const;
   [[nodiscard]] double first_step();
   [[nodiscard]] double shortest_period() const;
+  [[nodiscard]] double shortest_seen() const;
   [[nodiscard]] double longest_step() const;
   [[nodiscard]] double excess_error() const;
   [[nodiscard]] bool makes_headway();

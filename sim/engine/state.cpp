@@ -14,13 +14,19 @@ bool same_law_modes(const State& a, const State& b) {
                     });
 }
 
+bool both_slip(const State& a, const State& b) {
+  return a.direction != friction::Direction::none && b.direction != friction::Direction::none;
+}
+
 }  // namespace
 
-bool same_mode(const State& a, const State& b) { return a.direction == b.direction && same_law_modes(a, b); }
+bool same_mode(const State& a, const State& b) {
+  const bool is_free = a.turns_freely && b.turns_freely && both_slip(a, b);
+  return (is_free || a.direction == b.direction) && same_law_modes(a, b);
+}
 
 bool are_comparable(const State& a, const State& b) {
-  const bool both_slip = a.direction != friction::Direction::none && b.direction != friction::Direction::none;
-  return (both_slip || a.direction == b.direction) && same_law_modes(a, b);
+  return (both_slip(a, b) || a.direction == b.direction) && same_law_modes(a, b);
 }
 
 }  // namespace dualdamp::sim

@@ -17,9 +17,12 @@ struct State {
   std::vector<friction::Memory> memories{};  ///< of each law
   /// The velocity before, where a law sees it; else none.
   std::shared_ptr<const VelocityHistory> past{};
+  /// A reversal here would change no force and nothing that a law remembers: the direction is no part of the mode.
+  bool turns_freely = false;
 };
 
-/// Both lie in the same mode, so that their difference is one of continuous states.
+/// Both lie in the same mode, so that their difference is one of continuous states. Where both turn freely that
+/// holds for slips in both directions.
 [[nodiscard]] bool same_mode(const State& a, const State& b);
 /// The same, or slips in both directions: their difference is one of continuous states too, but of a map with a
 /// kink.

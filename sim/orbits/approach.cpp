@@ -18,8 +18,10 @@ namespace {
 constexpr double near_orbit = 1e-2;
 constexpr double near_longer_orbit = 1e-3;
 
-/// Whatever the closure, Newton's method is tried after so many periods and each time that they have grown by four.
+/// Whatever the closure, Newton's method is tried after so many periods, or after this part of the work that the
+/// motion may take, and each time that they have grown by four.
 constexpr int first_trial = 32;
+constexpr long first_trial_of_work = 16;
 
 /// A motion that closes this well after thousands of periods and still is not periodic creeps.
 constexpr double creeping = 1e-3;
@@ -55,7 +57,8 @@ Approach::Approach(const Model& model, const SteadyStateOptions& options, Period
       growth_(options.max_periods),
       patience_(patience_with(map.engine().accuracy())),
       begun_at_(map.engine().work()),
-      next_trial_(first_trial) {
+      next_trial_(first_trial),
+      next_trial_work_(patience_.work / first_trial_of_work) {
   solver_.limit(patience_.work);
   // A single period may take half as much again.
   map_.limit(begun_at_ + patience_.work + patience_.work / 2);
@@ -157,12 +160,21 @@ int Approach::worth_trying() {
   return shortest;
 }
 
+/// By periods, or by work: the fewer periods there will be the more each of them costs.
+bool Approach::is_due() {
+  // In another mode than a period ago Newton's method has no step.
+  if (!std::isfinite(recurrence_.closure(1))) return false;
+  const long spent = map_.engine().work() - begun_at_;
+  const bool by_periods = passed_ >= next_trial_;
+  const bool by_work = spent >= next_trial_work_;
+  if (by_periods) next_trial_ = 4 * passed_;
+  if (by_work) next_trial_work_ = 4 * spent;
+  return by_periods || by_work;
+}
+
 void Approach::try_candidate(const State& state) {
   int periods = worth_trying();
-  // In another mode than a period ago (it rings) Newton's method has no step.
-  const bool is_due = passed_ >= next_trial_ && std::isfinite(recurrence_.closure(1));
-  if (periods == 0 && is_due && !candidate_) periods = 1;
-  if (is_due) next_trial_ = 4 * passed_;
+  if (is_due() && periods == 0 && !candidate_) periods = 1;
   if (periods == 0) return;
   double& level = level_[static_cast<std::size_t>(periods)];
   level = 0.1 * std::min(level, recurrence_.closure(periods));
@@ -239,16 +251,16 @@ core::Outcome Approach::failure() const {
             "no steady state: the motion is aperiodic: it has not come back within " + std::to_string(passed_) +
                 " forcing periods, and neighbouring motions run away from it"};
   }
+  if (is_followed_enough()) {
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state found: the motion has not become periodic within " + std::to_string(passed_) +
+                " forcing periods, and it has so many events or steps in each that it is followed no longer"};
+  }
   if (motions_ == Motions::meet_sliding) {
     return {
         core::OutcomeKind::no_steady_state,
         "no steady state found: there is one, but the motion creeps towards it too slowly, or it moves the mass by "
         "hardly more than rounding"};
-  }
-  if (is_followed_enough()) {
-    return {core::OutcomeKind::no_steady_state,
-            "no steady state found: the motion has not become periodic within " + std::to_string(passed_) +
-                " forcing periods, and it has so many events or steps in each that it is followed no longer"};
   }
   const std::string after = " after " + std::to_string(passed_) + " forcing periods";
   if (recurrence_.closure(1) < creeping) {

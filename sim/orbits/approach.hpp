@@ -42,6 +42,7 @@ class Approach {
   [[nodiscard]] std::optional<Orbit> closed(const State& state);
   [[nodiscard]] bool has_arrived(const State& state);
   [[nodiscard]] int worth_trying();
+  [[nodiscard]] bool is_due();
   void try_candidate(const State& state);
   [[nodiscard]] bool is_at_rest(const Orbit& orbit);
   [[nodiscard]] Orbit at_start(const Candidate& candidate);
@@ -67,7 +68,8 @@ class Approach {
   long passed_ = 0;  ///< forcing periods since the start
   Patience patience_;
   long begun_at_;          ///< work of the engine before
-  long next_trial_ = 0;    ///< when Newton's method is tried whatever the closure
+  long next_trial_;        ///< when Newton's method is tried whatever the closure
+  long next_trial_work_;   ///< likewise, by the work of the motion
   long next_closing_ = 0;  ///< when a motion that has come back over several periods is looked at again
   double divergence_ = 0.0;
   bool is_told_ = false;  ///< divergence_ was asked for

@@ -119,6 +119,8 @@ State displaced(const State& state, const Eigen::VectorXd& change) {
   State result = state;
   result.x += change[0];
   if (state.direction != Direction::none) result.v += change[1];
+  if (state.turns_freely && result.v != 0.0)
+    result.direction = result.v < 0.0 ? Direction::backward : Direction::forward;
   Eigen::Index next = 2;
   for (friction::Memory& memory : result.memories) {
     for (double& value : memory.state) value += change[next++];

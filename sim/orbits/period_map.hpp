@@ -91,7 +91,8 @@ class PeriodMap {
 };
 
 [[nodiscard]] Eigen::VectorXd coordinates(const State& state);
-/// `state` with its coordinates changed by `change`; a mass that sticks goes on sticking.
+/// `state` with its coordinates changed by `change`; a mass that sticks goes on sticking, one that slips goes on in
+/// its direction unless it turns freely.
 [[nodiscard]] State displaced(const State& state, const Eigen::VectorXd& change);
 
 /// The change of begin that Newton's method takes to make end = begin, or an empty vector where it has none:

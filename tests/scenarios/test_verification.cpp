@@ -202,6 +202,60 @@ TEST_CASE("verification: the results of every kind of motion are computed again 
   }
 }
 
+TEST_CASE("verification: a creep whose steps add up their errors is confirmed by steps of the other kind",
+          "[scenarios][verification]") {
+  // 3,119 sticks and slips at 2.6 um/s, beside a position of 2.6 mm: explicit steps lose five digits of the speed.
+  const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 0.6295201184677097, stiffness: 455.72497167219143, damping: "
+      "-17.140386109695243, friction: {law: asymmetric_coulomb, kinetic_forward: 0.5716511641197093, "
+      "kinetic_backward: 0.46535131821216996}}\nexcitation: {type: base_ramp, velocity: 2.595013641911616e-06}\n"
+      "analysis: {type: simulate, duration: 1498.9951105524865}\nnumerics: {verify: true}\n",
+      "test.yaml"));
+  REQUIRE(result.verification.has_value());
+  INFO(result.verification->reason);
+  CHECK(result.verification->agrees);
+  CHECK_THAT(result.verification->engine, Catch::Contains("implicit"));
+}
+
+TEST_CASE("verification: a speed is measured by the largest of the motion, not by those at its events",
+          "[scenarios][verification]") {
+  // Stick-slip that ends in the middle of a slip, at less than half of its largest speed.
+  const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 0.41432072752942956, stiffness: 303.63364486198077, damping: "
+      "1.1905290352859335, friction: [{law: coulomb, kinetic: 0.262991842864506, static: 1.0393771559493337}, "
+      "{law: dahl, kinetic: 4.16543974228571, sigma0: 11906.00470499656}]}\nexcitation: {type: base_ramp, "
+      "velocity: "
+      "0.007235481363476474}\nanalysis: {type: simulate, duration: 21.548113309893175}\nnumerics: {verify: true}\n",
+      "test.yaml"));
+  INFO(result.verification->reason);
+  CHECK(result.verification->agrees);
+  const auto speed = [](double at_end) {
+    Answer motion;
+    motion.result = {{"v", at_end}, {"events", nullptr}};
+    motion.tables.push_back({.name = "events",
+                             .columns = {{.name = "t", .unit = "s", .numbers = {1.0, 1.5, 2.0}},
+                                         {.name = "x", .unit = "m", .numbers = {0.1, 0.15, 0.15}}},
+                             .key = "events"});
+    return motion;
+  };
+  const std::vector<scenarios::ResultField> velocity = {{"v", "m/s", ""}};
+  CHECK(scenarios::compare_answers(speed(1e-3), speed(1e-3 + 5e-9), velocity).agrees);
+  CHECK_FALSE(scenarios::compare_answers(speed(1e-3), speed(1e-3 + 5e-8), velocity).agrees);
+}
+
+TEST_CASE("verification: a mass a million times lighter than its damper needs is computed again",
+          "[scenarios][verification]") {
+  const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 1.0e-9, stiffness: 100, damping: 4, friction: {law: coulomb, kinetic: "
+      "2}}\n"
+      "excitation: {type: base_harmonic, amplitude: 0.1, frequency: 10 rad/s}\nanalysis: {type: steady_state}\n"
+      "numerics: {verify: true}\n",
+      "test.yaml"));
+  REQUIRE(result.verification.has_value());
+  INFO(result.verification->reason);
+  CHECK(result.verification->agrees);
+}
+
 TEST_CASE("verification: without it nothing is said, and where it is impossible the file is refused",
           "[scenarios][verification]") {
   const scenarios::Scenario plain =

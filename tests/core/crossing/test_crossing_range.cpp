@@ -37,10 +37,31 @@ TEST_CASE("A guard that leaves the range of double precision ends the search, an
 }
 
 TEST_CASE("A guard that turns too often before the horizon ends the search, and says so") {
-  // cos(s) + 1.5 never crosses; its panels up to here would take an hour.
-  const Terms wave = {{Complex(0.0, 1.0), 1.0}, constant(1.5)};
+  // cos(s) - 0.5 cos(s) + 1.2 never crosses, but the moduli of its elements do not tell; its panels up to here
+  // would take an hour.
+  const Terms wave = {{Complex(0.0, 1.0), 1.0}, {Complex(0.0, 1.0), -0.5}, constant(1.2)};
   CHECK(search(wave, 1e10).end == SearchEnd::too_long);
   CHECK(search(wave, 1e4).end == SearchEnd::horizon);
+}
+
+TEST_CASE("A guard that turns a million times far from zero is passed in few panels, up to its crossing") {
+  const Result never = search({{Complex(0.0, 1.0), 1.0}, constant(1.5)}, 1e10);
+  CHECK(never.end == SearchEnd::horizon);
+  CHECK(never.count.panels < 100);
+  // 1 - s/T + 0.1 cos(w s + 0.3), w T = 1e7, is positive up to 0.9 T. A scan from there on and bisection give its
+  // first zero.
+  const double w = 1e4;
+  const double T = 1e3;
+  const Terms fading = {{Complex(0.0, w), std::polar(0.1, 0.3)}, constant(1.0), {0.0, -1.0 / T, 1}};
+  const auto g = [&](double s) { return 1.0 - s / T + 0.1 * std::cos(w * s + 0.3); };
+  double high = 0.9 * T;
+  while (g(high) > 0.0) high += 1e-3 / w;
+  double low = high - 1e-3 / w;
+  for (int i = 0; i < 60; ++i) (g(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  const Result result = search(fading, 2.0 * T);
+  REQUIRE(result.end == SearchEnd::crossing);
+  CHECK(std::abs(result.crossing.s - low) < 1e-9);  // a turn takes 6e-4
+  CHECK(result.count.panels < 10000);
 }
 
 TEST_CASE("An element that has left the range has no part in guards without it") {

@@ -164,7 +164,8 @@ TEST_CASE(
   constexpr double k = 5.669;
   constexpr double c = 0.06;
   model.friction.emplace_back(friction::AttachedMass(m, k, c));
-  for (const double w : {3.0, 5.3}) {
+  // Above resonance, where hardly anything is dissipated, the mass turns at the begin of each period.
+  for (const double w : {3.0, 5.3, 8.0, 10.0, 11.5, 20.0}) {
     CAPTURE(w);
     model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.01, .frequency = w};
     const std::complex<double> bond(k, c * w);
@@ -174,6 +175,23 @@ TEST_CASE(
     REQUIRE(state.outcome.ok());
     CHECK(state.amplitude == Approx(x).epsilon(1e-6));
   }
+}
+
+TEST_CASE("a contact that rings 6,500 times in each forcing period has its steady state after a few of them") {
+  // It never slides: a linear oscillator with both springs, whose own motion loses 0.3 % of its amplitude in a
+  // period.
+  sim::Model model;
+  model.oscillator = {.mass = 64.05, .stiffness = 85476.0, .damping = 0.0184};
+  constexpr double contact = 2.788e8;
+  constexpr double w = 0.319;
+  model.friction.emplace_back(friction::ContactCompliance(484.0, 1902.0, contact, 0.0));
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 10.5, .frequency = w};
+  const sim::SteadyState state = sim::steady_state(model);
+  INFO(state.outcome.reason);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.transient_periods < 12);
+  const std::complex<double> stiffness(85476.0 + contact - 64.05 * w * w, 0.0184 * w);
+  CHECK(state.amplitude == Approx(10.5 / std::abs(stiffness)).epsilon(1e-8));
 }
 
 TEST_CASE("a drive that barely moves the mass has one steady state from every start") {
