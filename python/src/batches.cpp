@@ -1,8 +1,11 @@
+#include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "python/src/interruptible.hpp"
@@ -26,8 +29,7 @@ class Input {
       number_ = PyFloat_AS_DOUBLE(value.ptr());
       return;
     }
-    array_ = Numbers::ensure(value);
-    if (!array_) throw py::type_error("a number or an array of numbers is needed");
+    array_ = Numbers(value);  // throws what Python raises: no number, no memory
     if (array_.ndim() == 0) number_ = *array_.data();
   }
 
@@ -102,6 +104,15 @@ Shape common_shape(const std::vector<Input>& inputs) {
   return common;
 }
 
+/// The number of its entries.
+std::size_t size_of(const Shape& shape) {
+  std::size_t size = 1;
+  for (const py::ssize_t length : shape)
+    if (__builtin_mul_overflow(size, static_cast<std::size_t>(length), &size))
+      throw py::value_error("the arrays together have more entries than can be counted");
+  return size;
+}
+
 /// An array of that shape which takes the numbers over; a plain number where there is no dimension.
 template <typename Number>
 py::object output(std::vector<Number> numbers, const Shape& shape) {
@@ -151,26 +162,29 @@ void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::si
 }
 
 /// `values`: mass, damping, stiffness, kinetic, static, amplitude, frequency.
-py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const py::tuple& values) {
+py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const py::tuple& values,
+                        std::optional<ProgressCall::Function> progress) {
   std::vector<Input> inputs;
   for (const py::handle value : values) inputs.emplace_back(py::reinterpret_borrow<py::object>(value));
   constexpr std::size_t columns = 7;
   if (inputs.size() != columns) throw py::value_error("seven values are needed");
   const Shape shape = common_shape(inputs);
-  std::size_t size = 1;
-  for (const py::ssize_t length : shape) size *= static_cast<std::size_t>(length);
+  const std::size_t size = size_of(shape);
   for (Input& input : inputs) input.broadcast(shape);
   const auto type = moves_base ? sim::ExcitationType::base_harmonic : sim::ExcitationType::force_harmonic;
   const auto damper_to = damper_to_base ? sim::DamperTo::base : sim::DamperTo::ground;
-  Output found = interruptible([&] {
+  ProgressCall told(std::move(progress));
+  const auto compute = [&] {
     Output all(size);
     sim::OscillatorBatch chunk{.type = type, .damper_to = damper_to};
     for (std::size_t first = 0; first < size; first += chunk_size) {
       fill(chunk, inputs, first, std::min(chunk_size, size - first));
       all.take(sim::steady_states(chunk, {.threads = threads}), first);
+      if (told.is_wanted()) told(std::min(first + chunk_size, size), size);
     }
     return all;
-  });
+  };
+  Output found = interruptible(compute, &told);
   return py::make_tuple(output(std::move(found.peak), shape), output(std::move(found.trough), shape),
                         output(std::move(found.lag), shape), output(std::move(found.radius), shape),
                         output(std::move(found.stops), shape), output(std::move(found.outcome), shape));
@@ -180,7 +194,7 @@ py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const
 
 void add_batches(py::module_& module) {
   module.def("steady_states", &steady_states, py::arg("moves_base"), py::arg("damper_to_base"), py::arg("threads"),
-             py::arg("values"));
+             py::arg("values"), py::arg("progress") = py::none());
   module.attr("outcomes") = py::make_tuple("done", "no_steady_state", "not_unique", "event_limit", "jump_cycle",
                                            "not_finite", "not_identifiable");
 }
