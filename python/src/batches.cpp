@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "python/src/interruptible.hpp"
 #include "python/src/parts.hpp"
 #include "sim/batch/batch.hpp"
+#include "sim/parallel.hpp"
 
 namespace dualdamp::python {
 
@@ -33,6 +36,7 @@ class Input {
     if (array_.ndim() == 0) number_ = *array_.data();
   }
 
+  [[nodiscard]] bool is_number() const { return !array_ || array_.ndim() == 0; }
   [[nodiscard]] Shape shape() const {
     return array_ ? Shape(array_.shape(), array_.shape() + array_.ndim()) : Shape{};
   }
@@ -51,7 +55,7 @@ class Input {
 
   /// Numbers `first` to `first + out.size()` of the flattened shape. Needs no lock of the interpreter.
   void read(std::size_t first, std::vector<double>& out) const {
-    if (!array_ || array_.ndim() == 0) {
+    if (is_number()) {
       std::ranges::fill(out, number_);
       return;
     }
@@ -115,43 +119,52 @@ std::size_t size_of(const Shape& shape) {
 
 /// An array of that shape which takes the numbers over; a plain number where there is no dimension.
 template <typename Number>
-py::object output(std::vector<Number> numbers, const Shape& shape) {
-  if (shape.empty()) return py::cast(numbers.front());
-  auto* const kept = new std::vector<Number>(std::move(numbers));
-  const py::capsule owner(kept, [](void* memory) { delete static_cast<std::vector<Number>*>(memory); });
-  return py::array_t<Number>(shape, kept->data(), owner);
+py::object output(std::unique_ptr<Number[]> numbers, const Shape& shape) {
+  if (shape.empty()) return py::cast(numbers[0]);
+  Number* const kept = numbers.release();
+  const py::capsule owner(kept, [](void* memory) { delete[] static_cast<Number*>(memory); });
+  return py::array_t<Number>(shape, kept, owner);
 }
 
 /// What is returned, one entry for each oscillator. NaN where there is no steady state.
 struct Output {
   explicit Output(std::size_t size)
-      : peak(size), trough(size), lag(size), radius(size), stops(size), outcome(size) {}
+      : peak(std::make_unique_for_overwrite<double[]>(size)),
+        trough(std::make_unique_for_overwrite<double[]>(size)),
+        lag(std::make_unique_for_overwrite<double[]>(size)),
+        radius(std::make_unique_for_overwrite<double[]>(size)),
+        stops(std::make_unique_for_overwrite<int[]>(size)),
+        outcome(std::make_unique_for_overwrite<unsigned char[]>(size)) {}
 
   void take(const sim::BatchSteadyStates& states, std::size_t first) {
-    const auto place = static_cast<std::ptrdiff_t>(first);
-    std::ranges::copy(states.peak, peak.begin() + place);
-    std::ranges::copy(states.trough, trough.begin() + place);
-    std::ranges::copy(states.lag, lag.begin() + place);
-    std::ranges::copy(states.radius, radius.begin() + place);
-    std::ranges::copy(states.stops, stops.begin() + place);
+    std::ranges::copy(states.peak, &peak[first]);
+    std::ranges::copy(states.trough, &trough[first]);
+    std::ranges::copy(states.lag, &lag[first]);
+    std::ranges::copy(states.radius, &radius[first]);
+    std::ranges::copy(states.stops, &stops[first]);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    bool are_done = true;
     for (std::size_t i = 0; i < states.outcome.size(); ++i) {
       outcome[first + i] = static_cast<unsigned char>(states.outcome[i]);
+      are_done &= states.outcome[i] == core::OutcomeKind::done;
+    }
+    if (are_done) return;
+    for (std::size_t i = 0; i < states.outcome.size(); ++i) {
       if (states.outcome[i] == core::OutcomeKind::done) continue;
-      for (std::vector<double>* numbers : {&peak, &trough, &lag, &radius}) (*numbers)[first + i] = none;
+      for (double* numbers : {peak.get(), trough.get(), lag.get(), radius.get()}) numbers[first + i] = none;
     }
   }
 
-  std::vector<double> peak, trough, lag, radius;
-  std::vector<int> stops;
-  std::vector<unsigned char> outcome;
+  // Not initialised: the memory of a large array is touched when it is written, and once.
+  std::unique_ptr<double[]> peak, trough, lag, radius;
+  std::unique_ptr<int[]> stops;
+  std::unique_ptr<unsigned char[]> outcome;
 };
 
-/// Many oscillators are handed over in chunks: the memory for them is bounded, and threads rarely wait for each
-/// other.
-constexpr std::size_t chunk_size = 131'072;
+/// Many oscillators are computed in chunks: what is copied stays in the cache of one core, and each copies its own.
+constexpr std::size_t chunk_size = 2'048;
 
-/// Fills the chunk with `count` oscillators from `first` on; its memory is used again and again.
+/// Fills the chunk with `count` oscillators from `first` on.
 void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::size_t first, std::size_t count) {
   std::vector<double>* const columns[] = {&chunk.mass,         &chunk.damping,   &chunk.stiffness, &chunk.kinetic,
                                           &chunk.static_level, &chunk.amplitude, &chunk.frequency};
@@ -160,6 +173,29 @@ void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::si
     inputs[i].read(first, *columns[i]);
   }
 }
+
+/// Tells now and then how many oscillators are done; from any thread.
+class BatchMeter {
+ public:
+  BatchMeter(ProgressCall& told, std::size_t all) : told_(told), all_(all) {}
+
+  void add(std::size_t count) {
+    if (!told_.is_wanted()) return;
+    const std::lock_guard lock(mutex_);
+    done_ += count;
+    if (done_ < all_ && done_ < next_) return;
+    next_ = done_ + pause_;
+    told_(done_, all_);
+  }
+
+ private:
+  static constexpr std::size_t pause_ = 131'072;
+  ProgressCall& told_;
+  std::size_t all_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::size_t next_ = pause_;
+};
 
 /// `values`: mass, damping, stiffness, kinetic, static, amplitude, frequency.
 py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const py::tuple& values,
@@ -176,12 +212,15 @@ py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const
   ProgressCall told(std::move(progress));
   const auto compute = [&] {
     Output all(size);
-    sim::OscillatorBatch chunk{.type = type, .damper_to = damper_to};
-    for (std::size_t first = 0; first < size; first += chunk_size) {
-      fill(chunk, inputs, first, std::min(chunk_size, size - first));
-      all.take(sim::steady_states(chunk, {.threads = threads}), first);
-      if (told.is_wanted()) told(std::min(first + chunk_size, size), size);
-    }
+    BatchMeter meter(told, size);
+    sim::in_parts(size, chunk_size, threads, [&](std::size_t first, std::size_t count) {
+      thread_local sim::OscillatorBatch chunk;  // its memory is used again
+      chunk.type = type;
+      chunk.damper_to = damper_to;
+      fill(chunk, inputs, first, count);
+      all.take(sim::steady_states(chunk), first);
+      meter.add(count);
+    });
     return all;
   };
   Output found = interruptible(compute, &told);
