@@ -7,6 +7,11 @@ import os
 
 import numpy as np
 
+from ._library import core
+
+if not core.knows_numpy_2 and int(np.__version__.split(".")[0]) >= 2:
+    raise ImportError(f"dualdamp was compiled with a pybind11 older than 2.12, which reads arrays of NumPy {np.__version__} wrongly; use NumPy 1, or compile it with a newer one")
+
 _MOST_THREADS = 1024
 
 

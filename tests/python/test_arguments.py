@@ -15,6 +15,20 @@ PAIRS = {"Y [mm]": np.array([4.5, 5.0, 5.5, 6.0, 6.5]), "x [mm]": np.array([4.70
 CURVE = "scenarios/examples/xy_curve.yaml"
 
 
+def test_numpy_2_needs_a_pybind11_that_knows_it(monkeypatch):
+    """An older one gave the first row of a table in every row."""
+    import importlib
+
+    from dualdamp import _arguments
+
+    monkeypatch.setattr(np, "__version__", "2.4.6")
+    monkeypatch.setattr(_arguments.core, "knows_numpy_2", False)
+    with pytest.raises(ImportError, match="pybind11 older than 2.12"):
+        importlib.reload(_arguments)
+    monkeypatch.setattr(_arguments.core, "knows_numpy_2", True)
+    importlib.reload(_arguments)
+
+
 @pytest.fixture
 def scenario(rig, drive):
     return {"system": rig, "excitation": drive, "analysis": {"type": "steady_state"}}
