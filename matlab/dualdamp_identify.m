@@ -7,7 +7,7 @@ function found = dualdamp_identify(data, varargin)
 % data: a CSV, MATLAB or universal file; or a struct of columns in SI, named as in docs/data-files.md: Y and x; t and x; ....
 %
 %   'mass', 'stiffness', 'frequency'   constants of the rig with their units; each may be left out
-%   'methods'   cell array of names; default: all that fit the data
+%   'methods'   a name or a cell array of names; default: all that fit the data
 %   'options'   further options of `dualdamp identify` as a cell array: {'--unit', 'x=mm', '--robust'}
 %   'out'       directory for the files that the program writes; default: none is kept
 %   'program'   as for dualdamp_run
@@ -32,6 +32,7 @@ function found = dualdamp_identify(data, varargin)
       call = [call, {['--', name{1}], dualdamp_text(value)}]; %#ok<AGROW>
     end
   end
+  if ischar(options.methods), options.methods = {options.methods}; end
   for i = 1:numel(options.methods)
     call = [call, {'--method', options.methods{i}}]; %#ok<AGROW>
   end

@@ -39,6 +39,7 @@ function found = dualdamp_run(scenario, varargin)
     file = char(scenario);
   end
   call = {'run', file};
+  if ischar(options.changes), options.changes = {options.changes}; end
   for i = 1:numel(options.changes)
     call = [call, {'--set', options.changes{i}}]; %#ok<AGROW>
   end

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 Quantity: TypeAlias = str | float
 Grid: TypeAlias = Sequence[Quantity] | NDArray[np.floating[Any]] | Mapping[str, Any]
 Path: TypeAlias = str | os.PathLike[str]
-Progress: TypeAlias = Callable[[int, int], object] | Literal[True]
+Progress: TypeAlias = Callable[[int, int], object] | bool
 Scenario: TypeAlias = Mapping[str, Any] | str | os.PathLike[str]
 
 __version__: str
@@ -191,6 +191,7 @@ def steady_state(
     title: str | None = None,
     out: Path | None = None,
     threads: int = 0,
+    progress: Progress | None = None,
 ) -> Result: ...
 @overload
 def steady_state(
@@ -204,8 +205,9 @@ def steady_state(
     Y: ArrayLike | None = None,
     force: ArrayLike | None = None,
     omega: ArrayLike | None = None,
-    damper_to: Literal["ground", "base"] = "ground",
+    damper_to: Literal["ground", "base"] | None = None,
     threads: int = 0,
+    progress: Progress | None = None,
 ) -> SteadyStates: ...
 @overload
 def law(
@@ -682,7 +684,7 @@ def fit(
     excitation: Excitation | Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None,
     validate: Any = None,
-    record: Mapping[str, Any] | None = None,
+    record: Mapping[str, Any] | Sequence[Mapping[str, Any] | None] | None = None,
     out: Path | None = None,
     threads: int = 0,
     free: str | None = None,
@@ -696,7 +698,7 @@ def predict(
     data: Any,
     *,
     excitation: Excitation | Mapping[str, Any] | None = None,
-    record: Mapping[str, Any] | None = None,
+    record: Mapping[str, Any] | Sequence[Mapping[str, Any] | None] | None = None,
     out: Path | None = None,
     threads: int = 0,
 ) -> Result: ...
@@ -713,6 +715,7 @@ def simulate(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 def free_decay(
     system: System | Mapping[str, Any],
@@ -724,6 +727,7 @@ def free_decay(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 def xy_curve(
     system: System | Mapping[str, Any],
@@ -736,6 +740,7 @@ def xy_curve(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 def frequency_response(
     system: System | Mapping[str, Any],
@@ -748,6 +753,7 @@ def frequency_response(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 def regime_map(
     system: System | Mapping[str, Any],
@@ -761,6 +767,7 @@ def regime_map(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 def xy_branch(
     system: System | Mapping[str, Any],
@@ -772,6 +779,7 @@ def xy_branch(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 def frequency_branch(
     system: System | Mapping[str, Any],
@@ -783,6 +791,7 @@ def frequency_branch(
     title: str | None = None,
     out: Path | None = None,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Result: ...
 class System:
     def __init__(
@@ -817,6 +826,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def free_decay(
         self,
@@ -828,6 +838,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def xy_curve(
         self,
@@ -840,6 +851,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def frequency_response(
         self,
@@ -852,6 +864,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def regime_map(
         self,
@@ -865,6 +878,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def xy_branch(
         self,
@@ -876,6 +890,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def frequency_branch(
         self,
@@ -887,6 +902,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
     def steady_state(
         self,
@@ -897,6 +913,7 @@ class System:
         title: str | None = None,
         out: Path | None = None,
         threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Result: ...
 class _Laws:
     def __iter__(self) -> Iterator[str]: ...

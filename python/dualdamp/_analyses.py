@@ -6,6 +6,7 @@ import inspect
 from functools import lru_cache
 
 from . import _tables
+from ._arguments import refuse_twice
 from ._run import run
 from ._systems import _dressed, as_mapping
 
@@ -18,6 +19,7 @@ _COMMON = [
     {"name": "title", "values": "str", "required": False, "meaning": "a title in one line"},
     {"name": "out", "values": "path", "required": False, "meaning": "directory for the files that the program writes"},
     {"name": "threads", "values": "int", "required": False, "meaning": "at most so many; default: all cores"},
+    {"name": "progress", "values": "callable or True", "required": False, "meaning": "as in `run`"},
 ]
 _EXAMPLES = {
     "simulate": ('rig.simulate(drive, cycles=3, sample_rate="100 Hz").events["kind"][0]', "'reversal'"),
@@ -32,7 +34,8 @@ _EXAMPLES = {
 
 
 def _run_analysis(name, system, excitation, keys):
-    options = {key: keys.pop(key) for key in ("out", "threads") if key in keys}
+    refuse_twice(name, keys, ("type",))
+    options = {key: keys.pop(key) for key in ("out", "threads", "progress") if key in keys}
     common = {key: keys.pop(key) for key in ("initial", "numerics", "title") if key in keys}
     scenario = {"system": as_mapping(system), "analysis": {"type": name, **keys}, **common}
     if excitation is not None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ._analyses import function
+from ._arguments import refuse_masked, thread_count
 from ._errors import NumericalFailure
 from ._library import core
+from ._run import close, reporter
 
 
 class SteadyStates:
@@ -76,8 +78,9 @@ def steady_state(
     Y=None,
     force=None,
     omega=None,
-    damper_to="ground",
+    damper_to=None,
     threads=0,
+    progress=None,
     **keys,
 ):
     """The steady state under a harmonic excitation: of any system, or of arrays of oscillators with Coulomb friction.
@@ -104,9 +107,11 @@ def steady_state(
     omega : array_like, optional
         Frequency of the drive [rad/s], > 0; default: sqrt(k/m).
     damper_to : {"ground", "base"}, optional
-        Other end of the damper.
+        Other end of the damper; default: ground. A system has its own.
     threads : int, optional
         At most so many; 0: all cores.
+    progress : callable or True, optional
+        As in `run`, where there are more oscillators than some hundred thousand.
     **keys
         With a system: further parts of the scenario, ``initial`` and ``numerics``; ``out`` as in `run`.
 
@@ -134,10 +139,12 @@ def steady_state(
     """
     if system is not None:
         numbers = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
-        for name, value in numbers.items():
+        for name, value in {**numbers, "damper_to": damper_to}.items():
             if value is not None:
                 raise TypeError(f"steady_state takes a system or {name}, not both")
-        return function("steady_state")(system, excitation, threads=threads, **keys)
+        return function("steady_state")(system, excitation, threads=threads, progress=progress, **keys)
+    if excitation is not None:
+        raise TypeError("steady_state takes an excitation with a system; without one Y or force, and omega, are the drive")
     if keys:
         raise TypeError(f"without a system, steady_state has no parameter {next(iter(keys))!r}")
     drive = force if Y is None else Y
@@ -150,19 +157,36 @@ def steady_state(
         raise TypeError("steady_state takes one of damping and zeta")
     given = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
     for name, value in given.items():
-        if value is not None and value.__class__ not in (float, int) and np.asarray(value).dtype.kind not in "fiu":
-            raise TypeError(f"without a system, {name} is a number or an array of numbers, in SI, not {value!r}")
+        if value.__class__ is not float and value is not None:
+            given[name] = _numbers(name, value)
+    mass, stiffness, F0 = given["mass"], given["stiffness"], given["F0"]
     if damping is None:
-        damping = _damping(zeta, mass, stiffness)
-    if omega is None:
-        omega = _natural_frequency(mass, stiffness)
-    if damper_to not in ("ground", "base"):
+        damping = _damping(given["zeta"], mass, stiffness)
+    else:
+        damping = given["damping"]
+    omega = _natural_frequency(mass, stiffness) if omega is None else given["omega"]
+    if damper_to not in (None, "ground", "base"):
         raise ValueError(f"damper_to is 'ground' or 'base', not {damper_to!r}")
-    values = (mass, damping, stiffness, F0, F0 if static is None else static, drive, omega)
-    states = SteadyStates(*core.steady_states(Y is not None, damper_to == "base", threads, values))
+    values = (mass, damping, stiffness, F0, F0 if static is None else given["static"], given["force" if Y is None else "Y"], omega)
+    report = reporter(progress)
+    try:
+        states = SteadyStates(*core.steady_states(Y is not None, damper_to == "base", thread_count(threads), values, report))
+    finally:
+        close(report)
     if states._outcome.__class__ is int and states._outcome != 0:
         raise NumericalFailure(f"there is no steady state: {states.outcome}")
     return states
+
+
+def _numbers(name, value):
+    """In double precision: products of small integers, or of float32, would overflow or be rounded."""
+    if value.__class__ is int:
+        return float(value)
+    refuse_masked(name, value)
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"without a system, {name} is a number or an array of numbers, in SI, not {value!r}")
+    return float(array) if array.ndim == 0 else array.astype(np.float64, copy=False)
 
 
 # Of a mass or a stiffness out of range any value will do: the core refuses the mass or the stiffness itself.
@@ -182,4 +206,4 @@ def _natural_frequency(mass, stiffness):
 
 
 def _is_scalar(*values):
-    return all(value.__class__ in (float, int) for value in values)
+    return all(value.__class__ is float for value in values)

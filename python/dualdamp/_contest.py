@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ._arguments import path_text, thread_count
 from ._identification import identify, in_memory
 from ._library import core
 from ._run import run_source, source_of
@@ -133,7 +134,7 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0):
     OutputError
         The files cannot be written.
     """
-    return core.export_cases(source_of(scenario, changes), os.fspath(directory), "" if seed is None else str(seed), threads)
+    return core.export_cases(source_of(scenario, changes), path_text(directory), "" if seed is None else str(seed), thread_count(threads))
 
 
 def cases(directory):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
+from ._arguments import path_text, refuse_twice
 from ._identification import in_memory
 from ._library import core
 from ._run import run_source, source_of
@@ -53,8 +54,9 @@ def fit(
         The state at the start of histories, where it is known.
     validate : like data, optional
         Records that are predicted with the fitted numbers, not fitted.
-    record : mapping, optional
-        What the data do not say of themselves, for each of them: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``.
+    record : mapping or list of mapping, optional
+        What the data do not say of themselves: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``. One mapping holds for all
+        of them; a list has one for each, those of `validate` behind those of `data`.
     out, threads
         As in `run`.
     **options
@@ -78,17 +80,22 @@ def fit(
     >>> [(row["name"], round(row["value"], 2)) for row in found.result.parameters[:2]]
     [('damping', 1.0), ('kinetic', 1.0)]
     """
+    refuse_twice("fit", options, ("type", "laws"))
+    if excitation is None and frequency is not None:
+        excitation = {"type": "base_harmonic", "frequency": frequency, "amplitude": amplitude}
+    elif frequency is not None or amplitude is not None:
+        raise TypeError("frequency, perhaps with amplitude, is a drive by itself: state these or an excitation")
     texts = {}
     system = {"mass": mass, "stiffness": stiffness, "damping": damping}
-    analysis = {"type": "fit", "data": _records(data, record, texts), **options}
+    fitted, kept = _listed(data), _listed(validate)
+    records = _records(fitted + kept, record, texts)
+    analysis = {"type": "fit", "data": records[: len(fitted)], **options}
     if validate is not None:
-        analysis["validate"] = _records(validate, record, texts)
+        analysis["validate"] = records[len(fitted) :]
     if isinstance(law, (list, tuple)):
         analysis["laws"] = list(law)
     else:
         system["friction"] = {"law": law} if isinstance(law, str) else as_mapping(law)
-    if excitation is None and frequency is not None:
-        excitation = {"type": "base_harmonic", "frequency": frequency, "amplitude": amplitude}
     scenario = {"system": system, "excitation": excitation, "initial": initial, "analysis": analysis}
     return run_source(source_of(scenario, data=texts), out=out, threads=threads)
 
@@ -117,11 +124,11 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     InvalidScenario, NumericalFailure
         As `run`.
     """
-    if fitted.analysis != "fit":
-        raise TypeError(f"predict takes the result of a fit, not of {fitted.analysis}")
+    if getattr(fitted, "analysis", None) != "fit":
+        raise TypeError(f"predict takes the result of a fit, not of {getattr(fitted, 'analysis', repr(fitted))}")
     found, texts = fitted.result, {}
     shared = [i for i, row in enumerate(found.parameters) if row["name"].split("[")[0] not in _OF_RECORDS]
-    analysis = {"type": "predict", "data": _records(data, record, texts)}
+    analysis = {"type": "predict", "data": _records(_listed(data), record, texts)}
     if shared:
         analysis["free"] = ", ".join(found.parameters[i]["name"] for i in shared)
         analysis["covariance"] = [found.covariance[i][j] for i in shared for j in shared]
@@ -132,12 +139,25 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     return run_source(source, out=out, threads=threads)
 
 
+def _listed(data):
+    """One record or several, as a list; None: no record."""
+    return [] if data is None else list(data) if isinstance(data, (list, tuple)) else [data]
+
+
 def _records(data, record, texts):
     """The value of the key `data`; what lies in memory goes to `texts`."""
+    said = list(record) if isinstance(record, (list, tuple)) else [record] * len(data)
+    if len(said) != len(data):
+        raise ValueError(f"there are {len(data)} records, and 'record' says something of {len(said)}")
     items = []
-    for one in data if isinstance(data, (list, tuple)) else [data]:
-        name = os.fspath(one) if isinstance(one, (str, os.PathLike)) else f"data {len(texts) + 1}"
-        if not isinstance(one, (str, os.PathLike)):
+    for one, more in zip(data, said):
+        if not isinstance(more or {}, Mapping):
+            raise TypeError(f"'record' is a mapping such as {{'sigma_x': '2 um'}}, or a list of them, not {more!r}")
+        if isinstance(one, (str, os.PathLike)):
+            name = path_text(one, "the name of a data file")
+        else:
+            name = f"data {len(texts) + 1}"
             texts[name] = in_memory(one)
-        items.append({"file": name, **(record if isinstance(record, Mapping) else {})})
+        refuse_twice("record", more or {}, ("file",))
+        items.append({"file": name, **(more or {})})
     return items

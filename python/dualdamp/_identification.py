@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ._arguments import path_text, refuse_masked, refuse_twice
 from ._library import core
 from ._run import run_source, source_of
 
@@ -80,6 +81,7 @@ def identify(
     >>> round(found.answer.zeta, 3), round(found.answer.F0, 1)
     (0.099, 4.4)
     """
+    refuse_twice("identify", options, ("type", "data"))
     system = {"mass": mass, "stiffness": stiffness, "gravity_stiffness": gravity_stiffness, "coordinate": coordinate}
     analysis = {"type": "identify", "methods": methods, "units": units, "columns": columns, "scale": scale, **options}
     return run_source(_source(data, system, frequency, analysis), out=out, threads=threads)
@@ -115,6 +117,7 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     >>> pairs = {"Y [mm]": [4.5, 5.0, 5.5, 6.0, 6.5], "x [mm]": [4.70, 7.21, 9.76, 12.25, 14.82]}
     >>> advice = dd.next(pairs, mass="1.042 kg", stiffness="1568 N/m", frequency="6.17 Hz", sigma_x="20 um")
     """
+    refuse_twice("next", options, ("type", "data"))
     analysis = {"type": "design", "units": units, "columns": columns, "scale": scale, **options}
     return run_source(_source(data, {"mass": mass, "stiffness": stiffness}, frequency, analysis), out=out, threads=threads)
 
@@ -124,7 +127,7 @@ def _source(data, system, frequency, analysis):
     texts = {}
     title = None
     if isinstance(data, (str, os.PathLike)):
-        name = os.fspath(data)
+        name = path_text(data, "the name of a data file")
         title = os.path.basename(name) or None
     else:
         name = _IN_MEMORY
@@ -158,6 +161,7 @@ def _columns_of(data):
 
 
 def _cells(name, values):
+    refuse_masked(f"the column {name!r}", values)
     cells = np.asarray(values)
     if cells.ndim != 1:
         raise ValueError(f"the column {name!r} has {cells.ndim} dimensions; a column has one")

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import html
 import json
+import os
 import tempfile
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+
+from ._arguments import path_text
 
 
 class Record(dict):
@@ -179,7 +182,7 @@ class Result:
         OutputError
             The files cannot be written.
         """
-        return self._run.save(str(directory))
+        return self._run.save(os.fsencode(path_text(directory)))
 
     def report(self):
         """The page of the result.
@@ -273,7 +276,7 @@ class _StoredRun:
         return self._tables
 
     def save(self, directory):
-        directory = Path(directory)
+        directory = Path(os.fsdecode(directory))
         directory.mkdir(parents=True, exist_ok=True)
         for name, content in self._files.items():
             (directory / name).write_bytes(content)

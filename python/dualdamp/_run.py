@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import warnings
 from collections.abc import Mapping
+from os import PathLike, fsencode
 
+from ._arguments import path_text, thread_count
 from ._errors import CheckFailed, IncompleteResult, NumericalFailure
 from ._library import core
 from ._results import Result
@@ -19,7 +20,8 @@ def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=
     Parameters
     ----------
     scenario : mapping, str or path
-        A dict as a scenario file holds it; or the text of such a file, which has more than one line; or the name of one.
+        A dict as a scenario file holds it; or the text of such a file, which has more than one line or begins with a brace, as
+        `check` returns it; or the name of one.
     changes : mapping, optional
         Values laid over the scenario, by path: ``{"system.friction.kinetic": "3 N"}``, as the program's ``--set``.
     out : path, optional
@@ -110,35 +112,44 @@ def load_plugin(path):
     InvalidScenario
         It is no such library.
     """
-    core.load_plugin(os.fspath(path))
+    core.load_plugin(path_text(path))
 
 
 def source_of(scenario, changes=None, data=None):
     """What the libraries are to read. `data`: texts that stand for data files, by name."""
+    if not isinstance(changes or {}, Mapping):
+        raise TypeError(f"changes are a dict of path and value, such as {{'system.mass': '2 kg'}}, not {changes!r}")
     set_ = [f"{path}={flow(plain(value))}" for path, value in (changes or {}).items()]
     data = data or {}
+    for text in set_:
+        text.encode()  # half a character raises what Python raises
     if isinstance(scenario, Mapping):
         return core.Source(text_of(scenario), "scenario", data_anywhere=True, data=data, set=set_)
-    if isinstance(scenario, str) and "\n" in scenario:
+    if isinstance(scenario, str) and ("\n" in scenario or scenario.lstrip().startswith("{")):
+        scenario.encode()
         return core.Source(scenario, "scenario", data=data, set=set_)
-    if isinstance(scenario, (str, os.PathLike)):
-        return core.Source("", os.fspath(scenario), is_file=True, data=data, set=set_)
+    if isinstance(scenario, (str, PathLike)):
+        return core.Source("", fsencode(path_text(scenario, "the name of a scenario")), is_file=True, data=data, set=set_)
     raise TypeError(f"a scenario is a dict, a text or a path, not {type(scenario).__name__}")
 
 
 def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, progress=None, key="", answers=()):
-    report = _Progress() if progress is True else progress
+    report = reporter(progress)
+    if resume and overwrite:
+        raise TypeError("a run goes on where an earlier one ended, or begins anew: one of resume and overwrite")
+    if resume and out is None and not key:
+        raise TypeError("resume goes on with what is in the directory `out`, and none is given")
+    directory = b"" if out is None else fsencode(path_text(out, "out"))
     laws = sys.modules.get(__package__ + "._python_laws")  # where no law is written in Python, none can fail
     if laws is not None:
         laws.last_error = None
     try:
-        done = core.run(source, "" if out is None else os.fspath(out), threads, resume, overwrite, report, key, list(answers))
+        done = core.run(source, directory, thread_count(threads), bool(resume), bool(overwrite), report, key, list(answers))
     finally:
-        if isinstance(report, _Progress):
-            report.close()
+        close(report)
     result = Result(done)
     if out is not None:
-        for message in done.save(os.fspath(out)):
+        for message in done.save(directory):
             warnings.warn(message, stacklevel=3)
     if done.numbers == "null":
         raise NumericalFailure(done.failure, result) from (laws and laws.last_error)
@@ -155,6 +166,21 @@ def _failed_checks(result):
     if not verification.get("agrees", True):
         lines.append("verification: " + verification["reason"])
     return "\n".join(lines)
+
+
+def reporter(progress):
+    """What is called as (done, all), or None."""
+    if progress is True:
+        return _Progress()
+    if progress is None or progress is False or callable(progress):
+        return progress or None
+    raise TypeError(f"progress is True, False or a function of (done, all), not {progress!r}")
+
+
+def close(report):
+    """Behind the last call."""
+    if isinstance(report, _Progress):
+        report.close()
 
 
 class _Progress:

@@ -22,10 +22,12 @@ def plain(value):
         return float(value) if isinstance(value, float) else value
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    if hasattr(value, "tolist"):
+    if hasattr(value, "tolist"):  # a masked value becomes None there
         return plain(value.tolist())
     if isinstance(value, (list, tuple, range)):
         return [plain(item) for item in value]
+    if value is None:
+        raise TypeError("a scenario holds no None here; a masked value of an array is one, too")
     raise TypeError(f"a scenario holds no {type(value).__name__}: {value!r}; it holds texts, numbers, True, False, lists and dicts")
 
 
@@ -81,4 +83,6 @@ def text_of(scenario):
       cycles: 3
     <BLANKLINE>
     """
-    return "\n".join(_lines({"schema": SCHEMA, **plain(scenario)}, "")) + "\n"
+    text = "\n".join(_lines({"schema": SCHEMA, **plain(scenario)}, "")) + "\n"
+    text.encode()  # half a character raises what Python raises
+    return text

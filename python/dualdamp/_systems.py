@@ -28,7 +28,7 @@ class _Part:
 
     def __getattr__(self, name):
         if not name.startswith("_") and name in self._values:
-            return self._values[name]
+            return plain(self._values[name])
         raise AttributeError(f"this {type(self).__name__} has no {name!r}; it has: {', '.join(self._values)}")
 
     def __dir__(self):
@@ -36,7 +36,7 @@ class _Part:
 
     def to_dict(self):
         """Its keys and values, as a scenario holds them."""
-        return dict(self._values)
+        return plain(self._values)  # a copy of all that is in it: the part itself does not change
 
     def __eq__(self, other):
         return type(self) is type(other) and self._values == other._values
@@ -230,6 +230,8 @@ def quantity(values, unit):
     numbers = plain(values)
     if isinstance(numbers, list):
         return [quantity(number, unit) for number in numbers]
+    if isinstance(numbers, bool) or not isinstance(numbers, (int, float)):
+        raise TypeError(f"a quantity is made of a number or of several, not of {numbers!r}")
     return f"{numbers!r} {unit}"
 
 
@@ -273,7 +275,7 @@ def as_mapping(value):
         return value.to_dict()
     if isinstance(value, Mapping):
         return dict(value)
-    raise TypeError(f"expected a {'System, an Excitation or a dict'}, not {type(value).__name__}")
+    raise TypeError(f"a System, a Law, an Excitation or a dict is needed, not {type(value).__name__}")
 
 
 def _system_docs():

@@ -1,13 +1,19 @@
+#include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "python/src/interruptible.hpp"
 #include "python/src/parts.hpp"
 #include "sim/batch/batch.hpp"
+#include "sim/parallel.hpp"
 
 namespace dualdamp::python {
 
@@ -26,11 +32,11 @@ class Input {
       number_ = PyFloat_AS_DOUBLE(value.ptr());
       return;
     }
-    array_ = Numbers::ensure(value);
-    if (!array_) throw py::type_error("a number or an array of numbers is needed");
+    array_ = Numbers(value);  // throws what Python raises: no number, no memory
     if (array_.ndim() == 0) number_ = *array_.data();
   }
 
+  [[nodiscard]] bool is_number() const { return !array_ || array_.ndim() == 0; }
   [[nodiscard]] Shape shape() const {
     return array_ ? Shape(array_.shape(), array_.shape() + array_.ndim()) : Shape{};
   }
@@ -49,7 +55,7 @@ class Input {
 
   /// Numbers `first` to `first + out.size()` of the flattened shape. Needs no lock of the interpreter.
   void read(std::size_t first, std::vector<double>& out) const {
-    if (!array_ || array_.ndim() == 0) {
+    if (is_number()) {
       std::ranges::fill(out, number_);
       return;
     }
@@ -102,45 +108,63 @@ Shape common_shape(const std::vector<Input>& inputs) {
   return common;
 }
 
+/// The number of its entries.
+std::size_t size_of(const Shape& shape) {
+  std::size_t size = 1;
+  for (const py::ssize_t length : shape)
+    if (__builtin_mul_overflow(size, static_cast<std::size_t>(length), &size))
+      throw py::value_error("the arrays together have more entries than can be counted");
+  return size;
+}
+
 /// An array of that shape which takes the numbers over; a plain number where there is no dimension.
 template <typename Number>
-py::object output(std::vector<Number> numbers, const Shape& shape) {
-  if (shape.empty()) return py::cast(numbers.front());
-  auto* const kept = new std::vector<Number>(std::move(numbers));
-  const py::capsule owner(kept, [](void* memory) { delete static_cast<std::vector<Number>*>(memory); });
-  return py::array_t<Number>(shape, kept->data(), owner);
+py::object output(std::unique_ptr<Number[]> numbers, const Shape& shape) {
+  if (shape.empty()) return py::cast(numbers[0]);
+  Number* const kept = numbers.release();
+  const py::capsule owner(kept, [](void* memory) { delete[] static_cast<Number*>(memory); });
+  return py::array_t<Number>(shape, kept, owner);
 }
 
 /// What is returned, one entry for each oscillator. NaN where there is no steady state.
 struct Output {
   explicit Output(std::size_t size)
-      : peak(size), trough(size), lag(size), radius(size), stops(size), outcome(size) {}
+      : peak(std::make_unique_for_overwrite<double[]>(size)),
+        trough(std::make_unique_for_overwrite<double[]>(size)),
+        lag(std::make_unique_for_overwrite<double[]>(size)),
+        radius(std::make_unique_for_overwrite<double[]>(size)),
+        stops(std::make_unique_for_overwrite<int[]>(size)),
+        outcome(std::make_unique_for_overwrite<unsigned char[]>(size)) {}
 
   void take(const sim::BatchSteadyStates& states, std::size_t first) {
-    const auto place = static_cast<std::ptrdiff_t>(first);
-    std::ranges::copy(states.peak, peak.begin() + place);
-    std::ranges::copy(states.trough, trough.begin() + place);
-    std::ranges::copy(states.lag, lag.begin() + place);
-    std::ranges::copy(states.radius, radius.begin() + place);
-    std::ranges::copy(states.stops, stops.begin() + place);
+    std::ranges::copy(states.peak, &peak[first]);
+    std::ranges::copy(states.trough, &trough[first]);
+    std::ranges::copy(states.lag, &lag[first]);
+    std::ranges::copy(states.radius, &radius[first]);
+    std::ranges::copy(states.stops, &stops[first]);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    bool are_done = true;
     for (std::size_t i = 0; i < states.outcome.size(); ++i) {
       outcome[first + i] = static_cast<unsigned char>(states.outcome[i]);
+      are_done &= states.outcome[i] == core::OutcomeKind::done;
+    }
+    if (are_done) return;
+    for (std::size_t i = 0; i < states.outcome.size(); ++i) {
       if (states.outcome[i] == core::OutcomeKind::done) continue;
-      for (std::vector<double>* numbers : {&peak, &trough, &lag, &radius}) (*numbers)[first + i] = none;
+      for (double* numbers : {peak.get(), trough.get(), lag.get(), radius.get()}) numbers[first + i] = none;
     }
   }
 
-  std::vector<double> peak, trough, lag, radius;
-  std::vector<int> stops;
-  std::vector<unsigned char> outcome;
+  // Not initialised: the memory of a large array is touched when it is written, and once.
+  std::unique_ptr<double[]> peak, trough, lag, radius;
+  std::unique_ptr<int[]> stops;
+  std::unique_ptr<unsigned char[]> outcome;
 };
 
-/// Many oscillators are handed over in chunks: the memory for them is bounded, and threads rarely wait for each
-/// other.
-constexpr std::size_t chunk_size = 131'072;
+/// Many oscillators are computed in chunks: what is copied stays in the cache of one core, and each copies its own.
+constexpr std::size_t chunk_size = 2'048;
 
-/// Fills the chunk with `count` oscillators from `first` on; its memory is used again and again.
+/// Fills the chunk with `count` oscillators from `first` on.
 void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::size_t first, std::size_t count) {
   std::vector<double>* const columns[] = {&chunk.mass,         &chunk.damping,   &chunk.stiffness, &chunk.kinetic,
                                           &chunk.static_level, &chunk.amplitude, &chunk.frequency};
@@ -150,27 +174,56 @@ void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::si
   }
 }
 
+/// Tells now and then how many oscillators are done; from any thread.
+class BatchMeter {
+ public:
+  BatchMeter(ProgressCall& told, std::size_t all) : told_(told), all_(all) {}
+
+  void add(std::size_t count) {
+    if (!told_.is_wanted()) return;
+    const std::lock_guard lock(mutex_);
+    done_ += count;
+    if (done_ < all_ && done_ < next_) return;
+    next_ = done_ + pause_;
+    told_(done_, all_);
+  }
+
+ private:
+  static constexpr std::size_t pause_ = 131'072;
+  ProgressCall& told_;
+  std::size_t all_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::size_t next_ = pause_;
+};
+
 /// `values`: mass, damping, stiffness, kinetic, static, amplitude, frequency.
-py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const py::tuple& values) {
+py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const py::tuple& values,
+                        std::optional<ProgressCall::Function> progress) {
   std::vector<Input> inputs;
   for (const py::handle value : values) inputs.emplace_back(py::reinterpret_borrow<py::object>(value));
   constexpr std::size_t columns = 7;
   if (inputs.size() != columns) throw py::value_error("seven values are needed");
   const Shape shape = common_shape(inputs);
-  std::size_t size = 1;
-  for (const py::ssize_t length : shape) size *= static_cast<std::size_t>(length);
+  const std::size_t size = size_of(shape);
   for (Input& input : inputs) input.broadcast(shape);
   const auto type = moves_base ? sim::ExcitationType::base_harmonic : sim::ExcitationType::force_harmonic;
   const auto damper_to = damper_to_base ? sim::DamperTo::base : sim::DamperTo::ground;
-  Output found = interruptible([&] {
+  ProgressCall told(std::move(progress));
+  const auto compute = [&] {
     Output all(size);
-    sim::OscillatorBatch chunk{.type = type, .damper_to = damper_to};
-    for (std::size_t first = 0; first < size; first += chunk_size) {
-      fill(chunk, inputs, first, std::min(chunk_size, size - first));
-      all.take(sim::steady_states(chunk, {.threads = threads}), first);
-    }
+    BatchMeter meter(told, size);
+    sim::in_parts(size, chunk_size, threads, [&](std::size_t first, std::size_t count) {
+      thread_local sim::OscillatorBatch chunk;  // its memory is used again
+      chunk.type = type;
+      chunk.damper_to = damper_to;
+      fill(chunk, inputs, first, count);
+      all.take(sim::steady_states(chunk), first);
+      meter.add(count);
+    });
     return all;
-  });
+  };
+  Output found = interruptible(compute, &told);
   return py::make_tuple(output(std::move(found.peak), shape), output(std::move(found.trough), shape),
                         output(std::move(found.lag), shape), output(std::move(found.radius), shape),
                         output(std::move(found.stops), shape), output(std::move(found.outcome), shape));
@@ -180,7 +233,7 @@ py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const
 
 void add_batches(py::module_& module) {
   module.def("steady_states", &steady_states, py::arg("moves_base"), py::arg("damper_to_base"), py::arg("threads"),
-             py::arg("values"));
+             py::arg("values"), py::arg("progress") = py::none());
   module.attr("outcomes") = py::make_tuple("done", "no_steady_state", "not_unique", "event_limit", "jump_cycle",
                                            "not_finite", "not_identifiable");
 }

@@ -54,15 +54,21 @@ void InterruptWatch::raise_if_pressed() const {
   if (is_set_ && was_pressed != 0) raise();
 }
 
-void CallbackError::keep() {
-  if (!error_) error_ = std::current_exception();
-  core::request_cancellation();
+void ProgressCall::operator()(std::size_t done, std::size_t all) {
+  const py::gil_scoped_acquire lock;
+  if (!error_) {
+    try {
+      (*function_)(done, all);
+      return;
+    } catch (const py::error_already_set&) {
+      error_ = std::current_exception();
+    }
+  }
+  throw core::Cancelled{};
 }
 
-void CallbackError::rethrow_if_any() const {
-  if (!error_) return;
-  core::clear_cancellation();
-  std::rethrow_exception(error_);
+void ProgressCall::rethrow_if_any() const {
+  if (error_) std::rethrow_exception(error_);
 }
 
 }  // namespace dualdamp::python

@@ -13,6 +13,8 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/cancellation.hpp"
 
@@ -34,14 +36,21 @@ class InterruptWatch {
   bool is_set_ = false;
 };
 
-/// The first exception that a function of the user's raised inside a computation.
-class CallbackError {
+/// A function of the user's that is told how far a computation is.
+class ProgressCall {
  public:
-  /// Keeps the exception that is being handled and cancels the computation. With the interpreter's lock.
-  void keep();
+  using Function = std::function<void(std::size_t done, std::size_t all)>;
+  explicit ProgressCall(std::optional<Function> function) : function_(std::move(function)) {}
+
+  [[nodiscard]] bool is_wanted() const { return function_.has_value(); }
+
+  /// Without the interpreter's lock. The first exception of the function is kept, and ends this computation alone:
+  /// `core::Cancelled` leaves here, from then on in every thread.
+  void operator()(std::size_t done, std::size_t all);
   void rethrow_if_any() const;
 
  private:
+  std::optional<Function> function_;
   std::exception_ptr error_;
 };
 
@@ -52,18 +61,18 @@ auto unlocked(Work& work) {
 }
 
 template <typename Work>
-auto interruptible(Work work, const CallbackError* callbacks = nullptr) {
+auto interruptible(Work work, const ProgressCall* progress = nullptr) {
   const InterruptWatch watch;
   try {
     auto result = unlocked(work);
     // A run that was nearly over does not notice a cancellation.
-    if (callbacks != nullptr) callbacks->rethrow_if_any();
+    if (progress != nullptr) progress->rethrow_if_any();
     watch.raise_if_pressed();
     return result;
   } catch (const core::Cancelled&) {
     // The lock is back by now.
   }
-  if (callbacks != nullptr) callbacks->rethrow_if_any();
+  if (progress != nullptr) progress->rethrow_if_any();
   watch.raise();
 }
 

@@ -41,7 +41,6 @@ struct Settings {
   std::string directory = {};
   int threads = 0;
   scenarios::FoundCases found = scenarios::FoundCases::refuse;  ///< of a campaign: cases of an earlier run
-  std::optional<std::function<void(std::size_t, std::size_t)>> progress = {};
   std::string key = {};  ///< of an exported stress test whose answers are scored; empty: a run as it is
   std::vector<std::pair<std::string, std::string>> answers = {};  ///< name and file
 };
@@ -91,36 +90,31 @@ struct Run {
   std::shared_ptr<const scenarios::RunResult> result;
 };
 
-scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, CallbackError& error) {
+scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, ProgressCall& told) {
+  const bool is_campaign = dynamic_cast<const scenarios::Campaign*>(scenario.question.get()) != nullptr;
+  if (!is_campaign && settings.found != scenarios::FoundCases::refuse)
+    throw py::type_error("resume and overwrite are for a stress test or a sweep, and this is none");
   scenarios::RunOptions options{
       .directory = settings.directory, .threads = settings.threads, .found = settings.found};
-  if (settings.progress)
-    options.progress = [&](const scenarios::Progress& progress) {
-      const py::gil_scoped_acquire lock;
-      try {
-        (*settings.progress)(progress.done, progress.all);
-      } catch (const py::error_already_set&) {
-        error.keep();
-      }
-    };
+  if (told.is_wanted())
+    options.progress = [&](const scenarios::Progress& progress) { told(progress.done, progress.all); };
   std::optional<TemporaryDirectory> temporary;
-  if (options.directory.empty() && dynamic_cast<const scenarios::Campaign*>(scenario.question.get()) != nullptr)
-    options.directory = temporary.emplace().path();
+  if (options.directory.empty() && is_campaign) options.directory = temporary.emplace().path();
   std::optional<sim::ThreadLimit> limit;
   if (settings.threads > 0) limit.emplace(settings.threads);
   return scenarios::run(scenario, options);
 }
 
-Run run(const Source& source, const Settings& settings) {
-  CallbackError error;
+Run run(const Source& source, const Settings& settings, std::optional<ProgressCall::Function> progress) {
+  ProgressCall told(std::move(progress));
   Run done;
   interruptible(
       [&] {
         done.scenario = std::make_shared<const scenarios::Scenario>(load(source, settings));
-        done.result = std::make_shared<const scenarios::RunResult>(compute(*done.scenario, settings, error));
+        done.result = std::make_shared<const scenarios::RunResult>(compute(*done.scenario, settings, told));
         return true;
       },
-      &error);
+      &told);
   return done;
 }
 
@@ -227,13 +221,15 @@ void add_runs(py::module_& module) {
   module.def(
       "run",
       [](const Source& source, const std::string& directory, int threads, bool resume, bool overwrite,
-         std::optional<std::function<void(std::size_t, std::size_t)>> progress, const std::string& key,
+         std::optional<ProgressCall::Function> progress, const std::string& key,
          std::vector<std::pair<std::string, std::string>> answers) {
-        return run(source, {directory, threads,
-                            resume      ? scenarios::FoundCases::resume
-                            : overwrite ? scenarios::FoundCases::overwrite
-                                        : scenarios::FoundCases::refuse,
-                            std::move(progress), key, std::move(answers)});
+        return run(source,
+                   {directory, threads,
+                    resume      ? scenarios::FoundCases::resume
+                    : overwrite ? scenarios::FoundCases::overwrite
+                                : scenarios::FoundCases::refuse,
+                    key, std::move(answers)},
+                   std::move(progress));
       },
       py::arg("source"), py::arg("directory") = "", py::arg("threads") = 0, py::arg("resume") = false,
       py::arg("overwrite") = false, py::arg("progress") = py::none(), py::arg("key") = "",

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 Quantity: TypeAlias = str | float
 Grid: TypeAlias = Sequence[Quantity] | NDArray[np.floating[Any]] | Mapping[str, Any]
 Path: TypeAlias = str | os.PathLike[str]
-Progress: TypeAlias = Callable[[int, int], object] | Literal[True]
+Progress: TypeAlias = Callable[[int, int], object] | bool
 Scenario: TypeAlias = Mapping[str, Any] | str | os.PathLike[str]
 
 __version__: str
@@ -202,6 +202,7 @@ def steady_state(
     title: str | None = None,
     out: Path | None = None,
     threads: int = 0,
+    progress: Progress | None = None,
 ) -> Result: ...
 @overload
 def steady_state(
@@ -215,8 +216,9 @@ def steady_state(
     Y: ArrayLike | None = None,
     force: ArrayLike | None = None,
     omega: ArrayLike | None = None,
-    damper_to: Literal["ground", "base"] = "ground",
+    damper_to: Literal["ground", "base"] | None = None,
     threads: int = 0,
+    progress: Progress | None = None,
 ) -> SteadyStates: ...
 '''
 
@@ -241,6 +243,7 @@ COMMON = {
     "title": "str",
     "out": "Path",
     "threads": "int",
+    "progress": "Progress",
 }
 
 
@@ -301,7 +304,7 @@ def fit_functions():
     keys = [key for key in entry("analyses", "fit")["keys"] if key["name"] not in own]
     named = [f"{name}: Quantity | None = None" for name in ("mass", "stiffness", "damping")]
     named += ["frequency: str | None = None", "amplitude: Quantity | None = None"]
-    after = ["record: Mapping[str, Any] | None = None", "out: Path | None = None", "threads: int = 0"]
+    after = ["record: Mapping[str, Any] | Sequence[Mapping[str, Any] | None] | None = None", "out: Path | None = None", "threads: int = 0"]
     drive = "excitation: Excitation | Mapping[str, Any] | None = None"
     named += [drive, "initial: Mapping[str, Any] | None = None", "validate: Any = None", *after, *parameters_of(keys)]
     yield function("fit", ["law: str | Law | Mapping[str, Any] | Sequence[str]", "data: Any"], named, "Result")

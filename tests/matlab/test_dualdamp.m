@@ -32,6 +32,10 @@ from_arrays = dualdamp_identify(data, rig{:});
 assert(from_arrays.result.answer.zeta, from_file.result.answer.zeta, -1e-9);
 one = dualdamp_identify(data, rig{:}, 'methods', {'resonance_least_squares'});
 assert(numel(one.result.estimates), 1);
+by_name = dualdamp_identify(data, rig{:}, 'methods', 'resonance_least_squares');
+assert(by_name.result.estimates.zeta, one.result.estimates.zeta);
+by_text = dualdamp_run(scenario, 'changes', 'system.friction.kinetic=1 N');
+assert(by_text.result.amplitude, changed.result.amplitude);
 
 function refused(work, identifier, words)
   try
@@ -53,4 +57,5 @@ refused(@() dualdamp_run(undamped), 'dualdamp:numericalFailure', 'error');
 refused(@() dualdamp_run(scenario, 'program', '/nowhere/dualdamp'), 'dualdamp:program', 'nowhere');
 refused(@() dualdamp_run(scenario, 'chagnes', {}), 'dualdamp:usage', 'there are: changes');
 refused(@() dualdamp_identify(struct('Y', [1, 2], 'x', 1), rig{:}), 'dualdamp:usage', 'differ in length');
+refused(@() dualdamp_identify(struct('Y', data.Y, 'x', data.x + 1i), rig{:}), 'dualdamp:usage', 'column x holds no real numbers');
 disp('all tests of matlab/ passed');

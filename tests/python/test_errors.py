@@ -151,3 +151,14 @@ def test_other_threads_run_meanwhile():
         count += 1
     thread.join()
     assert count > 20  # with the lock held it would be one or two
+
+
+def test_interrupt_of_a_batch(interruptible):
+    """Before 740 MB of results are touched; the computation would last seconds."""
+    import numpy as np
+
+    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        dd.steady_state(mass=1.0, stiffness=100.0, zeta=0.2, F0=np.linspace(0, 2, 40_000)[:, None], Y=np.linspace(0.1, 0.5, 1000))
+    assert time.monotonic() - begin < 2
