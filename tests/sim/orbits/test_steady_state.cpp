@@ -354,3 +354,20 @@ TEST_CASE("a mass that creeps to where friction holds it rests, and is no subhar
     }
   }
 }
+
+TEST_CASE("a mass whose slips of many periods rounding hides rests, and is no subharmonic") {
+  // Each of 64 slips is hidden, and their sum is not: 7.7e-12 m of 0.073 m.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.7008, .cubic_stiffness = 2.1232};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.04961, .frequency = 3.3242};
+  model.initial = {.position = -22.201};
+  model.friction.emplace_back(friction::Coulomb(0.12394, 0.12394));
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.amplitude == 0.0);
+  CHECK(state.period_ratio == 1);
+  CHECK(state.period == Approx(2.0 * std::numbers::pi / 3.3242));
+  REQUIRE(state.sticks.size() == 1);
+  CHECK(state.sticks.front().duration == state.period);
+  for (const std::string& warning : state.warnings) CHECK_THAT(warning, !Catch::Contains("subharmonic"));
+}
