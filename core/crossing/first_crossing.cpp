@@ -177,9 +177,10 @@ double quiet_stretch(const ExponentialBasis& basis, std::span<const Guard> guard
   ElementNumbers bounds;
   for (double width = horizon - a; width > static_cast<double>(fewest_panels) * basis.panel(); width *= 0.5) {
     bound_elements(basis, values, a, width, bounds);
-    if (std::ranges::all_of(guards, [&](const Guard& guard) {
-          return least(basis, guard, bounds) > guard_rounding * guard.amplitude;
-        }))
+    // What counts as zero grows with time, as in GuardJets: a tangency within it is to be reported.
+    const double rounding = guard_rounding + std::numeric_limits<double>::epsilon() * basis.turning() * (a + width);
+    if (std::ranges::all_of(
+            guards, [&](const Guard& guard) { return least(basis, guard, bounds) > rounding * guard.amplitude; }))
       return width;
   }
   return 0.0;

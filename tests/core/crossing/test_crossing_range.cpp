@@ -1,7 +1,9 @@
 /// The search at the ends of the range: growth, amplitudes near the smallest and largest numbers, rates far apart.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -134,4 +136,20 @@ TEST_CASE("Panels follow the slow elements once the fast ones have died out, how
     CHECK(many.end == SearchEnd::crossing);
     CHECK(many.count.panels + many.count.splits < 60);
   }
+}
+
+// 1 + d + cos s is d above zero at its minima; the rounding of s makes 4.4e-16 s of its value. So with d = 2e-14
+// the minima behind s = 100 are tangencies, although the constant outweighs the wave by more than the rounding at s
+// = 0.
+TEST_CASE("A far minimum within the rounding of its time is reported, not passed") {
+  const Result result = search({{Complex(0.0, 1.0), 1.0}, constant(1.0 + 2e-14)}, 1000.0);
+  CHECK(result.end == SearchEnd::horizon);
+  int minima = 0;
+  for (double s = std::numbers::pi; s < 1000.0; s += 2.0 * std::numbers::pi) {
+    if (s < 100.0) continue;
+    ++minima;
+    CHECK(std::ranges::any_of(result.grazings,
+                              [s](const Grazing& grazing) { return std::abs(grazing.s - s) < 1e-3; }));
+  }
+  CHECK(minima == 143);
 }
