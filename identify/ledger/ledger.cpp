@@ -69,8 +69,9 @@ class Scale {
 
 class Writer {
  public:
-  Writer(const JointModel& model, const RelaxationTests& tests, const LedgerOptions& options)
-      : model_(model), tests_(tests), options_(options), scale_(model, tests.freedom) {}
+  Writer(const JointModel& model, const RelaxationTests& tests, const KnownConstants& stated,
+         const LedgerOptions& options)
+      : model_(model), tests_(tests), stated_(stated), options_(options), scale_(model, tests.freedom) {}
 
   void write(Ledger& ledger) {
     for (const Departure& departure : tests_.departures) charge(departure, ledger);
@@ -107,8 +108,9 @@ class Writer {
   }
 
   void charge(const Departure& departure, Ledger& ledger) const {
-    const bool harms =
-        std::ranges::any_of(departure.explanations, [&](const RelaxationTest& t) { return matters(t); });
+    const auto any = [&](auto is) { return std::ranges::any_of(departure.explanations, is); };
+    const bool stated = any([&](const RelaxationTest& t) { return is_as_stated(t); });
+    const bool harms = !stated && any([&](const RelaxationTest& t) { return matters(t); });
     std::vector<Assumption> named;
     for (const RelaxationTest& test : departure.explanations) {
       LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
@@ -116,14 +118,35 @@ class Writer {
       set(test, entry);
       entry.standing = harms ? Standing::violated : Standing::holds;
       entry.reason =
-          harms ? alternatives(departure, test)
-                : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
+          harms    ? alternatives(departure, test)
+          : stated ? "a departure is seen, and lies within the uncertainties that are stated"
+                   : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
       if (harms) named.push_back(assumption_of(test));
     }
     if (!named.empty()) ledger.departures.push_back(std::move(named));
+  }
+
+  /// May the constants or the gain be off by as much, as their uncertainties are stated? One of them stands for
+  /// all: the record tells the natural frequency, and the scale of the forces against the motion.
+  [[nodiscard]] bool is_as_stated(const RelaxationTest& test) const {
+    const ConstantUncertainties& u = options_.uncertainties;
+    if (!u.any()) return false;
+    const KnownConstants& known = stated_;
+    const auto share = [](double uncertainty, double of) { return uncertainty > 0.0 ? uncertainty / of : 0.0; };
+    const double of_constants = std::hypot(share(u.mass, known.mass), share(u.stiffness, known.stiffness),
+                                           2.0 * share(u.frequency, known.frequency));
+    const double of_gains =
+        std::hypot(std::hypot(u.gain_x, u.gain_y, u.gain_force), std::hypot(u.gain_v, u.gain_a));
+    constexpr double deviations = 2.6;
+    const double allowed = deviations * std::hypot(of_constants, of_gains);
+    const Relaxation& relaxation = model_.relaxations[test.index];
+    if (relaxation.assumption == Assumption::constants)
+      return std::abs(std::log(test.constants.mass / known.mass)) < allowed &&
+             std::abs(std::log(test.constants.stiffness / known.stiffness)) < allowed;
+    return relaxation.test.starts_with("gain of") && std::abs(test.coefficient) < allowed;
   }
 
   [[nodiscard]] std::string alternatives(const Departure& departure, const RelaxationTest& own) const {
@@ -171,6 +194,7 @@ class Writer {
  private:
   const JointModel& model_;
   const RelaxationTests& tests_;
+  const KnownConstants& stated_;
   const LedgerOptions& options_;
   Scale scale_;
   std::array<double, assumption_count> blind_ = [] {
@@ -298,7 +322,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   ledger.plain = model.value;
   ledger.left_out = model.left_out;
   const RelaxationTests tests = test_relaxations(model, options.least_change);
-  Writer writer(model, tests, options);
+  Writer writer(model, tests, constants, options);
   writer.write(ledger);
   writer.add_sight(ledger);
   // Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0. Those of both

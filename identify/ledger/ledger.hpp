@@ -7,6 +7,9 @@
 /// assumption whose relaxation explains it best, and to those that explain it as well. It violates the assumption
 /// where it moves zeta or F0 by `least_change` or more; a smaller one is told and does no harm.
 ///
+/// Constants and gains whose uncertainties are stated violate nothing as long as they need not be off by more than
+/// 2.6 of them (1 %): the departure is told, and stays relaxed in the joint estimate.
+///
 /// A term of friction that a test of its own would reject at 25 %, though the family must allow for chance, is not
 /// charged: the intervals of the joint estimate reach over the estimate with that term free.
 ///
@@ -20,6 +23,7 @@
 #include "identify/estimate.hpp"
 #include "identify/options.hpp"
 #include "identify/record.hpp"
+#include "identify/uncertainty/uncertain_constants.hpp"
 
 namespace dualdamp::identify {
 
@@ -40,6 +44,8 @@ struct LedgerEntry {
 
 struct LedgerOptions {
   double least_change = 0.02;  ///< relative change of zeta or F0 that matters
+  /// What lies within them is no departure from what is stated.
+  ConstantUncertainties uncertainties = {};
 };
 
 struct Ledger {

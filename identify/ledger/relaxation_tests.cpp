@@ -188,6 +188,7 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
     const double gain = along[j] / projection.lengths[j];
     const double error =
         std::sqrt((squares - along[j] * along[j]) / (projection.freedom - 1.0)) / projection.lengths[j];
+    test.coefficient = gain;
     test.zeta_change = projection.shifts(0, j) * gain;
     test.F0_change = projection.shifts(1, j) * gain;
     const auto own = static_cast<Eigen::Index>(test.index);
@@ -230,6 +231,7 @@ struct Rest {
   double p_value = 1.0;
   double misfit = 0.0;  ///< of the fit; where its likelihood is not known, what one more relaxation would gain
   ParameterSet value;
+  KnownConstants constants;
 };
 
 Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_t candidate, double least_change) {
@@ -237,6 +239,7 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
   const JointModel fitted = model.refit(taken);
   Rest rest;
   rest.value = fitted.value;
+  rest.constants = fitted.constants;
   for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken), least_change)) {
     rest.p_value = std::min(rest.p_value, test.p_value);
     rest.misfit = std::max(rest.misfit, test.explained);
@@ -257,6 +260,7 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
     rests.push_back(rest_of(model, taken, test.index, least_change));
     test.zeta_change = rests.back().value.zeta - model.value.zeta;
     test.F0_change = rests.back().value.F0 - model.value.F0;
+    test.constants = rests.back().constants;
   }
   // What the record shows in the second order only is never charged alone: it stands beside a departure of
   // friction.
@@ -304,6 +308,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
       JointModel relaxed = model.refit(taken);
       best.zeta_change = relaxed.value.zeta - here.value.zeta;
       best.F0_change = relaxed.value.F0 - here.value.F0;
+      best.constants = relaxed.constants;
       result.relaxed = std::move(relaxed);
     }
     projection = project(result.relaxed ? *result.relaxed : model, taken);

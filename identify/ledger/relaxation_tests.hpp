@@ -32,6 +32,8 @@ struct RelaxationTest {
   double p_value = 1.0;      ///< of the family
   double p_alone = 1.0;      ///< of this test alone
   double explained = 0.0;    ///< twice the gain of the log-likelihood
+  double coefficient = 0.0;  ///< of its column, as the linear model has it
+  KnownConstants constants;  ///< as the model fitted with it has them; unknown where it was not fitted
   double zeta_change = 0.0;  ///< of the damping ratio when relaxed; of c where there is no spring
   double F0_change = 0.0;    ///< N
   double F0_part = 0.0;      ///< by which the friction force of a part of the record is off the mean [N]

@@ -23,6 +23,8 @@ constexpr double most_residual = 0.2;
 constexpr double notable_distortion = 0.02;
 /// A drift of the amplitude over the periods used that is worth a word.
 constexpr double notable_drift = 0.005;
+/// Beyond this one the amplitude is no steady one.
+constexpr double most_drift = 0.02;
 /// Below this a settling amplitude makes no difference to any method.
 constexpr double settled = 1e-6;
 
@@ -45,6 +47,8 @@ struct SteadyPart {
   std::size_t size = 0;
   double drift = 0.0;        ///< of the amplitude from the first to the last block, relative
   double drift_error = 0.0;  ///< what noise makes of it
+
+  [[nodiscard]] bool drifts() const { return std::abs(drift) > std::max(notable_drift, 4.0 * drift_error); }
 };
 
 /// The fundamental of one piece as a complex number at the first sample of the record.
@@ -122,12 +126,27 @@ std::optional<SteadyPart> steady_part(const History& history, double omega) {
   std::size_t skipped = 0;
   while (skipped < half && phasors[skipped].distance(mean) > tolerance) ++skipped;
 
-  SteadyPart part;
-  part.first = begin(static_cast<int>(skipped));
-  part.size = std::min(x.size() - part.first, samples_of(blocks - static_cast<int>(skipped)));
-  const Phasor& early = phasors[skipped];
-  part.drift = (phasors.back().size() - early.size()) / mean.size();
-  part.drift_error = std::hypot(phasors.back().std, early.std) / mean.size();
+  const auto part_from = [&](std::size_t first) {
+    SteadyPart part;
+    part.first = begin(static_cast<int>(first));
+    part.size = std::min(x.size() - part.first, samples_of(blocks - static_cast<int>(first)));
+    const Phasor& early = phasors[first];
+    part.drift = (phasors.back().size() - early.size()) / mean.size();
+    part.drift_error = std::hypot(phasors.back().std, early.std) / mean.size();
+    return part;
+  };
+  SteadyPart part = part_from(skipped);
+  // Where the late half still settles it is no measure of itself: what is left is halved until it does not. What
+  // drifts evenly does not settle.
+  constexpr std::size_t fewest = 4;
+  constexpr double slower = 2.0;
+  while (part.drifts() && phasors.size() - skipped >= fewest) {
+    const std::size_t middle = skipped + (phasors.size() - skipped) / 2;
+    const double before = std::abs(phasors[middle].size() - phasors[skipped].size());
+    if (before < slower * std::abs(phasors.back().size() - phasors[middle].size())) break;
+    skipped = middle;
+    part = part_from(skipped);
+  }
   return part;
 }
 
@@ -145,6 +164,8 @@ class PairReader {
     if (!drive.outcome.ok()) return nothing(drive.outcome.reason);
     const auto steady = steady_part(history_, drive.omega);
     if (!steady) return nothing("it holds no whole period");
+    if (steady->drifts() && std::abs(steady->drift) > most_drift)
+      return nothing("the amplitude of x still changes by " + percent_text(steady->drift) + " at its end");
 
     const auto cut = [&steady](const std::vector<double>& signal) {
       return std::span<const double>(signal).subspan(steady->first, steady->size);
@@ -208,7 +229,7 @@ class PairReader {
           name_ + ": the first " +
           core::format_number(static_cast<double>(steady.first) / history_.sample_rate * omega / two_pi, 3) +
           " periods are left out: the motion was not yet steady");
-    if (std::abs(steady.drift) > std::max(notable_drift, 4.0 * steady.drift_error))
+    if (steady.drifts())
       warnings_.push_back(name_ + ": the amplitude of x still changes by " + percent_text(steady.drift) +
                           " over the periods used");
   }

@@ -203,6 +203,28 @@ class Check {
         return;
       }
     check_force(amplitude(history.force, history, omega), x, omega);
+    if (faults_.empty()) check_work(history, omega);
+  }
+
+  /// The force does at least the work by which the energy of the motion grows: friction gives none back.
+  void check_work(const History& history, double omega) {
+    if (history.force.empty() || history.x.empty()) return;
+    double work = 0.0;
+    double moved = 0.0;
+    for (std::size_t i = 1; i < history.x.size(); ++i) {
+      const double part = 0.5 * (history.force[i] + history.force[i - 1]) * (history.x[i] - history.x[i - 1]);
+      work += part;
+      moved += std::abs(part);
+    }
+    const auto [low, high] = std::ranges::minmax(history.x);
+    const double stiffness =
+        std::fmax(constants_.mass * omega * omega, std::fmax(constants_.stiffness, 0.0));  // either may be unknown
+    const double energy = 0.125 * stiffness * (high - low) * (high - low);  // at most, at the beginning
+    constexpr double clearly = 0.2;
+    if (!(work + 2.0 * energy < -clearly * moved)) return;
+    refuse("the force takes " + shown(-work) + unit("J") +
+               " out of the motion x, more than it holds: one of both has " + "the wrong sign",
+           "force and x positive in one direction: --scale force=-1");
   }
 
   [[nodiscard]] std::string unit(const char* name) const { return " " + constants_.unit(name); }

@@ -8,7 +8,8 @@
 /// x)^2/2;
 /// * the balance of forces, |k - m w^2| x <= k Y: dampers and friction act across it;
 /// * work: the base puts in pi k Y x sin(phase) a period, which is not below zero. Otherwise x and Y are swapped,
-///   or one of both has the other sign. Without a phase the line x(Y) tells: swapped, it has zeta > 1 and F0 < 0;
+///   or one of both has the other sign. So does a force, but for the energy of the motion. Without a phase the line
+///   x(Y) tells: swapped, it has zeta > 1 and F0 < 0;
 /// * phase and balance of forces, k Y cos(phase) = (k - m w^2) x: degrees that are radians;
 /// * where no unit was stated: speeds above 50 m/s and accelerations above 10,000 m/s^2.
 /// Limits are wide: factors of 5 and more, most of the pairs. What is closer is a matter of the verdict.

@@ -81,7 +81,7 @@ std::optional<BootstrapSpread> parametric_bootstrap(
 void set_estimate(Estimate& estimate, const ForceParameters& force, const std::optional<BootstrapSpread>& spread) {
   if (!spread) {
     estimate.value = parameters(force);
-    estimate.warnings.emplace_back(
+    estimate.findings.emplace_back(
         "no interval is claimed: a mass with the estimated friction does not move as the measured one, or the "
         "method "
         "makes nothing of its motion");

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/numbers.hpp"
+#include "identify/methods.hpp"
 #include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
@@ -135,8 +136,31 @@ class Variation {
   Estimate high_;
 };
 
-double difference(const Bracket& bracket, double ParameterSet::* member) {
-  return (bracket.high->value.*member - bracket.low->value.*member) / bracket.step;
+/// A parameter of the estimate and its interval.
+struct Member {
+  double ParameterSet::* value;
+  std::array<double, 2> ParameterIntervals::* interval;
+};
+
+constexpr std::array<Member, 4> members = {{{&ParameterSet::zeta, &ParameterIntervals::zeta},
+                                            {&ParameterSet::c, &ParameterIntervals::c},
+                                            {&ParameterSet::x_f, &ParameterIntervals::x_f},
+                                            {&ParameterSet::F0, &ParameterIntervals::F0}}};
+
+/// A method that knows its bias states it in its interval alone: the middle of that moves with a constant that the
+/// bias depends on, though the value stays. The joint model, which is no method of the list, has no bias, and its
+/// intervals reach over what is nearly seen.
+double corrected(const Estimate& estimate, const Member& member) {
+  if (!estimate.interval95 || find_method(estimate.method) == nullptr) return estimate.value.*member.value;
+  const auto& [low, high] = (*estimate.interval95).*member.interval;
+  return 0.5 * (low + high);
+}
+
+double difference(const Bracket& bracket, const Member& member) {
+  const bool both = bracket.low->interval95.has_value() == bracket.high->interval95.has_value();
+  const double change = both ? corrected(*bracket.high, member) - corrected(*bracket.low, member)
+                             : bracket.high->value.*member.value - bracket.low->value.*member.value;
+  return change / bracket.step;
 }
 
 /// By the name of the parameter; nothing where one of the estimates lacks it.
@@ -157,14 +181,11 @@ void widen(std::array<double, 2>& interval, double value, double change) {
 }
 
 void add(const Bracket& bracket, Estimate& estimate) {
-  const ParameterSet change = {difference(bracket, &ParameterSet::zeta), difference(bracket, &ParameterSet::c),
-                               difference(bracket, &ParameterSet::x_f), difference(bracket, &ParameterSet::F0)};
-  for (const auto& [member, interval] : {std::pair{&ParameterSet::zeta, &ParameterIntervals::zeta},
-                                         {&ParameterSet::c, &ParameterIntervals::c},
-                                         {&ParameterSet::x_f, &ParameterIntervals::x_f},
-                                         {&ParameterSet::F0, &ParameterIntervals::F0}}) {
-    if (estimate.std) (*estimate.std).*member = std::hypot((*estimate.std).*member, change.*member);
-    if (estimate.interval95) widen((*estimate.interval95).*interval, estimate.value.*member, change.*member);
+  ParameterSet change;
+  for (const Member& member : members) {
+    const double moved = change.*member.value = difference(bracket, member);
+    if (estimate.std) (*estimate.std).*member.value = std::hypot((*estimate.std).*member.value, moved);
+    if (estimate.interval95) widen((*estimate.interval95).*member.interval, estimate.value.*member.value, moved);
   }
   if (estimate.covariance) {
     const Eigen::Vector2d both(change.zeta, change.F0);
@@ -180,8 +201,12 @@ void add(const Bracket& bracket, Estimate& estimate) {
   }
 }
 
-/// As a share of `value`; zero where it is zero.
-double relative(double change, double value) { return value == 0.0 ? 0.0 : change / value; }
+/// Of a parameter from one estimate to another; zero where it is zero, NaN where there is none: zeta without a
+/// spring.
+double relative_change(const Estimate& from, const Estimate& to, const Member& member) {
+  const double value = corrected(from, member);
+  return value == 0.0 ? 0.0 : (corrected(to, member) - value) / value;
+}
 
 }  // namespace
 
@@ -223,15 +248,14 @@ std::vector<Sensitivity> sensitivities(const Reader& read, const Estimate& state
     constant.multiply(input, higher);
     const Estimate moved = read(input.record, input.constants);
     if (!moved.outcome.ok()) continue;
-    const Sensitivity found{std::string(constant.name),
-                            relative(moved.value.zeta - stated.value.zeta, stated.value.zeta),
-                            relative(moved.value.F0 - stated.value.F0, stated.value.F0)};
+    const Sensitivity found{std::string(constant.name), relative_change(stated, moved, members.front()),
+                            relative_change(stated, moved, members.back())};
     // A constant that the method does not use moves nothing.
     constexpr double nothing = 1e-5;
     if (std::abs(found.zeta_change) > nothing || std::abs(found.F0_change) > nothing) list.push_back(found);
   }
   std::ranges::sort(list, std::ranges::greater{}, [](const Sensitivity& one) {
-    return std::max(std::abs(one.zeta_change), std::abs(one.F0_change));
+    return std::fmax(std::abs(one.zeta_change), std::abs(one.F0_change));  // that of zeta may be NaN
   });
   return list;
 }

@@ -2,7 +2,8 @@
 /// What the uncertainty of stated constants does to an estimate.
 ///
 /// A mass, a stiffness, a frequency or the gain of a sensor that is off by its standard uncertainty u moves an
-/// estimate theta by d = (theta(+u) - theta(-u))/2: the record is read twice more for each of them. They
+/// estimate theta by d = (theta(+u) - theta(-u))/2: the record is read twice more for each of them. theta is the
+/// middle of the interval, which a method that knows its bias has corrected. They
 /// are off once for the whole record, so that no number of readings averages them out. The constants err
 /// independently: variances d^2 add to those that the readings leave, and each side of a 95 % interval becomes
 /// sqrt(side^2 + sum (1.96 d)^2).
@@ -31,7 +32,7 @@ struct ConstantUncertainties {
 /// How an estimate answers to one constant that is 1 % higher.
 struct Sensitivity {
   std::string constant;      ///< "mass", "stiffness", "frequency", "gain of x", ...
-  double zeta_change = 0.0;  ///< relative
+  double zeta_change = 0.0;  ///< relative; NaN where there is no spring and so no zeta
   double F0_change = 0.0;    ///< relative
 };
 

@@ -161,7 +161,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
                                        constants_of(values.model),
                                        uncertainties_of(values),
                                        method_options(section),
-                                       {section.at("least_change").get<double>()},
+                                       {section.at("least_change").get<double>(), uncertainties_of(values)},
                                        section.value("robust", false)};
   return question_of(std::move(values), std::move(methods));
 }

@@ -17,6 +17,7 @@ std::string rounded(double value) {
 
 std::string percent(double share) {
   constexpr double rounding = 1e-6;
+  if (!std::isfinite(share)) return "-";
   if (std::abs(share) < rounding) return "0 %";
   return (share < 0.0 ? "" : "+") + rounded(100.0 * share) + " %";
 }

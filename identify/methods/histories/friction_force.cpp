@@ -237,7 +237,7 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
   if (!line.fit) {
     refuse(estimate, "viscous and Coulomb friction cannot be told apart: the motion has too few samples beyond " +
                          core::format_number(line.least_speed, 3) + " " + constants.unit("m/s") +
-                         ", or one speed only");
+                         ", or one speed or one direction only");
     return estimate;
   }
   const ParameterReading own = reading_of(*line.fit, constants);

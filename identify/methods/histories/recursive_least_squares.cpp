@@ -139,6 +139,21 @@ RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, cons
   return result;
 }
 
+/// Why the record does not tell viscous and Coulomb friction; empty where it does.
+std::string fault_of(const RecursiveFit& result) {
+  if (!result.fit)
+    return "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or one "
+           "speed "
+           "only";
+  // Filters may turn a few samples at the ends.
+  constexpr double few = 0.05;
+  if (1.0 - std::abs(result.rows.columns.col(1).mean()) < 2.0 * few)
+    return "the motion goes in one direction only, where a Coulomb force and a zero of the force that is off are "
+           "one "
+           "and the same";
+  return {};
+}
+
 }  // namespace
 
 Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
@@ -152,10 +167,8 @@ Estimate recursive_least_squares(const Record& record, const KnownConstants& con
     return estimate;
   }
   RecursiveFit result = fit_recursively(histories, constants, options);
-  if (!result.fit) {
-    refuse(estimate,
-           "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
-           "one speed only");
+  if (std::string fault = fault_of(result); !fault.empty()) {
+    refuse(estimate, std::move(fault));
     return estimate;
   }
   const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {

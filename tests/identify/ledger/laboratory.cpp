@@ -92,7 +92,7 @@ class Laboratory {
         if (sweep == 0 || off_.sweep_drift != 0.0) states_.push_back(steady_state(now, Y, omega));
         const Steady& state = states_[off_.sweep_drift != 0.0 ? states_.size() - 1 : static_cast<std::size_t>(i)];
         Pair pair;
-        pair.Y = Y;
+        pair.Y = Y * (1.0 + off_.drive_gain);
         pair.x = state.x * (1.0 + off_.gain) + sx * normal();
         pair.sweep = std::string(1, static_cast<char>('a' + sweep));
         pair.number = static_cast<int>(record.pairs.size()) + 1;
@@ -117,7 +117,7 @@ class Laboratory {
       const double omega = rig.omega() * (1.0 + width * (i / (count - 1.0) - 0.5));
       const Steady state = steady_state(rig, Y, omega);
       Pair pair;
-      pair.Y = Y * (1.0 + 0.005 * normal());
+      pair.Y = Y * (1.0 + off_.drive_gain) * (1.0 + 0.005 * normal());
       pair.x = state.x * (1.0 + off_.gain) + sx * normal();
       pair.omega = omega * (1.0 + off_.frequency);
       pair.phase =
@@ -196,7 +196,8 @@ class Laboratory {
       const auto from =
           static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(i) - late));
       history.x.push_back(motion.x[from] * (1.0 + off_.gain) + 0.002 * size * normal());
-      if (!free) history.force.push_back(motion.drive[i] + 0.005 * largest_force * normal());
+      if (!free)
+        history.force.push_back(motion.drive[i] * (1.0 + off_.drive_gain) + 0.005 * largest_force * normal());
       if (off_.v_noise > 0.0) history.v.push_back(motion.v[i] + off_.v_noise * size * rig.omega() * normal());
     }
     for (std::vector<double>* signal : {&history.x, &history.v, &history.force}) convert(*signal);

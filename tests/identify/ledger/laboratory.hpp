@@ -30,6 +30,7 @@ struct Off {
   double frequency = 0.0;    ///< of the stated frequency
   double delay = 0.0;        ///< of x, in periods
   double gain = 0.0;         ///< of x
+  double drive_gain = 0.0;   ///< of Y or of the force
   double sweep_drift = 0.0;  ///< F0 of the last sweep over that of the first, less one
   double v_noise = 0.0;      ///< of a measured velocity, over its largest value; 0: not measured
   double noise = 1.0;        ///< factor on all noise

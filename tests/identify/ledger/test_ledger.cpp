@@ -121,6 +121,43 @@ TEST_CASE("A stiffness 2 % off is charged to the constants alone, and the fit th
   }
 }
 
+TEST_CASE("Constants and gains that are off by less than their stated uncertainties allow violate nothing") {
+  for (const Kind kind : {Kind::xy_phase, Kind::response, Kind::forced, Kind::extremes}) {
+    CAPTURE(name_of(kind));
+    int certain = 0;
+    int uncertain = 0;
+    int too_sure = 0;
+    constexpr int records = 6;
+    for (int i = 0; i < records; ++i) {
+      const Measured m = measured(kind, first_seed + static_cast<std::uint64_t>(i), nullptr,
+                                  {.stiffness = 0.02, .gain = 0.01, .drive_gain = -0.01});
+      const auto violated = [&](const ConstantUncertainties& uncertainties) {
+        const Ledger ledger = ledger_of(m.record, m.constants, {.uncertainties = uncertainties});
+        return ledger.departures.empty() ? 0 : 1;
+      };
+      certain += violated({});
+      uncertain += violated({.stiffness = 0.02 * m.constants.stiffness, .gain_x = 0.01, .gain_force = 0.01});
+      too_sure += violated({.stiffness = 0.002 * m.constants.stiffness});
+    }
+    CHECK(uncertain <= 1);
+    // Extremes tell a stiffness by their times, and that it moves F0 by 2 % only just.
+    if (kind != Kind::extremes) CHECK(certain >= 5);
+    if (kind != Kind::extremes) CHECK(too_sure >= 5);
+  }
+}
+
+TEST_CASE("A departure within the stated uncertainty is told, and its constant is freed in the joint estimate") {
+  const Measured m = measured(Kind::response, 4, nullptr, {.stiffness = 0.02});
+  const LedgerOptions options{.uncertainties = {.stiffness = 0.015 * m.constants.stiffness}};
+  const Ledger ledger = ledger_of(m.record, m.constants, options);
+  const LedgerEntry& constants = ledger.entry(Assumption::constants);
+  CHECK(constants.standing == Standing::holds);
+  CHECK(constants.p_value.value_or(1.0) < family_level);
+  CHECK(constants.reason == "a departure is seen, and lies within the uncertainties that are stated");
+  REQUIRE(ledger.joint);
+  CHECK(ledger.joint->value.zeta == Approx(m.rig.zeta).epsilon(0.05));
+}
+
 TEST_CASE("A spring that hardens is charged to the spring where the fit can set it free") {
   const auto alter = [](Rig& rig) { rig.cubic = 0.03; };
   for (const Kind kind : {Kind::forced, Kind::extremes, Kind::xy_phase}) {

@@ -173,6 +173,28 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
   }
 }
 
+TEST_CASE("A pair of a motion that settles slowly is that of its end, and there is none where it does not settle") {
+  // 25 periods from rest at zeta = 0.045: half of the way the motion is 3 % short of its end.
+  const double c = 2.0 * 0.045 * std::sqrt(mass * stiffness);
+  sim::Model model = testing::driven_bearing(c, F0, 6e-3, natural);
+  const double period = 2.0 * std::numbers::pi / natural;
+  const Pair steady = pairs_of({testing::sampled(model, 10.0 * period, 500.0, 60.0)}, natural).record.pairs.at(0);
+  model.initial = {0.0, 0.0};
+  testing::Normal normal(5);
+  for (int i = 0; i < 10; ++i) {
+    const History history =
+        testing::displacement_only(testing::sampled(model, 25.0 * period, 500.0, 0.0), 40e-6, normal);
+    const PairRecord record = pairs_of({history}, natural).record;
+    REQUIRE(record.pairs.size() == 1);
+    CHECK(record.pairs[0].x == Approx(steady.x).epsilon(0.006));
+  }
+  const History early = testing::sampled(model, 6.0 * period, 500.0, 0.0);
+  const DerivedPairs none = pairs_of({early}, natural);
+  CHECK(none.record.pairs.empty());
+  REQUIRE(none.warnings.size() == 1);
+  CHECK(none.warnings[0].find("gives no x-Y pair: the amplitude of x still changes by") != std::string::npos);
+}
+
 TEST_CASE("A history of any length from one period on gives a pair") {
   // 16.2 samples a period, so that periods end between samples in every way, 12.0003 periods among them; then 20
   // and 40 samples to the period but for rounding.

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <random>
 
@@ -154,4 +155,36 @@ TEST_CASE("Numbers of samples for times, hertz for rad/s, and damping that hardl
   CHECK(odd_readings({.pairs = rig.record}, rig.constants).empty());
   for (Pair& pair : rig.record.pairs) pair.Y *= 1e-4;
   CHECK(odd_readings({.pairs = rig.record}, rig.constants).size() == 1);
+}
+
+TEST_CASE("A force of the wrong sign takes work out of the motion, and is refused") {
+  const double m = 2.0;
+  const double w = 2.0 * pi * 5.0;
+  const KnownConstants constants{m, m * w * w, unknown};
+  const auto faults_with = [&](double sign, double ratio, double released) {
+    // x lags the force by a quarter period at resonance; beside it a free vibration that dies.
+    History history{.sample_rate = 400.0};
+    const double c = 2.0 * 0.03 * m * w;
+    const std::complex<double> response =
+        10.0 / std::complex<double>(constants.stiffness - m * ratio * ratio * w * w, c * ratio * w);
+    for (int i = 0; i < 2000; ++i) {
+      const double t = i / history.sample_rate;
+      const auto phase = std::polar(1.0, ratio * w * t);
+      history.x.push_back(std::imag(response * phase) + released * std::exp(-0.03 * w * t) * std::cos(w * t));
+      history.force.push_back(sign * 10.0 * std::imag(phase));
+    }
+    Record record;
+    record.histories.push_back(history);
+    std::string text;
+    for (const core::Diagnostic& fault : gross_faults(record, constants, {}, "data.csv"))
+      text += core::format(fault) + "\n";
+    return text;
+  };
+  for (const double ratio : {0.8, 0.95, 1.0, 1.05}) {
+    CAPTURE(ratio);
+    CHECK(faults_with(1.0, ratio, 0.0).empty());
+    CHECK(faults_with(1.0, ratio, 0.05).empty());
+  }
+  for (const double ratio : {0.95, 1.0, 1.05})
+    CHECK(faults_with(-1.0, ratio, 0.0).find("one of both has the wrong sign") != std::string::npos);
 }

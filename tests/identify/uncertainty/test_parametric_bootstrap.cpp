@@ -10,6 +10,7 @@
 #include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"
 #include "identify/methods/histories/recursive_least_squares.hpp"
+#include "identify/statistics/statistics.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;
@@ -115,7 +116,10 @@ TEST_CASE("A method that refuses more than one record in ten gets no interval") 
   set_estimate(estimate, {1.0, 0.4, 100.0, 2.1}, std::nullopt);
   CHECK(estimate.value.F0 == 2.1);
   CHECK_FALSE(estimate.interval95);
-  CHECK(says(estimate, "no interval is claimed"));
+  REQUIRE(estimate.findings.size() == 1);
+  CHECK(estimate.findings[0].starts_with("no interval is claimed"));
+  conclude(estimate, {}, "rests on all samples");
+  CHECK_FALSE(estimate.usable);
 }
 
 TEST_CASE("Intervals of the methods on histories hold the truth, which their bias alone would miss") {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "identify/methods.hpp"
+#include "sim/analytic/den_hartog.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -124,4 +125,56 @@ TEST_CASE("Where a constant cannot be lower by its uncertainty, the higher one a
   const Estimate wide = with_uncertainties(by_free_decay, record, constants, {.mass = 1.2 * mass});
   const double change = (std::sqrt(2.2) - 1.0) * exact.value.c;
   CHECK(wide.std->c == Approx(std::hypot(exact.std->c, change)).epsilon(1e-6));
+}
+
+TEST_CASE("A constant that moves the bias of a method alone widens its intervals, and is among the sensitivities") {
+  // A line at resonance does not ask for the frequency: only what its formula neglects does. Den Hartog's law at
+  // resonance, and a stated frequency that is 1 % too high, as its uncertainty says.
+  const double zeta = 0.025;
+  const double omega = std::sqrt(stiffness / mass);
+  const auto law = dualdamp::sim::analytic::den_hartog(zeta, 1.0);
+  Normal normal(11);
+  std::vector<std::pair<double, double>> levels;
+  for (int i = 0; i < 24; ++i) {
+    const double Y = 4e-4 * (1.0 + 0.05 * i);
+    levels.emplace_back(Y, dualdamp::sim::analytic::amplitude(law, Y, 1.6e-4).value() * (1.0 + 0.002 * normal()));
+  }
+  const Record record = pairs(levels);
+  const KnownConstants stated{mass, stiffness, 1.01 * omega};
+  const Reader read = [](const Record& r, const KnownConstants& known) {
+    return find_method("resonance_least_squares")->run(r, known);
+  };
+  const Estimate without = read(record, stated);
+  REQUIRE(without.interval95);
+  CHECK(without.value.zeta == Approx(zeta).epsilon(0.02));
+  CHECK(without.interval95->zeta[1] < zeta);
+  const Estimate wide = with_uncertainties(read, record, stated, {.frequency = 0.01 * omega});
+  CHECK(wide.interval95->zeta[0] < zeta);
+  CHECK(wide.interval95->zeta[1] > zeta);
+  CHECK(sensitivities(read, without, record, stated, {}).front().constant == "frequency");
+}
+
+TEST_CASE("Sensitivities of a rail without spring are those of F0: there is no zeta to compare them by") {
+  History history{.sample_rate = 500.0};
+  Normal normal(3);
+  for (int i = 0; i < 2000; ++i) {
+    const double t = i / history.sample_rate;
+    const double w = 2.0 * std::numbers::pi * 0.7;
+    const double v = 0.2 * w * std::cos(w * t);
+    history.x.push_back(0.2 * std::sin(w * t) + 1e-6 * normal());
+    history.force.push_back(-3.0 * 0.2 * w * w * std::sin(w * t) + 20.0 * v + std::copysign(8.0, v) +
+                            0.05 * normal());
+  }
+  Record record;
+  record.histories.push_back(history);
+  const KnownConstants rail{3.0, 0.0, unknown};
+  const Reader read = [](const Record& r, const KnownConstants& known) {
+    return find_method("recursive_least_squares")->run(r, known);
+  };
+  const std::vector<Sensitivity> list = sensitivities(read, read(record, rail), record, rail, {});
+  REQUIRE(list.size() >= 2);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    CHECK(std::isnan(list[i].zeta_change));
+    if (i > 0) CHECK(std::abs(list[i].F0_change) <= std::abs(list[i - 1].F0_change));
+  }
 }

@@ -82,3 +82,20 @@ TEST_CASE("A forgetting factor out of its range is refused") {
   CHECK_FALSE(
       recursive_least_squares(record_of({drifting(0.0, 0.0, normal)}), bearing_constants, options).outcome.ok());
 }
+
+TEST_CASE("Motion in one direction does not tell a Coulomb force from a zero of the force") {
+  Normal normal(4);
+  History history{.sample_rate = 500.0};
+  double x = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = 4.4 * i / history.sample_rate;
+    const double v = 0.05 + 0.02 * std::sin(angle);
+    const double zero = 1.5;
+    x += v / history.sample_rate;
+    history.x.push_back(x);
+    history.force.push_back(3.0 * 0.02 * 4.4 * std::cos(angle) + 20.0 * v + 8.0 + zero + 0.05 * normal());
+  }
+  const Estimate e = recursive_least_squares(record_of({history}), {3.0, 0.0, unknown}, {});
+  CHECK_FALSE(e.outcome.ok());
+  CHECK(e.outcome.reason.find("one direction only") != std::string::npos);
+}
