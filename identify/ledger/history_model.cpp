@@ -14,7 +14,6 @@
 #include "identify/ledger/history_terms.hpp"
 #include "identify/ledger/innovations.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
-#include "identify/records/derived_records.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
@@ -56,7 +55,10 @@ class Histories {
     unit_force_ = force.k * scale_.length;
     list_relaxations();
     start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(relaxations_.size()));
-    for (const ForwardTest& test : fit_.tests()) noise_.push_back(noise_levels(*test.history, force.k));
+    for (const ForwardTest& test : fit_.tests()) {
+      noise_.push_back(noise_levels(*test.history, force.k, scale_));
+      if (noise_.back().drive > 0.0) shaken_.emplace(noise_.size() - 1, with_noisier_drive(*test.history));
+    }
   }
 
   [[nodiscard]] ForwardFit& fit() { return fit_; }
@@ -102,8 +104,9 @@ class Histories {
     Eigen::VectorXd residuals;
     Eigen::MatrixXd base;
     Eigen::MatrixXd relaxed;
-    double squares = 0.0;   ///< of the innovations of x
-    double variance = 1.0;  ///< of one residual
+    Eigen::MatrixXd shaken;  ///< all of them with more noise in the drive; empty: not asked for, or there is none
+    double squares = 0.0;    ///< of the innovations of x
+    double variance = 1.0;   ///< of one residual
   };
 
   [[nodiscard]] JointModel joint(const Place& at, const Numbers& all) {
@@ -113,12 +116,16 @@ class Histories {
       model.residuals = std::move(found->residuals);
       model.base = std::move(found->base);
       model.relaxed = std::move(found->relaxed);
+      model.shaken = std::move(found->shaken);
     }
     const ForceParameters force = force_at(at);
     const std::vector<ForwardLayout::Entry>& shared = fit_.layout().shared();
     // From the scales of the fit to zeta and F0.
-    model.base.col(0) *= 2.0 * std::sqrt(force.m * force.k) / shared[0].scale;
-    model.base.col(1) /= shared[1].scale;
+    const Eigen::Vector2d units(2.0 * std::sqrt(force.m * force.k) / shared[0].scale, 1.0 / shared[1].scale);
+    for (Eigen::Index j = 0; j < units.size(); ++j) {
+      model.base.col(j) *= units[j];
+      if (model.shaken.size() > 0) model.shaken.col(1 + j) *= units[j];
+    }
     model.value = parameters(force);
     model.constants = {force.m, force.k, constants_.frequency};
     model.scale_freedom = static_cast<double>(model.residuals.size());
@@ -176,7 +183,7 @@ class Histories {
     return at;
   }
 
-  /// Rows of every channel, whitened by its own residuals where `white`.
+  /// Rows of every channel, whitened by its own residuals where `white`; those are shaken, too.
   [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white) {
     const ForceParameters force = force_at(at);
     if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
@@ -184,29 +191,24 @@ class Histories {
     // Innovations are white but for what the levels of noise leave; of a, noise of the drive may last for a period.
     Channel v{.most_lags = 4};
     Channel a{.most_lags = 24};
+    const bool shake = white && !shaken_.empty();
     for (std::size_t t = 0; t < fit_.tests().size(); ++t)
-      if (!add_test(t, at, wanted, x, v, a)) return std::nullopt;
+      if (!add_test(t, at, wanted, shake, x, v, a)) return std::nullopt;
     Linearised result;
+    const Eigen::Index base = fit_.layout().count();
+    const auto more = static_cast<Eigen::Index>(wanted.size());
     result.squares = x.rows.col(0).squaredNorm();
     std::vector<Eigen::MatrixXd> parts;
     for (Channel* channel : {&x, &v, &a}) {
       if (channel->rows.rows() == 0) continue;
       if (!white) channel->most_lags = 0;
-      parts.push_back(made_white(*channel));
+      parts.push_back(made_white(*channel, base + more));
     }
-    Eigen::Index rows = 0;
-    for (const Eigen::MatrixXd& part : parts) rows += part.rows();
-    const Eigen::Index base = fit_.layout().count();
-    result.residuals.resize(rows);
-    result.base.resize(rows, base);
-    result.relaxed.resize(rows, static_cast<Eigen::Index>(wanted.size()));
-    Eigen::Index row = 0;
-    for (const Eigen::MatrixXd& part : parts) {
-      result.residuals.segment(row, part.rows()) = part.col(0);
-      result.base.middleRows(row, part.rows()) = part.middleCols(1, base);
-      result.relaxed.middleRows(row, part.rows()) = part.rightCols(result.relaxed.cols());
-      row += part.rows();
-    }
+    const Eigen::MatrixXd rows = stacked(parts);
+    result.residuals = rows.col(0);
+    result.base = rows.middleCols(1, base);
+    result.relaxed = rows.middleCols(1 + base, more);
+    if (shake) result.shaken = rows.rightCols(1 + base + more);
     return result;
   }
 
@@ -249,7 +251,7 @@ class Histories {
   }
 
   /// The motion of a test and its derivatives by base parameters and relaxations, in the order of the columns.
-  bool add_test(std::size_t t, const Place& at, const Numbers& wanted, Channel& in_x, Channel& in_v,
+  bool add_test(std::size_t t, const Place& at, const Numbers& wanted, bool shake, Channel& in_x, Channel& in_v,
                 Channel& in_a) {
     ForwardTest& test = fit_.tests()[t];
     const ForwardLayout& layout = fit_.layout();
@@ -273,45 +275,55 @@ class Histories {
       parameters.further.push_back(g);
     }
     Motion motion;
-    if (!test.model.run(parameters, by, motion.x, &motion.derivatives, &motion.v, forces)) return false;
-    const double rate = test.history->sample_rate;
-    motion.a = differentiated(motion.v, rate);
-    const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
-    const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
-    const auto width = std::max<Eigen::Index>(1, std::lround(rate * 2.0 * std::numbers::pi / natural_ / 24.0));
+    const auto move = [&](SampledOscillator& model) {
+      return model.run(parameters, by, motion.x, &motion.derivatives, &motion.v, forces);
+    };
+    SensorRows noisier;
+    if (shake) {
+      const auto other = shaken_.find(t);
+      if (!move(other == shaken_.end() ? test.model : other->second)) return false;
+      noisier = rows_of(t, at, wanted, motion);
+    }
+    if (!move(test.model)) return false;
+    SensorRows rows = rows_of(t, at, wanted, motion);
+    if (shake) rows.append(noisier);
     const History& history = *test.history;
-    const Reader read{*this, at, wanted};
-    Eigen::MatrixXd rows_x = read(Sensor::x, history.x, motion.x, motion.v, motion.a, columns_x, columns_v);
-    const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
-    Eigen::MatrixXd rows_v;
-    const Eigen::VectorXd jerk = differentiated(motion.a, rate);
-    if (!history.v.empty()) rows_v = read(Sensor::v, history.v, motion.v, motion.a, jerk, columns_v, columns_a);
-    make_innovations(motion.derivatives.steps, noise_[t], rows_x, rows_v);
+    const double rate = history.sample_rate;
+    const auto width = std::max<Eigen::Index>(1, std::lround(rate * 2.0 * std::numbers::pi / natural_ / 24.0));
+    make_innovations(motion.derivatives.steps, noise_[t], rows.x, rows.v);
     // The same rows in every step of a fit.
     if (moving_.size() == t) moving_.push_back(moving_rows(history, motion.x, parameters.F0 / parameters.k));
     const Eigen::Index moving = moving_[t];
-    in_x.add(averaged(rows_x.topRows(moving), width));
-    if (!history.v.empty()) in_v.add(averaged(rows_v.topRows(moving), width));
+    in_x.add(averaged(rows.x.topRows(moving), width));
+    if (!history.v.empty()) in_v.add(averaged(rows.v.topRows(moving), width));
     if (history.a.empty()) return true;
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(jerk.size());
-    Eigen::MatrixXd rows_a = read(Sensor::a, history.a, motion.a, jerk, none, columns_a,
-                                  Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
-    leave_out_reversals(motion.v, rows_a);
-    in_a.add(averaged(rows_a.topRows(moving), width));
+    leave_out_reversals(motion.v, rows.a);
+    in_a.add(averaged(rows.a.topRows(moving), width));
     return true;
   }
 
   struct Motion {
-    Eigen::VectorXd x, v, a;
+    Eigen::VectorXd x, v;
     SampledOscillator::Derivatives derivatives;
   };
 
-  [[nodiscard]] ReadingNoise noise_levels(const History& history, double k) const {
-    // Readings without any noise still round.
-    constexpr double rounding = 1e-9;
-    return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
-            std::max(noise_of(history.x), rounding * scale_.length),
-            std::max(noise_of(history.v), rounding * scale_.speed)};
+  [[nodiscard]] SensorRows rows_of(std::size_t t, const Place& at, const Numbers& wanted, const Motion& motion) {
+    const History& history = *fit_.tests()[t].history;
+    const double rate = history.sample_rate;
+    const ForceParameters force = force_at(at);
+    const Eigen::VectorXd a = differentiated(motion.v, rate);
+    const Eigen::VectorXd jerk = differentiated(a, rate);
+    const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
+    const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
+    const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
+    const Reader read{*this, at, wanted};
+    SensorRows rows;
+    rows.x = read(Sensor::x, history.x, motion.x, motion.v, a, columns_x, columns_v);
+    if (!history.v.empty()) rows.v = read(Sensor::v, history.v, motion.v, a, jerk, columns_v, columns_a);
+    if (!history.a.empty())
+      rows.a = read(Sensor::a, history.a, a, jerk, Eigen::VectorXd::Zero(jerk.size()), columns_a,
+                    Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
+    return rows;
   }
 
   /// Base columns, then those of the relaxations wanted but for readings, from the derivatives of one test. Those
@@ -405,26 +417,15 @@ class Histories {
   std::vector<Relaxation> relaxations_;
   std::vector<Way> ways_;  ///< of each relaxation
   std::vector<ReadingNoise> noise_;
+  std::map<std::size_t, SampledOscillator> shaken_;  ///< of the tests with noise in their drive
   std::vector<Eigen::Index> moving_;
   std::map<std::size_t, std::optional<Place>> freed_;
 };
 
-/// Why the motion cannot be simulated; empty when it can.
-std::string fault_of(const Record& record) {
-  constexpr std::size_t most_samples = 60'000;  // a second or two of work
-  std::size_t samples = 0;
-  for (const History& history : record.histories) {
-    samples += history.x.size();
-    const bool free = history.y.empty() && history.force.empty();
-    if (free && decay_of(history).record.extremes.empty()) return "the drive of the motion was not recorded";
-  }
-  return samples > most_samples ? "tests take at most 60,000 samples: give a part, or every n-th sample" : "";
-}
-
 }  // namespace
 
 std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants) {
-  if (std::string fault = fault_of(record); !fault.empty()) return fault;
+  if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
   Estimate taken;
   const auto histories = std::make_shared<Histories>(record, constants, taken);
   ForwardFit& fit = histories->fit();

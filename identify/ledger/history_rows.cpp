@@ -3,8 +3,11 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "core/random.hpp"
+#include "identify/records/derived_records.hpp"
 #include "identify/statistics/autoregression.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -17,6 +20,15 @@ void Channel::add(const Eigen::MatrixXd& more) {
   if (rows.rows() > 0) all.topRows(rows.rows()) = rows;
   all.bottomRows(more.rows()) = more;
   rows = std::move(all);
+}
+
+void SensorRows::append(const SensorRows& more) {
+  for (const auto part : {&SensorRows::x, &SensorRows::v, &SensorRows::a}) {
+    Eigen::MatrixXd& rows = this->*part;
+    const Eigen::Index own = rows.cols();
+    rows.conservativeResize(Eigen::NoChange, own + (more.*part).cols());
+    rows.rightCols((more.*part).cols()) = more.*part;
+  }
 }
 
 namespace {
@@ -41,8 +53,8 @@ Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::V
 
 }  // namespace
 
-Eigen::MatrixXd made_white(const Channel& channel) {
-  const Eigen::MatrixXd columns = channel.rows.rightCols(channel.rows.cols() - 1);
+Eigen::MatrixXd made_white(const Channel& channel, Eigen::Index count_of_columns) {
+  const Eigen::MatrixXd columns = channel.rows.middleCols(1, count_of_columns);
   const Eigen::VectorXd target = channel.rows.col(0);
   const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
   const auto count = static_cast<double>(left.size());
@@ -50,6 +62,28 @@ Eigen::MatrixXd made_white(const Channel& channel) {
   Autoregression errors = autoregression_of(error_covariances(columns, left, channel.blocks, most), count);
   errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
   return whitened(channel.rows, channel.blocks, errors);
+}
+
+Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& parts) {
+  Eigen::Index count = 0;
+  for (const Eigen::MatrixXd& part : parts) count += part.rows();
+  Eigen::MatrixXd rows(count, parts.front().cols());
+  Eigen::Index row = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    rows.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  return rows;
+}
+
+History with_noisier_drive(History history) {
+  constexpr core::RandomStream stream{20261125, 1};
+  std::uint64_t drawn = 0;
+  for (std::vector<double>* signal : {&history.y, &history.force}) {
+    const double deviation = signal->empty() ? 0.0 : noise_of(*signal);
+    for (double& value : *signal) value += deviation * stream.normal(drawn++);
+  }
+  return history;
 }
 
 Eigen::MatrixXd averaged(const Eigen::MatrixXd& rows, Eigen::Index width) {
@@ -91,6 +125,25 @@ double noise_of(const std::vector<double>& signal) {
   level.add(signal);
   // Where a converter's step is all there is, most differences are zero.
   return std::max(level.deviation(), converter_step(signal) / std::sqrt(12.0));
+}
+
+ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale) {
+  // Readings without any noise still round.
+  constexpr double rounding = 1e-9;
+  return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
+          std::max(noise_of(history.x), rounding * scale.length),
+          std::max(noise_of(history.v), rounding * scale.speed)};
+}
+
+std::string fault_of_histories(const Record& record) {
+  constexpr std::size_t most_samples = 60'000;  // a second or two of work
+  std::size_t samples = 0;
+  for (const History& history : record.histories) {
+    samples += history.x.size();
+    const bool free = history.y.empty() && history.force.empty();
+    if (free && decay_of(history).record.extremes.empty()) return "the drive of the motion was not recorded";
+  }
+  return samples > most_samples ? "tests take at most 60,000 samples: give a part, or every n-th sample" : "";
 }
 
 }  // namespace dualdamp::identify

@@ -40,6 +40,9 @@ struct JointModel {
   Eigen::MatrixXd base;
   std::vector<Relaxation> relaxations;
   Eigen::MatrixXd relaxed;  ///< a column for each relaxation
+  /// Residuals, base and relaxed side by side, where the drive has its noise twice; empty: noise is in r alone. The
+  /// columns are derivatives of the motion under the drive as measured, so its noise is in them and in r alike.
+  Eigen::MatrixXd shaken = {};
   /// By how much the friction force of a part of the record is off the mean, F0, for a unit of each relaxation [N];
   /// empty: none sets one free.
   Eigen::VectorXd F0_parts = {};

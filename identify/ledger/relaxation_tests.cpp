@@ -17,6 +17,8 @@ namespace {
 constexpr double told_apart = 1e-4;
 /// Standard errors at which a departure is found in four records of five.
 constexpr double found_at = 2.8;
+/// Times what one draw of noise that columns and residuals share says that it does, so much it does at most.
+constexpr double at_most_shared = 2.0;
 
 /// The relaxations beside a base, projected.
 struct Projection {
@@ -27,15 +29,23 @@ struct Projection {
   Eigen::MatrixXd unit;              ///< their columns beside the base, of unit length
   Eigen::VectorXd lengths;
   Eigen::MatrixXd shifts;  ///< of the base parameters for a unit of each relaxation
+  /// What noise that a column and the residuals share adds to their product, for unit columns.
+  Eigen::VectorXd shared;
 };
+
+/// Columns side by side, the relaxations taken last.
+Eigen::MatrixXd beside_base(const Eigen::MatrixXd& base, const Eigen::MatrixXd& relaxed,
+                            const std::vector<std::size_t>& taken) {
+  Eigen::MatrixXd all(base.rows(), base.cols() + static_cast<Eigen::Index>(taken.size()));
+  all.leftCols(base.cols()) = base;
+  for (std::size_t j = 0; j < taken.size(); ++j)
+    all.col(base.cols() + static_cast<Eigen::Index>(j)) = relaxed.col(static_cast<Eigen::Index>(taken[j]));
+  return all;
+}
 
 Projection project(const JointModel& model, const std::vector<std::size_t>& taken) {
   const Eigen::Index own = model.base.cols();
-  const auto more = static_cast<Eigen::Index>(taken.size());
-  Eigen::MatrixXd base(model.base.rows(), own + more);
-  base.leftCols(own) = model.base;
-  for (Eigen::Index j = 0; j < more; ++j)
-    base.col(own + j) = model.relaxed.col(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(j)]));
+  const Eigen::MatrixXd base = beside_base(model.base, model.relaxed, taken);
   const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve(model.relaxed);
@@ -59,6 +69,17 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
     result.unit.col(j) = beside.col(from) / result.lengths[j];
     result.shifts.col(j) = -solved.col(from).head(own);
   }
+  result.shared = Eigen::VectorXd::Zero(count);
+  if (model.shaken.size() == 0) return result;
+  const Eigen::Index all = model.relaxed.cols();
+  const Eigen::MatrixXd relaxed = model.shaken.rightCols(all) - model.relaxed;
+  const Eigen::MatrixXd moved =
+      relaxed - beside_base(model.shaken.middleCols(1, own) - model.base, relaxed, taken) * solved;
+  const Eigen::VectorXd pushed = model.shaken.col(0) - model.residuals;
+  const Eigen::VectorXd left = pushed - base * (scale.cwiseInverse().asDiagonal() * qr.solve(pushed));
+  for (Eigen::Index j = 0; j < count; ++j)
+    result.shared[j] = moved.col(static_cast<Eigen::Index>(result.indices[static_cast<std::size_t>(j)])).dot(left) /
+                       result.lengths[j];
   return result;
 }
 
@@ -163,13 +184,20 @@ double family_p_value(const Scores& scores, Eigen::Index j, double t, double fre
   return enough / draws * std::min(1.0, two_sided(t, freedom) / two_sided(last, freedom));
 }
 
+/// Products of columns and residuals less what the noise that both share may make of them.
+Eigen::VectorXd beyond_shared(const Eigen::VectorXd& along, const Eigen::VectorXd& shared) {
+  const Eigen::ArrayXd sure = (along.array().abs() - at_most_shared * shared.array().abs()).max(0.0);
+  return along.array().sign() * sure;
+}
+
 /// Tests of all relaxations beside those taken.
 std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projection& projection,
                                          double least_change) {
   std::vector<RelaxationTest> tests;
   if (projection.indices.empty() || projection.freedom < 2.0) return tests;
   const double squares = projection.residuals.squaredNorm();
-  const Eigen::VectorXd along = projection.unit.transpose() * projection.residuals;
+  const Eigen::VectorXd along =
+      beyond_shared(projection.unit.transpose() * projection.residuals, projection.shared);
   const Eigen::VectorXd t = statistics(along, squares, projection.freedom);
   const double deviation = std::sqrt(squares / projection.freedom);
   const Scores scores(weights_of(model, projection, deviation, least_change), projection.scale_freedom);
@@ -194,8 +222,9 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
     const auto own = static_cast<Eigen::Index>(test.index);
     if (model.F0_parts.size() > 0) test.F0_part = gain * model.F0_parts[own];
     if (model.zeta_parts.size() > 0) test.zeta_part = gain * model.zeta_parts[own];
-    test.zeta_blind = found_at * std::abs(projection.shifts(0, j)) * error;
-    test.F0_blind = found_at * std::abs(projection.shifts(1, j)) * error;
+    const double blind = found_at * error + at_most_shared * std::abs(projection.shared[j]) / projection.lengths[j];
+    test.zeta_blind = std::abs(projection.shifts(0, j)) * blind;
+    test.F0_blind = std::abs(projection.shifts(1, j)) * blind;
     tests.push_back(test);
   }
   return tests;

@@ -86,6 +86,15 @@ double reach_of_noise(std::span<const Phasor> late, const Phasor& mean) {
   return std::sqrt(2.0 * (1.0 + 1.0 / count) * square);
 }
 
+Phasor mean_of(std::span<const Phasor> phasors) {
+  Phasor mean;
+  for (const Phasor& phasor : phasors) {
+    mean.cos += phasor.cos / static_cast<double>(phasors.size());
+    mean.sin += phasor.sin / static_cast<double>(phasors.size());
+  }
+  return mean;
+}
+
 /// Pieces of whole periods; those at the beginning that are farther from the second half's mean than noise puts
 /// them are the transient.
 std::optional<SteadyPart> steady_part(const History& history, double omega) {
@@ -117,11 +126,7 @@ std::optional<SteadyPart> steady_part(const History& history, double omega) {
   }
   const std::size_t half = phasors.size() / 2;
   const std::span<const Phasor> late = std::span(phasors).subspan(half);
-  Phasor mean;
-  for (const Phasor& phasor : late) {
-    mean.cos += phasor.cos / static_cast<double>(late.size());
-    mean.sin += phasor.sin / static_cast<double>(late.size());
-  }
+  const Phasor mean = mean_of(late);
   const double tolerance = std::max(reach_of_noise(late, mean), settled * mean.size());
   std::size_t skipped = 0;
   while (skipped < half && phasors[skipped].distance(mean) > tolerance) ++skipped;

@@ -223,7 +223,7 @@ class Check {
     constexpr double clearly = 0.2;
     if (!(work + 2.0 * energy < -clearly * moved)) return;
     refuse("the force takes " + shown(-work) + unit("J") +
-               " out of the motion x, more than it holds: one of both has " + "the wrong sign",
+               " out of the motion x, more than it holds: one of both has the wrong sign",
            "force and x positive in one direction: --scale force=-1");
   }
 

@@ -83,8 +83,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const std::o
     estimate.value = parameters(force);
     estimate.findings.emplace_back(
         "no interval is claimed: a mass with the estimated friction does not move as the measured one, or the "
-        "method "
-        "makes nothing of its motion");
+        "method makes nothing of its motion");
     return;
   }
   const Eigen::VectorXd& b = spread->bias;

@@ -142,15 +142,13 @@ RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, cons
 /// Why the record does not tell viscous and Coulomb friction; empty where it does.
 std::string fault_of(const RecursiveFit& result) {
   if (!result.fit)
-    return "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or one "
-           "speed "
-           "only";
+    return "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
+           "one speed only";
   // Filters may turn a few samples at the ends.
   constexpr double few = 0.05;
   if (1.0 - std::abs(result.rows.columns.col(1).mean()) < 2.0 * few)
     return "the motion goes in one direction only, where a Coulomb force and a zero of the force that is off are "
-           "one "
-           "and the same";
+           "one and the same";
   return {};
 }
 

@@ -23,8 +23,7 @@ namespace {
 /// What a method was asked and said.
 struct Coverage {
   int records = 0, outcomes = 0, usable = 0, intervals = 0, zeta = 0, c = 0, F0 = 0;
-  std::array<int, 2> zeta_sides{},
-      F0_sides{};  ///< of the truths that the interval misses: those below and above it
+  X
 };
 
 /// A record with constants and gains that are off by chance, and what is stated of them.
