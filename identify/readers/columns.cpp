@@ -1,7 +1,9 @@
 #include "identify/readers/columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <utility>
 
 #include "core/units.hpp"
 #include "identify/readers/record_reader.hpp"
@@ -33,6 +35,22 @@ const KnownColumn* column_in_any_case(std::string_view text) {
 bool is_unit_of(const std::string& unit, const KnownColumn& known) {
   return !unit.empty() && !known.unit.empty() &&
          (core::unit_factor(unit, known.unit).value || core::coordinate_told_by(unit, known.unit));
+}
+
+/// Names that say which column they are by their unit only: f [Hz], F [N].
+struct ShortName {
+  std::string_view text;
+  std::string_view column;
+};
+constexpr std::array<ShortName, 5> short_names = {
+    {{"f", "omega"}, {"F", "omega"}, {"freq", "omega"}, {"f", "force"}, {"F", "force"}}};
+
+/// All names by which a column with a unit is known.
+std::vector<std::string_view> names_of(const KnownColumn& known) {
+  std::vector<std::string_view> names = {known.name, known.alias};
+  for (const ShortName& other : short_names)
+    if (other.column == known.name) names.push_back(other.text);
+  return names;
 }
 
 /// The part of a text behind a name and marks that is a unit; empty when there is none.
@@ -91,13 +109,17 @@ const KnownColumn* named_column(Heading& heading) {
   if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not a V without unit
     for (const KnownColumn& known : known_columns)
       if (is_alike(heading.name, known.name) && is_unit_of(heading.unit, known)) return &known;
+  for (const ShortName& other : short_names)
+    if (const KnownColumn* known = known_column(other.column);
+        is_name(heading.name, other.text) && is_unit_of(heading.unit, *known))
+      return known;
   if (!heading.unit.empty() || !heading.well_formed) {
     // `x_[mm]`, `x/(mm)`: a mark before the brackets.
     const std::size_t end = heading.name.find_last_not_of(marks) + 1;
     return end < heading.name.size() ? column_in_any_case(std::string_view(heading.name).substr(0, end)) : nullptr;
   }
   for (const KnownColumn& known : known_columns)
-    for (const std::string_view name : {known.name, known.alias})
+    for (const std::string_view name : names_of(known))
       if (std::string unit = unit_behind(heading.name, name, known); !unit.empty()) {
         heading.name = name;
         heading.unit = std::move(unit);

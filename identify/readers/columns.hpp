@@ -50,7 +50,7 @@ struct Heading {
 /// `x / mm`, `time, ms`, goes from the name to `heading.unit`. nullptr when it names none.
 ///
 /// Y and y are two columns. Other names of one letter are known in the other case too where their unit fits, `X
-/// [mm]`; longer names in any case.
+/// [mm]`; longer names in any case. f and freq are frequencies or forces where their unit says so, `f_Hz`, `F [N]`.
 [[nodiscard]] const KnownColumn* named_column(Heading& heading);
 
 /// The warning of a column, variable or field that is none of the known ones; `is_of_ignored` knows it again.

@@ -146,6 +146,9 @@ FieldNumber read_field(std::string_view text, char decimal) {
   else if (decimal == '.' || number.find('.') == std::string_view::npos)
     value = plain_number(respelled(number, decimal), fault);
   if (!value) return no_number(text, decimal);
+  if (std::isnan(*value))
+    return {std::nullopt, "is not a finite number",
+            "a number; leave out rows without a reading: gaps of times are found"};
   if (fault == std::errc::result_out_of_range || !std::isfinite(*value))
     return {std::nullopt, "is not a finite number", "a number of double precision"};
   return {value, {}, {}};

@@ -131,6 +131,8 @@ TEST_CASE("Faults of the data, several at once") {
   CHECK(only_problem("Y,x\n1,2,3\n4,5\n", 2, 1, "as many fields").allowed == "2 fields");
   for (const char* word : {"nan", "NaN", "inf", "-inf", "infinity", "1e999", "+nan"})
     only_problem(std::string("Y,x\n1,") + word + "\n", 2, 3, "is not a finite number");
+  CHECK(only_problem("Y,x\n1,nan\n", 2, 3, "is not a finite number").allowed.find("leave out rows") !=
+        std::string::npos);
   for (const char* word : {"", "one", "1.0.0", "0x1p3", "--1", "+-1", "1e", "1 2", "1_000", "\xC2\xB5"})
     only_problem(std::string("Y,x\n1,") + word + "\n", 2, 3, "is not a number");
   only_problem("Y,x\n1,-2\n", 2, 3, "negative");
@@ -242,4 +244,29 @@ TEST_CASE("Files") {
   };
   refused("no/such/file.csv", "cannot be opened");
   refused("/", "cannot be read");
+}
+
+TEST_CASE("A column f is a frequency in hertz or a force in newtons, and nothing without a unit") {
+  for (const char* heading : {"f_Hz", "f [Hz]", "F (Hz)", "freq / Hz", "Freq [Hz]"}) {
+    CAPTURE(heading);
+    const auto read = parse_record(std::string(heading) + ",Y_mm,x_mm\n5,1,2\n6,1,3\n", "data.csv").record;
+    REQUIRE(read.pairs);
+    CHECK(read.pairs->pairs.at(0).omega == Approx(2.0 * 3.14159265358979 * 5.0));
+  }
+  for (const char* heading : {"F [N]", "f_N", "F (kN)"}) {
+    CAPTURE(heading);
+    std::string text = std::string("t_s,x_mm,") + heading + "\n";
+    for (int i = 0; i < 40; ++i)
+      text += std::to_string(0.01 * i) + "," + std::to_string(std::sin(0.3 * i)) + ",2\n";
+    const auto read = parse_record(text, "data.csv").record;
+    REQUIRE(read.histories.size() == 1);
+    CHECK(read.histories[0].force.at(5) == Approx(text.find("kN") == std::string::npos ? 2.0 : 2000.0));
+  }
+  for (const char* heading : {"f", "freq", "f [mm]"}) {
+    CAPTURE(heading);
+    const auto read = parse_record(std::string(heading) + ",Y_mm,x_mm\n5,1,2\n6,1,3\n", "data.csv");
+    CHECK(std::isnan(read.record.pairs->pairs.at(0).omega));
+    REQUIRE_FALSE(read.warnings.empty());
+    CHECK(read.warnings[0].find("is not known and is ignored") != std::string::npos);
+  }
 }
