@@ -8,6 +8,7 @@
 
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
+#include "identify/fit/serial_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/fit/uncertainty.hpp"
 
@@ -19,14 +20,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
 
+/// The chance of the smaller of two, of which each may be unknown.
+double either_p_value(double first, double second) {
+  if (std::isnan(first)) return second;
+  return std::isnan(second) ? first : std::min(1.0, 2.0 * std::min(first, second));
+}
+
 void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, Eigen::Index parameters,
-                      bool robust, Fit& result) {
+                      const SerialTest& serial, bool robust, Fit& result) {
   double sum = 0.0;
   double count = 0.0;
   for (const SignalRows& rows : problem.signals()) {
     const Eigen::Index size = rows.end - rows.begin;
     const Eigen::VectorXd measured = problem.measured().segment(rows.begin, size);
-    FittedSignal signal{.rows = rows, .rms = rms(misses.segment(rows.begin, size))};
+    FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows)};
     signal.range = rms(measured.array() - measured.mean());
     if (problem.signal(rows).noise > 0.0) {
       signal.noise = problem.signal(rows).noise;
@@ -36,6 +43,8 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
     }
     signal.p_value =
         noise_p_value(problem.signal(rows), misses.segment(rows.begin, size), static_cast<std::size_t>(parameters));
+    if (!robust && !problem.signal(rows).is_sampled)
+      signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
     signal.independent = independent_samples(misses.segment(rows.begin, size), problem.signal(rows).is_sampled);
     result.log_likelihood_count += signal.independent;
     if (problem.signal(rows).is_stated) {
@@ -85,8 +94,9 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const Eigen::VectorXd values = problem.values(q);
   result.rig = with_values(rig, parameters, values).value_or(rig);
   result.own = problem.own(values);
-  const Eigen::VectorXd misses = result.outputs - problem.measured();
-  describe_signals(problem, misses, q.size(), options.robust, result);
+  const Eigen::VectorXd misses = problem.misses(result.outputs);
+  const SerialTest serial(problem, found->weights, misses, jacobian);
+  describe_signals(problem, misses, q.size(), serial, options.robust, result);
   warn_of_residuals(experiments, result);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     result.parameters.push_back({.parameter = parameters[i], .value = values[static_cast<Eigen::Index>(i)]});

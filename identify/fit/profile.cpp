@@ -66,7 +66,34 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) con
   }
 }
 
-std::optional<double> Profiler::growth(Eigen::Index i, double value, Way& way) const {
+double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
+  return std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
+}
+
+std::optional<double> Profiler::alone(Eigen::Index i, double value, Way& way) const {
+  Eigen::VectorXd values = problem_.values(way.q);
+  values[i] = value;
+  Eigen::VectorXd q = problem_.coordinates(values);
+  Eigen::VectorXd outputs;
+  if (!problem_.outputs(q, outputs)) return std::nullopt;
+  way.q = std::move(q);
+  way.residuals = problem_.misses(outputs).cwiseProduct(weights_);
+  return growth_of(way.residuals);
+}
+
+std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, Way& way) const {
+  const Way before = way;
+  std::optional<double> best = followed(i, value, way);
+  if (best && *best <= limit) return best;
+  // The others may have followed across a jump of the sum of squares that lies between, as of one stick more.
+  Way beside = before;
+  const std::optional<double> unfollowed = alone(i, value, beside);
+  if (!unfollowed || (best && *unfollowed >= *best)) return best;
+  way = std::move(beside);
+  return unfollowed;
+}
+
+std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way) const {
   std::optional<double> best;
   constexpr int most_steps = 4;
   constexpr int most_derivatives = 2;
@@ -77,8 +104,8 @@ std::optional<double> Profiler::growth(Eigen::Index i, double value, Way& way) c
       Eigen::VectorXd q = step(i, value, way);
       Eigen::VectorXd outputs;
       if (!problem_.outputs(q, outputs)) return best;
-      Eigen::VectorXd residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
-      const double found = std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
+      Eigen::VectorXd residuals = problem_.misses(outputs).cwiseProduct(weights_);
+      const double found = growth_of(residuals);
       // Beside its minimum by so much a step has left where the derivatives hold.
       if (best && found > (1.0 + settled) * *best) break;
       is_settled = best && *best - found <= settled * found;
@@ -119,7 +146,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
     const double value = value_at(way);
-    const std::optional<double> grown = growth(i, value, others);
+    const std::optional<double> grown = growth(i, value, limit, others);
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;

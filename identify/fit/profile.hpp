@@ -41,7 +41,11 @@ class Profiler {
   /// Least squares with parameter `i` held at `value`, by the derivatives of `way`.
   [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way) const;
   /// The root of the growth of the sum of squares where parameter `i` is `value`; nothing where there is no motion.
-  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, Way& way) const;
+  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, Way& way) const;
+  /// The same by steps of Gauss and Newton from `way`; with the others where they are.
+  [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, Way& way) const;
+  [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, Way& way) const;
+  [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
   [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
 
   const FitProblem& problem_;

@@ -65,11 +65,11 @@ class Uncertainty {
     all_stated_ = true;
     const double spent = static_cast<double>(size_) / static_cast<double>(end_.misses.size());
     for (const SignalRows& rows : end_.problem.signals()) {
-      const Eigen::Index count = rows.end - rows.begin;
-      const double own =
-          residuals_.segment(rows.begin, count).squaredNorm() / (static_cast<double>(count) * (1.0 - spent));
+      const Eigen::Index size = rows.end - rows.begin;
+      const double count = end_.problem.counted().segment(rows.begin, size).sum();
+      const double own = residuals_.segment(rows.begin, size).squaredNorm() / (count * (1.0 - spent));
       // Of stated noise only what chance does not explain is added.
-      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / static_cast<double>(count));
+      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / count);
       const bool as_stated = end_.problem.signal(rows).is_stated && own < chance;
       all_stated_ = all_stated_ && as_stated;
       variances_.push_back(as_stated ? 1.0 : own);
@@ -224,8 +224,9 @@ class Uncertainty {
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
     const Eigen::VectorXd all = whole_all();
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
-      fit_.not_identifiable.push_back(
-          trade_off({slope * all.asDiagonal() * direction, direction, deviation}, parameters));
+      const Eigen::VectorXd change = all.asDiagonal() * direction;
+      const Eigen::VectorXd effect = (rows_ * change.asDiagonal()).colwise().norm();
+      fit_.not_identifiable.push_back(trade_off({slope * change, direction, effect, deviation}, parameters));
     };
     for (const Eigen::VectorXd& direction : lost_) add(direction, infinity);
     if (free_.empty()) return;
