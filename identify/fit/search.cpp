@@ -235,7 +235,21 @@ bool holds_motion(const Eigen::VectorXd& q, const FitProblem& problem) {
   });
 }
 
+bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
+  return options.robust || problem.signals().size() > 1;
+}
+
 }  // namespace
+
+std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
+                                        const SearchOptions& options) {
+  Search search(problem, options);
+  LeastSquaresFit start;
+  start.parameters = coordinates;
+  const std::optional<LeastSquaresFit> found =
+      finish(std::move(start), search, problem, has_several_weights(problem, options));
+  return found ? std::optional(SearchResult{found->parameters, search.weights()}) : std::nullopt;
+}
 
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                               const std::vector<FitParameter>& parameters,
@@ -246,7 +260,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   // The first steps ask for the region of the minimum, not for its place.
   const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
   const Search rough_search(rough_problem, options);
-  const bool several_weights = options.robust || problem.signals().size() > 1;
+  const bool several_weights = has_several_weights(problem, options);
   const Search alike(problem, options);  // searches that have ended weigh their own residuals
   std::optional<SearchResult> best;
   const auto take = [&](std::optional<LeastSquaresFit> found) {

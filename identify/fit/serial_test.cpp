@@ -71,7 +71,9 @@ double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& b
 
 SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
                        const Eigen::MatrixXd& jacobian)
-    : problem_(problem), weights_(weights), misses_(misses) {
+    : problem_(problem), weights_(weights), misses_(misses), base_(misses.size(), 0) {
+  const auto is_tested = [&](const SignalRows& rows) { return !problem.signal(rows).is_sampled; };
+  if (jacobian.cols() == 0 || std::ranges::none_of(problem.signals(), is_tested)) return;
   Eigen::MatrixXd columns = weights.asDiagonal() * jacobian;
   for (Eigen::Index j = 0; j < columns.cols(); ++j)
     if (const double norm = columns.col(j).norm(); norm > 0.0) columns.col(j) /= norm;
