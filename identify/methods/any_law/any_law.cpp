@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -10,6 +11,8 @@
 #include "identify/methods/any_law/decay_readings.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -61,6 +64,35 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
                                 " best at the largest severity: raise 'largest_severity' to see what lies beyond");
 }
 
+/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has.
+Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
+  Estimate estimate;
+  estimate.method = any_law_method.name;
+  const Readings readings = readings_of(record, constants, options);
+  if (const auto* why = std::get_if<std::string>(&readings)) {
+    refuse(estimate, *why);
+    return estimate;
+  }
+  const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
+  const std::optional<PlainFit> plain = plain_fit(model);
+  if (!plain) {
+    refuse(estimate, "no Coulomb and viscous friction has readings like these");
+    return estimate;
+  }
+  estimate.value =
+      parameters({constants.mass, plain->fit.unknowns[1] * model.c_unit(), constants.stiffness,
+                  plain->fit.unknowns[0] * model.F0_unit()});
+  estimate.std.emplace();
+  return estimate;
+}
+
+/// A cause of standard deviation `by` beside those within the interval. Forces and dampings are not negative.
+void widen(Interval& ends, double about, double by) {
+  const double value = std::clamp(about, ends[0], ends[1]);
+  const double extra = quantile95(std::numeric_limits<double>::infinity()) * by;
+  ends = {std::max(value - std::hypot(value - ends[0], extra), 0.0), value + std::hypot(ends[1] - value, extra)};
+}
+
 }  // namespace
 
 LawIntervalOptions interval_options(const AnyLawOptions& options) {
@@ -102,33 +134,29 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
   return estimate;
 }
 
-void add_uncertainty_of(const Estimate& stated, const Estimate& uncertain, Estimate& estimate) {
-  if (!stated.interval95 || !uncertain.interval95 || !estimate.interval95) return;
-  std::shared_ptr<LawIntervals> laws = estimate.laws ? std::make_shared<LawIntervals>(*estimate.laws) : nullptr;
-  const auto half = [](const Interval& ends) { return 0.5 * (ends[1] - ends[0]); };
-  const auto widen = [](Interval& ends, double about, double extra) {
-    const double value = std::clamp(about, ends[0], ends[1]);
-    ends = {value - std::hypot(value - ends[0], extra), value + std::hypot(ends[1] - value, extra)};
+Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
+                            const ConstantUncertainties& uncertainties, const AnyLawOptions& options) {
+  const Reader read = [&options](const Record& again, const KnownConstants& moved) {
+    return plain_estimate(again, moved, options);
   };
-  struct Row {
-    double ParameterSet::* value;
-    Interval ParameterIntervals::* interval;
-    Interval LawIntervals::* hull;
-    Interval LawIntervals::* average;
-  };
-  using Laws = LawIntervals;
-  for (const Row& row : {Row{&ParameterSet::zeta, &ParameterIntervals::zeta, &Laws::zeta_hull, &Laws::zeta_average},
-                         Row{&ParameterSet::c, &ParameterIntervals::c, nullptr, nullptr},
-                         Row{&ParameterSet::x_f, &ParameterIntervals::x_f, nullptr, nullptr},
-                         Row{&ParameterSet::F0, &ParameterIntervals::F0, &Laws::F0_hull, &Laws::F0_average}}) {
-    const double with = half((*uncertain.interval95).*row.interval);
-    const double without = half((*stated.interval95).*row.interval);
-    const double extra = std::sqrt(std::max(with * with - without * without, 0.0));
-    widen((*estimate.interval95).*row.interval, estimate.value.*row.value, extra);
-    if (!laws || row.hull == nullptr) continue;
-    widen((*laws).*row.hull, estimate.value.*row.value, extra);
-    widen((*laws).*row.average, laws->mean.*row.value, extra);
-  }
+  return with_uncertainties(read, record, constants, uncertainties);
+}
+
+void widen(const ParameterSet& by, LawIntervals& laws) {
+  widen(laws.zeta_hull, laws.mean.zeta, by.zeta);
+  widen(laws.F0_hull, laws.mean.F0, by.F0);
+  widen(laws.zeta_average, laws.mean.zeta, by.zeta);
+  widen(laws.F0_average, laws.mean.F0, by.F0);
+}
+
+void widen(const ParameterSet& by, Estimate& estimate) {
+  if (!estimate.interval95 || !estimate.laws) return;
+  widen(estimate.interval95->zeta, estimate.value.zeta, by.zeta);
+  widen(estimate.interval95->c, estimate.value.c, by.c);
+  widen(estimate.interval95->x_f, estimate.value.x_f, by.x_f);
+  widen(estimate.interval95->F0, estimate.value.F0, by.F0);
+  auto laws = std::make_shared<LawIntervals>(*estimate.laws);
+  widen(by, *laws);
   estimate.laws = std::move(laws);
 }
 
