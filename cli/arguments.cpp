@@ -1,5 +1,7 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -12,7 +14,6 @@
 #include "core/numbers.hpp"
 
 namespace dualdamp::cli {
-
 namespace {
 
 /// Curves that a chart can show and a legend can name.
@@ -22,10 +23,7 @@ constexpr auto usage = static_cast<int>(core::ExitStatus::usage);
 
 std::string version_text() {
   const core::BuildInfo build = core::build_info();
-  std::ostringstream text;
-  text << "dualdamp " << build.version << " (" << build.commit << ", " << build.compiler << ", " << build.build_type
-       << ")";
-  return text.str();
+  return fmt::format("dualdamp {} ({}, {}, {})", build.version, build.commit, build.compiler, build.build_type);
 }
 
 /// The libraries that DUALDAMP_PLUGINS names.

@@ -141,8 +141,8 @@ double seconds_for_any_law(AnyLawRecord record) { return seconds_for("any_law", 
 double seconds_for_design() {
   const identify::Record record = eight_states(0.0);
   bool given = true;
-  const double seconds = seconds_for(
-      [&] { given = given && identify::design_after(record, constants(), {}, {}).index() == 0; }, few);
+  const double seconds =
+      seconds_for([&] { given = given && identify::design_after(record, constants(), {}, {}).index() == 0; }, few);
   if (!given) throw std::runtime_error("there is no advice");
   return seconds;
 }

@@ -11,10 +11,10 @@ namespace dualdamp::bench::speed {
 
 /// `any_law` on noisy records, on all cores.
 enum class AnyLawRecord {
-  states,     ///< eight levels at resonance with phases
-  response,   ///< 21 frequencies with phases
-  decay,      ///< 24 extremes of a free vibration
-  history,    ///< 12 s of a free vibration at 2 kHz
+  states,    ///< eight levels at resonance with phases
+  response,  ///< 21 frequencies with phases
+  decay,     ///< 24 extremes of a free vibration
+  history,   ///< 12 s of a free vibration at 2 kHz
 };
 [[nodiscard]] double seconds_for_any_law(AnyLawRecord record);
 

@@ -285,9 +285,8 @@ class Advisor {
         rows.push_back(static_cast<Index>(i));
     VectorXd weights(static_cast<Index>(rows.size()));
     for (Index i = 0; i < weights.size(); ++i)
-      weights[i] =
-          1.0 / deviations().at(static_cast<std::size_t>(
-                    planned.channels()[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])]));
+      weights[i] = 1.0 / deviations().at(static_cast<std::size_t>(
+                             planned.channels()[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])]));
     for (Rival& rival : rivals) {
       for (Expectation& point : rival.points) {
         point.readings = VectorXd(weights.cwiseProduct(VectorXd(point.readings(rows))));

@@ -125,8 +125,7 @@ Answer DesignQuestion::run(const RunContext& context) const {
   result["candidates"] = Json::array();
   for (const Advice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
   answer.tables.push_back(candidate_table(design.advice));
-  for (Table& table : law_tables(design.now, methods.constants))
-    answer.tables.push_back(std::move(table));
+  for (Table& table : law_tables(design.now, methods.constants)) answer.tables.push_back(std::move(table));
   return answer;
 }
 

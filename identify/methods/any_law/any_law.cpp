@@ -79,9 +79,8 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
     refuse(estimate, "no Coulomb and viscous friction has readings like these");
     return estimate;
   }
-  estimate.value =
-      parameters({constants.mass, plain->fit.unknowns[1] * model.c_unit(), constants.stiffness,
-                  plain->fit.unknowns[0] * model.F0_unit()});
+  estimate.value = parameters({constants.mass, plain->fit.unknowns[1] * model.c_unit(), constants.stiffness,
+                               plain->fit.unknowns[0] * model.F0_unit()});
   estimate.std.emplace();
   return estimate;
 }

@@ -72,8 +72,8 @@ struct AnyLawOptions : KnownDeviations {
 [[nodiscard]] Estimate any_law(const Record& record, const KnownConstants& constants,
                                const AnyLawOptions& options = {});
 
-/// What uncertain constants do to zeta, c, x_f and F0: `std` of the result, of plain friction, which the same readings
-/// give within milliseconds where any_law takes seconds. `warnings` name the constants that are not in it.
+/// What uncertain constants do to zeta, c, x_f and F0: `std` of the result, of plain friction, which the same
+/// readings give within milliseconds where any_law takes seconds. `warnings` name the constants that are not in it.
 [[nodiscard]] Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
                                           const ConstantUncertainties& uncertainties,
                                           const AnyLawOptions& options = {});

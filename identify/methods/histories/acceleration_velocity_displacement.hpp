@@ -21,10 +21,11 @@
 #include <optional>
 
 #include "identify/method.hpp"
-#include "identify/models/force_parameters.hpp"
 #include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
+
+struct ForceParameters;
 
 [[nodiscard]] Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants,
                                                           const RegressionOptions& options = {});

@@ -9,6 +9,7 @@
 
 #include "identify/methods/decays/free_decay.hpp"
 #include "identify/methods/histories/acceleration_velocity_displacement.hpp"
+#include "identify/models/force_parameters.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/noise_level.hpp"
 

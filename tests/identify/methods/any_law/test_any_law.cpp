@@ -202,8 +202,7 @@ TEST_CASE("any_law: uncertain constants widen its ranges, hull and average alike
   estimate.laws = std::make_shared<const LawIntervals>(laws);
   constexpr double normal95 = 1.959963984540054;
   widen({.zeta = 0.004 / normal95, .F0 = 0.0}, estimate);
-  for (const Interval& zeta :
-       {estimate.interval95->zeta, estimate.laws->zeta_hull, estimate.laws->zeta_average}) {
+  for (const Interval& zeta : {estimate.interval95->zeta, estimate.laws->zeta_hull, estimate.laws->zeta_average}) {
     CHECK(zeta[1] - 0.1 == Approx(0.005));
     CHECK(0.1 - zeta[0] == Approx(0.005));
   }
