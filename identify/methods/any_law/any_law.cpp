@@ -64,8 +64,10 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
                                 " best at the largest severity: raise 'largest_severity' to see what lies beyond");
 }
 
-/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has.
-Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
+/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. `noise` of
+/// the first reading weighs the later ones too: else what the constants move is lost in that of the weights.
+Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options,
+                        std::optional<ChannelNoise>& noise) {
   Estimate estimate;
   estimate.method = any_law_method.name;
   const Readings readings = readings_of(record, constants, options);
@@ -74,15 +76,37 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
     return estimate;
   }
   const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
-  const std::optional<PlainFit> plain = plain_fit(model);
-  if (!plain) {
+  if (!noise) {
+    std::optional<PlainFit> plain = plain_fit(model);
+    if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
+    if (plain) noise = plain->noise;
+  }
+  LawStart start{.unknowns = model.start()};
+  std::optional<SeverityFit> fit;
+  constexpr int rounds =
+      3;  // a fit ends within a tenth of a standard deviation; from there the next is as good as exact
+  const std::unique_ptr<NearbyOrbits> near = noise ? model.no_orbits(noise->deviations) : nullptr;
+  for (int i = 0; i < rounds && noise; ++i) {
+    fit = fit_law(model, {}, *noise, start, *near);
+    if (!fit) break;
+    start.unknowns = fit->unknowns;
+  }
+  if (!fit) {
     refuse(estimate, "no Coulomb and viscous friction has readings like these");
     return estimate;
   }
-  estimate.value = parameters({constants.mass, plain->fit.unknowns[1] * model.c_unit(), constants.stiffness,
-                               plain->fit.unknowns[0] * model.F0_unit()});
+  estimate.value = parameters(
+      {constants.mass, fit->unknowns[1] * model.c_unit(), constants.stiffness, fit->unknowns[0] * model.F0_unit()});
   estimate.std.emplace();
   return estimate;
+}
+
+/// The largest of them, relative.
+double largest_of(const ConstantUncertainties& u, const KnownConstants& constants) {
+  double largest = std::max({u.mass / constants.mass, u.stiffness / constants.stiffness, u.gain_y, u.gain_x,
+                             u.gain_v, u.gain_a, u.gain_force});
+  if (u.frequency > 0.0) largest = std::max(largest, u.frequency / constants.frequency);
+  return largest;
 }
 
 /// A cause of standard deviation `by` beside those within the interval. Forces and dampings are not negative.
@@ -135,10 +159,23 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
 
 Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
                             const ConstantUncertainties& uncertainties, const AnyLawOptions& options) {
-  const Reader read = [&options](const Record& again, const KnownConstants& moved) {
-    return plain_estimate(again, moved, options);
+  // A spring or a mass that is off by much has no motion like the record's: the change is that of a small step.
+  constexpr double small = 2e-3;
+  const double times = std::max(largest_of(uncertainties, constants) / small, 1.0);
+  ConstantUncertainties step = uncertainties;
+  for (double* one : {&step.mass, &step.stiffness, &step.frequency, &step.gain_y, &step.gain_x, &step.gain_v,
+                      &step.gain_a, &step.gain_force})
+    *one /= times;
+  std::optional<ChannelNoise> noise;
+  const Reader read = [&options, &noise](const Record& again, const KnownConstants& moved) {
+    return plain_estimate(again, moved, options, noise);
   };
-  return with_uncertainties(read, record, constants, uncertainties);
+  Estimate estimate = with_uncertainties(read, record, constants, step);
+  if (estimate.std)
+    for (double ParameterSet::* one :
+         {&ParameterSet::zeta, &ParameterSet::c, &ParameterSet::x_f, &ParameterSet::F0})
+      (*estimate.std).*one *= times;
+  return estimate;
 }
 
 void widen(const ParameterSet& by, LawIntervals& laws) {
