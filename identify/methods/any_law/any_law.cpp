@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -10,6 +11,8 @@
 #include "identify/methods/any_law/decay_readings.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -61,6 +64,58 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
                                 " best at the largest severity: raise 'largest_severity' to see what lies beyond");
 }
 
+/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. `noise` of
+/// the first reading weighs the later ones too: else what the constants move is lost in that of the weights.
+Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options,
+                        std::optional<ChannelNoise>& noise) {
+  Estimate estimate;
+  estimate.method = any_law_method.name;
+  const Readings readings = readings_of(record, constants, options);
+  if (const auto* why = std::get_if<std::string>(&readings)) {
+    refuse(estimate, *why);
+    return estimate;
+  }
+  const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
+  if (!noise) {
+    std::optional<PlainFit> plain = plain_fit(model);
+    if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
+    if (plain) noise = plain->noise;
+  }
+  LawStart start{.unknowns = model.start()};
+  std::optional<SeverityFit> fit;
+  constexpr int rounds =
+      3;  // a fit ends within a tenth of a standard deviation; from there the next is as good as exact
+  const std::unique_ptr<NearbyOrbits> near = noise ? model.no_orbits(noise->deviations) : nullptr;
+  for (int i = 0; i < rounds && noise; ++i) {
+    fit = fit_law(model, {}, *noise, start, *near);
+    if (!fit) break;
+    start.unknowns = fit->unknowns;
+  }
+  if (!fit) {
+    refuse(estimate, "no Coulomb and viscous friction has readings like these");
+    return estimate;
+  }
+  estimate.value = parameters(
+      {constants.mass, fit->unknowns[1] * model.c_unit(), constants.stiffness, fit->unknowns[0] * model.F0_unit()});
+  estimate.std.emplace();
+  return estimate;
+}
+
+/// The largest of them, relative.
+double largest_of(const ConstantUncertainties& u, const KnownConstants& constants) {
+  double largest = std::max({u.mass / constants.mass, u.stiffness / constants.stiffness, u.gain_y, u.gain_x,
+                             u.gain_v, u.gain_a, u.gain_force});
+  if (u.frequency > 0.0) largest = std::max(largest, u.frequency / constants.frequency);
+  return largest;
+}
+
+/// A cause of standard deviation `by` beside those within the interval. Forces and dampings are not negative.
+void widen(Interval& ends, double about, double by) {
+  const double value = std::clamp(about, ends[0], ends[1]);
+  const double extra = quantile95(std::numeric_limits<double>::infinity()) * by;
+  ends = {std::max(value - std::hypot(value - ends[0], extra), 0.0), value + std::hypot(ends[1] - value, extra)};
+}
+
 }  // namespace
 
 LawIntervalOptions interval_options(const AnyLawOptions& options) {
@@ -102,33 +157,42 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
   return estimate;
 }
 
-void add_uncertainty_of(const Estimate& stated, const Estimate& uncertain, Estimate& estimate) {
-  if (!stated.interval95 || !uncertain.interval95 || !estimate.interval95) return;
-  std::shared_ptr<LawIntervals> laws = estimate.laws ? std::make_shared<LawIntervals>(*estimate.laws) : nullptr;
-  const auto half = [](const Interval& ends) { return 0.5 * (ends[1] - ends[0]); };
-  const auto widen = [](Interval& ends, double about, double extra) {
-    const double value = std::clamp(about, ends[0], ends[1]);
-    ends = {value - std::hypot(value - ends[0], extra), value + std::hypot(ends[1] - value, extra)};
+Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
+                            const ConstantUncertainties& uncertainties, const AnyLawOptions& options) {
+  // A spring or a mass that is off by much has no motion like the record's: the change is that of a small step.
+  constexpr double small = 2e-3;
+  const double times = std::max(largest_of(uncertainties, constants) / small, 1.0);
+  ConstantUncertainties step = uncertainties;
+  for (double* one : {&step.mass, &step.stiffness, &step.frequency, &step.gain_y, &step.gain_x, &step.gain_v,
+                      &step.gain_a, &step.gain_force})
+    *one /= times;
+  std::optional<ChannelNoise> noise;
+  const Reader read = [&options, &noise](const Record& again, const KnownConstants& moved) {
+    return plain_estimate(again, moved, options, noise);
   };
-  struct Row {
-    double ParameterSet::* value;
-    Interval ParameterIntervals::* interval;
-    Interval LawIntervals::* hull;
-    Interval LawIntervals::* average;
-  };
-  using Laws = LawIntervals;
-  for (const Row& row : {Row{&ParameterSet::zeta, &ParameterIntervals::zeta, &Laws::zeta_hull, &Laws::zeta_average},
-                         Row{&ParameterSet::c, &ParameterIntervals::c, nullptr, nullptr},
-                         Row{&ParameterSet::x_f, &ParameterIntervals::x_f, nullptr, nullptr},
-                         Row{&ParameterSet::F0, &ParameterIntervals::F0, &Laws::F0_hull, &Laws::F0_average}}) {
-    const double with = half((*uncertain.interval95).*row.interval);
-    const double without = half((*stated.interval95).*row.interval);
-    const double extra = std::sqrt(std::max(with * with - without * without, 0.0));
-    widen((*estimate.interval95).*row.interval, estimate.value.*row.value, extra);
-    if (!laws || row.hull == nullptr) continue;
-    widen((*laws).*row.hull, estimate.value.*row.value, extra);
-    widen((*laws).*row.average, laws->mean.*row.value, extra);
-  }
+  Estimate estimate = with_uncertainties(read, record, constants, step);
+  if (estimate.std)
+    for (double ParameterSet::* one :
+         {&ParameterSet::zeta, &ParameterSet::c, &ParameterSet::x_f, &ParameterSet::F0})
+      (*estimate.std).*one *= times;
+  return estimate;
+}
+
+void widen(const ParameterSet& by, LawIntervals& laws) {
+  widen(laws.zeta_hull, laws.mean.zeta, by.zeta);
+  widen(laws.F0_hull, laws.mean.F0, by.F0);
+  widen(laws.zeta_average, laws.mean.zeta, by.zeta);
+  widen(laws.F0_average, laws.mean.F0, by.F0);
+}
+
+void widen(const ParameterSet& by, Estimate& estimate) {
+  if (!estimate.interval95 || !estimate.laws) return;
+  widen(estimate.interval95->zeta, estimate.value.zeta, by.zeta);
+  widen(estimate.interval95->c, estimate.value.c, by.c);
+  widen(estimate.interval95->x_f, estimate.value.x_f, by.x_f);
+  widen(estimate.interval95->F0, estimate.value.F0, by.F0);
+  auto laws = std::make_shared<LawIntervals>(*estimate.laws);
+  widen(by, *laws);
   estimate.laws = std::move(laws);
 }
 
