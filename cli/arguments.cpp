@@ -14,6 +14,7 @@
 #include "core/numbers.hpp"
 
 namespace dualdamp::cli {
+
 namespace {
 
 /// Curves that a chart can show and a legend can name.
@@ -209,14 +210,6 @@ class Parser {
     add_file_options(command, identify_);
     add_units(command, identify_.shown_units);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
-  }
-
-  static void add_gains(CLI::App& command, std::vector<std::string>& gains) {
-    command
-        .add_option("--gain-uncertainty", gains,
-                    "Standard uncertainty of a sensor's gain: --gain-uncertainty x='1 %'")
-        ->allow_extra_args(false)
-        ->type_name("SIGNAL=SHARE");
   }
 
   void add_next() {

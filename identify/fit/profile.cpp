@@ -111,8 +111,10 @@ void Profiler::note_lower(const Way& way) const {
   constexpr double margin = 0.05;
   const double squares = way.residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
-  const double least = lower_ ? lower_->second : squares_;
-  if (squares < least - margin * squares_ / static_cast<double>(residuals_.size())) lower_ = {way.q, squares};
+  // The least of all, in whatever order the threads come by.
+  const double limit =
+      lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
+  if (squares < limit) lower_ = {way.q, squares};
 }
 
 std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way) const {

@@ -1,9 +1,9 @@
 #pragma once
 /// Intervals by profile likelihood: a parameter is held off its estimate, and the others take their best values.
 ///
-/// These follow by Gauss and Newton's steps with the derivatives at the estimate; where these
-/// do not settle, the motion is differentiated anew on the way. The ends lie where the sum of squares has grown by
-/// the square of a limit, or jumps over it: a reading may change its side of an event.
+/// These follow by Gauss and Newton's steps with the derivatives at the estimate; where these do not settle, as along a
+/// bent valley, the motion is differentiated anew on the way. The ends lie where the sum of squares has grown by the
+/// square of a limit, or jumps over it: a reading may change its side of an event.
 
 #include <Eigen/Core>
 #include <array>
@@ -49,12 +49,13 @@ class Profiler {
   [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way) const;
   /// The root of the growth of the sum of squares where parameter `i` is `value`; nothing where there is no motion.
   [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, Way& way) const;
-  /// The same by steps of Gauss and Newton from `way`; with the others where they are.
+  /// The same by steps of Gauss and Newton from `way`.
+  [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, Way& way) const;
+  /// The same with the others where they are.
+  [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, Way& way) const;
   /// Goes to `q` where the sum of squares is smaller there. False: no motion.
   [[nodiscard]] bool take(const Eigen::VectorXd& q, Way& way, double& best) const;
   void note_lower(const Way& way) const;
-  [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, Way& way) const;
-  [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, Way& way) const;
   [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
   [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
 

@@ -12,7 +12,8 @@
 /// about each. Where x was not measured there is no k_t; an acceleration is summed up from the velocity that the
 /// record is to begin with.
 ///
-/// Holds for springs that follow Hooke's law, and for any spring on a base at rest. Source: abarbanel2009. Cost: a motion under a sampled force.
+/// Holds for springs that follow Hooke's law, and for any spring on a base at rest. Source: abarbanel2009. Cost: a
+/// motion under a sampled force.
 
 #include <optional>
 #include <vector>

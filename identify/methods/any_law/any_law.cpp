@@ -83,8 +83,8 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
   }
   LawStart start{.unknowns = model.start()};
   std::optional<SeverityFit> fit;
-  constexpr int rounds =
-      3;  // a fit ends within a tenth of a standard deviation; from there the next is as good as exact
+  // A fit ends within a tenth of a standard deviation; from there the next is as good as exact.
+  constexpr int rounds = 3;
   const std::unique_ptr<NearbyOrbits> near = noise ? model.no_orbits(noise->deviations) : nullptr;
   for (int i = 0; i < rounds && noise; ++i) {
     fit = fit_law(model, {}, *noise, start, *near);
