@@ -66,8 +66,8 @@ struct Request {
 };
 
 /// All that is said of the end of a search; a place with a smaller sum of squares, where there is one.
-std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request, const SearchResult& found,
-                                        Fit& result) {
+std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
+                                        const SearchResult& found, Fit& result) {
   const Eigen::VectorXd& q = found.coordinates;
   Eigen::MatrixXd jacobian;
   if (!problem.derivatives(q, result.outputs, jacobian)) {
@@ -120,9 +120,15 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
     Fit described = result;
     const std::optional<Eigen::VectorXd> lower =
         describe(problem, {rig, parameters, experiments, options}, *found, described);
-    if (!lower || round == most_rounds) return described;
-    std::optional<SearchResult> next = search_from(problem, *lower, search);
-    if (!next) return described;
+    if (!lower) return described;
+    std::optional<SearchResult> next;
+    if (round < most_rounds) next = search_from(problem, *lower, search);
+    if (!next) {
+      described.warnings.emplace_back(
+          "a profile came by a smaller sum of squares than that of the estimate, and the search from there did not "
+          "end: more starts, bounds or stated values would tell");
+      return described;
+    }
     found = std::move(next);
   }
 }

@@ -68,15 +68,15 @@ constexpr std::size_t least_samples = 8;
 std::vector<std::size_t> beside_jumps(const std::vector<double>& signal) {
   std::vector<double> excess;
   for (std::size_t i = 1; i + 2 < signal.size(); ++i)
-    excess.push_back(
-        std::abs(1.5 * (signal[i + 1] - signal[i]) - 0.5 * (signal[i + 2] - signal[i - 1])));
+    excess.push_back(std::abs(1.5 * (signal[i + 1] - signal[i]) - 0.5 * (signal[i + 2] - signal[i - 1])));
   if (excess.empty()) return {};
   constexpr double to_deviation = 1.4826;
   constexpr double beyond = 4.0;
   const double largest = beyond * to_deviation * upper_median(excess);
   std::vector<std::size_t> found{0};
   for (std::size_t i = 1; i + 2 < signal.size(); ++i) {
-    const bool is_peak = excess[i - 1] >= (i > 1 ? excess[i - 2] : 0.0) && excess[i - 1] >= (i < excess.size() ? excess[i] : 0.0);
+    const bool is_peak =
+        excess[i - 1] >= (i > 1 ? excess[i - 2] : 0.0) && excess[i - 1] >= (i < excess.size() ? excess[i] : 0.0);
     if (excess[i - 1] <= largest || !is_peak) continue;
     if (found.back() != i) found.push_back(i);
     found.push_back(i + 1);

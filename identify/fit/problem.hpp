@@ -58,7 +58,9 @@ class FitProblem {
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
-  [[nodiscard]] const Experiment& experiment(const SignalRows& rows) const { return *experiments_[rows.experiment]; }
+  [[nodiscard]] const Experiment& experiment(const SignalRows& rows) const {
+    return *experiments_[rows.experiment];
+  }
 
   /// Values of the parameters from coordinates, and back; values beyond a bound are taken to it.
   [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& q) const;

@@ -112,8 +112,7 @@ void Profiler::note_lower(const Way& way) const {
   const double squares = way.residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
   // The least of all, in whatever order the threads come by.
-  const double limit =
-      lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
+  const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
   if (squares < limit) lower_ = {way.q, squares};
 }
 
@@ -134,7 +133,8 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way)
       if (!take(q, way, best)) return result();
       // What has left where the derivatives hold is tried shorter.
       constexpr double shorter = 0.3;
-      if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), way, best)) return result();
+      if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), way, best))
+        return result();
       if (!(best < before)) break;
       is_settled = before - best <= settled * best;
     }

@@ -1,9 +1,9 @@
 #pragma once
 /// Intervals by profile likelihood: a parameter is held off its estimate, and the others take their best values.
 ///
-/// These follow by Gauss and Newton's steps with the derivatives at the estimate; where these do not settle, as along a
-/// bent valley, the motion is differentiated anew on the way. The ends lie where the sum of squares has grown by the
-/// square of a limit, or jumps over it: a reading may change its side of an event.
+/// These follow by Gauss and Newton's steps with the derivatives at the estimate; where these do not settle, as
+/// along a bent valley, the motion is differentiated anew on the way. The ends lie where the sum of squares has
+/// grown by the square of a limit, or jumps over it: a reading may change its side of an event.
 
 #include <Eigen/Core>
 #include <array>

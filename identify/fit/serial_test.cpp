@@ -54,7 +54,8 @@ double chance_below_zero(const Eigen::VectorXd& lambda) {
 double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& base) {
   const Eigen::Index count = residuals.size();
   constexpr double least_freedom = 3.5;
-  if (static_cast<double>(count) - base.squaredNorm() < least_freedom || !(residuals.squaredNorm() > 0.0)) return unknown;
+  if (static_cast<double>(count) - base.squaredNorm() < least_freedom || !(residuals.squaredNorm() > 0.0))
+    return unknown;
   const double d = (residuals.tail(count - 1) - residuals.head(count - 1)).squaredNorm() / residuals.squaredNorm();
   constexpr Eigen::Index many = 400;
   if (count > many)

@@ -182,8 +182,7 @@ TEST_CASE("fit: a cubic spring that the scenario leaves at zero is found with th
     sought.laws[0].values = {};
     std::vector<std::string> faults;
     std::vector<identify::FitParameter> parameters = identify::unstated_parameters(sought, faults);
-    for (identify::FitParameter& cubic :
-         identify::named(identify::parameters_of(sought), "cubic_stiffness", fault))
+    for (identify::FitParameter& cubic : identify::named(identify::parameters_of(sought), "cubic_stiffness", fault))
       parameters.push_back(std::move(cubic));
     for (const identify::Own own : {identify::Own::position, identify::Own::velocity, identify::Own::offset})
       parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
@@ -204,10 +203,9 @@ TEST_CASE("fit: of an acceleration alone intervals hold the truth, also of a rel
     const test::RandomRig rig = test::random_rig("coulomb", test::MotionKind::decay, seed, "a");
     const Fit fit = test::fit_of(rig);
     REQUIRE(fit.outcome.ok());
-    const std::vector<std::pair<const char*, double>> truths = {
-        {"damping", rig.truth.known.oscillator.damping},
-        {"kinetic", test::truth_of(rig.truth, "kinetic")},
-        {"velocity", 0.0}};
+    const std::vector<std::pair<const char*, double>> truths = {{"damping", rig.truth.known.oscillator.damping},
+                                                                {"kinetic", test::truth_of(rig.truth, "kinetic")},
+                                                                {"velocity", 0.0}};
     for (const auto& [name, truth] : truths) {
       const FittedParameter& fitted = named(fit, name);
       CAPTURE(seed, name, truth, fitted.value, fitted.std);
