@@ -21,14 +21,17 @@ namespace {
 
 using Readings = std::variant<std::unique_ptr<const ReadingModel>, std::string>;
 
-Readings readings_of(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
-  if (record.pairs && !record.pairs->pairs.empty()) return steady_readings(record, constants, options);
-  return decay_readings(record, constants, options.sigma_x);
-}
-
 std::string lacks_readings(const Record& record) {
   if (record.pairs && !record.pairs->pairs.empty()) return {};
   return record.decay ? std::string() : "the record holds neither steady states nor extremes of a free vibration";
+}
+
+Readings readings_of(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
+  std::string fault = lacks_readings(record);
+  if (fault.empty()) fault = fault_of(constants);
+  if (!fault.empty()) return fault;
+  if (record.pairs && !record.pairs->pairs.empty()) return steady_readings(record, constants, options);
+  return decay_readings(record, constants, options.sigma_x);
 }
 
 /// Both ends and the value between them.
@@ -103,9 +106,10 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
 
 /// The largest of them, relative.
 double largest_of(const ConstantUncertainties& u, const KnownConstants& constants) {
-  double largest = std::max({u.mass / constants.mass, u.stiffness / constants.stiffness, u.gain_y, u.gain_x,
-                             u.gain_v, u.gain_a, u.gain_force});
-  if (u.frequency > 0.0) largest = std::max(largest, u.frequency / constants.frequency);
+  double largest = std::max({u.gain_y, u.gain_x, u.gain_v, u.gain_a, u.gain_force});
+  for (const auto& [deviation, value] :
+       {std::pair{u.mass, constants.mass}, {u.stiffness, constants.stiffness}, {u.frequency, constants.frequency}})
+    if (deviation > 0.0) largest = std::max(largest, deviation / value);
   return largest;
 }
 
@@ -128,12 +132,6 @@ LawIntervalOptions interval_options(const AnyLawOptions& options) {
 Estimate any_law(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   Estimate estimate;
   estimate.method = any_law_method.name;
-  std::string fault = lacks_readings(record);
-  if (fault.empty()) fault = fault_of(constants);
-  if (!fault.empty()) {
-    refuse(estimate, std::move(fault));
-    return estimate;
-  }
   const Readings readings = readings_of(record, constants, options);
   if (const auto* why = std::get_if<std::string>(&readings)) {
     refuse(estimate, *why);
@@ -171,6 +169,9 @@ Estimate moved_by_constants(const Record& record, const KnownConstants& constant
     return plain_estimate(again, moved, options, noise);
   };
   Estimate estimate = with_uncertainties(read, record, constants, step);
+  if (!estimate.outcome.ok())
+    estimate.warnings.push_back("the uncertainties of the constants are not in the ranges over laws: " +
+                                estimate.outcome.reason);
   if (estimate.std)
     for (double ParameterSet::* one :
          {&ParameterSet::zeta, &ParameterSet::c, &ParameterSet::x_f, &ParameterSet::F0})

@@ -270,3 +270,17 @@ TEST_CASE("any_law: constants that scale all forces move F0 and c by as much, wh
   CHECK(apart == Approx(by_stiffness.std->F0).margin(0.02 * together));
   CHECK(by_mass.warnings.empty());
 }
+
+TEST_CASE("any_law: what constants do is never left out without a word") {
+  Normal normal(16);
+  const ConstantUncertainties uncertain{.mass = 0.01 * mass};
+  const Estimate without_states = moved_by_constants({}, known, uncertain);
+  const Estimate without_stiffness =
+      moved_by_constants(states(nullptr, 0.0, true, normal), {mass, unknown, natural}, uncertain);
+  for (const Estimate& estimate : {without_states, without_stiffness}) {
+    CHECK_FALSE(estimate.outcome.ok());
+    CHECK_FALSE(estimate.std.has_value());
+    REQUIRE(estimate.warnings.size() == 1);
+    CHECK_THAT(estimate.warnings.front(), Catch::Contains("are not in the ranges over laws"));
+  }
+}
