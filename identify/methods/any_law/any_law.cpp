@@ -67,10 +67,44 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
                                 " best at the largest severity: raise 'largest_severity' to see what lies beyond");
 }
 
-/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. `noise` of
-/// the first reading weighs the later ones too: else what the constants move is lost in that of the weights.
+/// Plain friction with the constants as stated. Where one of these is moved by little the fit begins here, and not
+/// anew: it would end in another valley, and the two differ by more than the constant does. The noise weighs both:
+/// else what the constants move is lost in that of the weights.
+struct StatedFit {
+  ChannelNoise noise;
+  Eigen::VectorXd unknowns;
+  double F0_unit = 1.0;
+  double c_unit = 1.0;
+};
+
+std::optional<StatedFit> stated_fit(const ReadingModel& model, const AnyLawOptions& options) {
+  std::optional<PlainFit> plain = plain_fit(model);
+  if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
+  if (!plain) return std::nullopt;
+  return StatedFit{plain->noise, plain->fit.unknowns, model.F0_unit(), model.c_unit()};
+}
+
+/// The best fit next to it of readings with moved constants.
+std::optional<SeverityFit> fit_beside(const StatedFit& stated, const ReadingModel& model) {
+  LawStart start{.unknowns = stated.unknowns};
+  start.unknowns[0] *= stated.F0_unit / model.F0_unit();
+  start.unknowns[1] *= stated.c_unit / model.c_unit();
+  const std::unique_ptr<NearbyOrbits> near = model.no_orbits(stated.noise.deviations);
+  std::optional<SeverityFit> fit;
+  // A fit ends within a tenth of a standard deviation; from there the next is as good as exact.
+  constexpr int rounds = 3;
+  for (int i = 0; i < rounds; ++i) {
+    fit = fit_law(model, {}, stated.noise, start, *near);
+    if (!fit) break;
+    start.unknowns = fit->unknowns;
+  }
+  return fit;
+}
+
+/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. The first
+/// reading, with the constants as stated, gives `stated`.
 Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options,
-                        std::optional<ChannelNoise>& noise) {
+                        std::optional<StatedFit>& stated) {
   Estimate estimate;
   estimate.method = any_law_method.name;
   const Readings readings = readings_of(record, constants, options);
@@ -79,21 +113,8 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
     return estimate;
   }
   const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
-  if (!noise) {
-    std::optional<PlainFit> plain = plain_fit(model);
-    if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
-    if (plain) noise = plain->noise;
-  }
-  LawStart start{.unknowns = model.start()};
-  std::optional<SeverityFit> fit;
-  // A fit ends within a tenth of a standard deviation; from there the next is as good as exact.
-  constexpr int rounds = 3;
-  const std::unique_ptr<NearbyOrbits> near = noise ? model.no_orbits(noise->deviations) : nullptr;
-  for (int i = 0; i < rounds && noise; ++i) {
-    fit = fit_law(model, {}, *noise, start, *near);
-    if (!fit) break;
-    start.unknowns = fit->unknowns;
-  }
+  if (!stated) stated = stated_fit(model, options);
+  const std::optional<SeverityFit> fit = stated ? fit_beside(*stated, model) : std::nullopt;
   if (!fit) {
     refuse(estimate, "no Coulomb and viscous friction has readings like these");
     return estimate;
@@ -164,9 +185,9 @@ Estimate moved_by_constants(const Record& record, const KnownConstants& constant
   for (double* one : {&step.mass, &step.stiffness, &step.frequency, &step.gain_y, &step.gain_x, &step.gain_v,
                       &step.gain_a, &step.gain_force})
     *one /= times;
-  std::optional<ChannelNoise> noise;
-  const Reader read = [&options, &noise](const Record& again, const KnownConstants& moved) {
-    return plain_estimate(again, moved, options, noise);
+  std::optional<StatedFit> stated;
+  const Reader read = [&options, &stated](const Record& again, const KnownConstants& moved) {
+    return plain_estimate(again, moved, options, stated);
   };
   Estimate estimate = with_uncertainties(read, record, constants, step);
   if (!estimate.outcome.ok())
