@@ -1,5 +1,7 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -22,10 +24,7 @@ constexpr auto usage = static_cast<int>(core::ExitStatus::usage);
 
 std::string version_text() {
   const core::BuildInfo build = core::build_info();
-  std::ostringstream text;
-  text << "dualdamp " << build.version << " (" << build.commit << ", " << build.compiler << ", " << build.build_type
-       << ")";
-  return text.str();
+  return fmt::format("dualdamp {} ({}, {}, {})", build.version, build.commit, build.compiler, build.build_type);
 }
 
 /// The libraries that DUALDAMP_PLUGINS names.
@@ -204,11 +203,7 @@ class Parser {
         ->type_name("QUANTITY");
     command.add_option("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude")
         ->type_name("QUANTITY");
-    command
-        .add_option("--gain-uncertainty", identify_.gain_uncertainties,
-                    "Standard uncertainty of a sensor's gain: --gain-uncertainty x='1 %'")
-        ->allow_extra_args(false)
-        ->type_name("SIGNAL=SHARE");
+    add_gains(command, identify_.gain_uncertainties);
     command.add_flag(
         "--robust", identify_.robust,
         "Bounds the influence of readings that do not belong to the others (Huber), and replaces spikes");
@@ -234,6 +229,7 @@ class Parser {
     add("--frequency", next_.frequency, "Forcing frequency, such as '6.17 Hz', where the data do not state it");
     add("--sigma-x", next_.sigma_x, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
     add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
+    add_gains(command, next_.gain_uncertainties);
     add_file_options(command, next_);
     add_units(command, next_.shown_units);
     add_output_options(command, next_.out, next_.json, next_.quiet);

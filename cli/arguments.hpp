@@ -101,6 +101,7 @@ struct IdentifyCommand : FileOptions {
 struct NextCommand : FileOptions {
   std::string data;  ///< a data file, or a scenario
   std::string mass, stiffness, frequency;
+  std::vector<std::string> gain_uncertainties;  ///< x=1 %
   std::string sigma_x, sigma_Y;
   std::string out;
   bool json = false;

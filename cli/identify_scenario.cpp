@@ -36,6 +36,11 @@ void add_file_options(const FileOptions& command, scenarios::LoadOptions& option
   add_maps(command, options);
 }
 
+void add_gains(const std::vector<std::string>& gains, scenarios::LoadOptions& options) {
+  for (const std::string& text : gains)
+    options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
+}
+
 bool is_scenario(const std::string& file) { return file.ends_with(".yaml") || file.ends_with(".yml"); }
 
 }  // namespace
@@ -55,8 +60,7 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
         {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
     if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
   if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
-  for (const std::string& text : command.gain_uncertainties)
-    options.set.push_back({"analysis.gain_uncertainty." + text, "--gain-uncertainty"});
+  add_gains(command.gain_uncertainties, options);
   add_file_options(command, options);
   if (!command.methods.empty()) {
     std::string names;
@@ -83,6 +87,7 @@ scenarios::Scenario scenario_of(const NextCommand& command) {
                                             {"analysis.sigma_x", &command.sigma_x, "--sigma-x"},
                                             {"analysis.sigma_Y", &command.sigma_Y, "--sigma-Y"}})
     if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
+  add_gains(command.gain_uncertainties, options);
   add_file_options(command, options);
   if (from_scenario) return scenarios::load_scenario(command.data, options);
   scenarios::Scenario scenario = scenarios::parse_scenario(

@@ -27,6 +27,14 @@ void add_units(CLI::App& command, std::string& units) {
       });
 }
 
+void add_gains(CLI::App& command, std::vector<std::string>& gains) {
+  command
+      .add_option("--gain-uncertainty", gains,
+                  "Standard uncertainty of a sensor's gain: --gain-uncertainty x='1 %'")
+      ->allow_extra_args(false)
+      ->type_name("SIGNAL=SHARE");
+}
+
 void add_plot(CLI::App& command, std::string& plot) {
   command.add_option("--plot", plot, "Also draw the main chart into this SVG file")
       ->type_name("FILE.svg")

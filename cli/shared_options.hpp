@@ -2,6 +2,7 @@
 /// Options that several commands have.
 
 #include <string>
+#include <vector>
 
 #include "cli/arguments.hpp"
 
@@ -16,6 +17,8 @@ void add_output_options(CLI::App& command, std::string& out, bool& json, bool& q
 /// Units of what is shown to people.
 void add_units(CLI::App& command, std::string& units);
 void add_plot(CLI::App& command, std::string& plot);
+/// How well the gains of the sensors are known.
+void add_gains(CLI::App& command, std::vector<std::string>& gains);
 /// What a data file does not say of itself.
 void add_file_options(CLI::App& command, FileOptions& options);
 

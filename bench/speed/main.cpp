@@ -118,9 +118,15 @@ void print_identification() {
   fmt::print("\n{:60}{:>14}{:>14}\n", "seconds of identification, one core, at most", "measured", "target");
   print_time("1,000 bootstrap replicates of 50 pairs", seconds_for_bootstrap(), "0.1");
   print_time("output_error with intervals, 10 s at 1 kHz", seconds_for_output_error(), "1");
-  print_time("any_law of 8 states with phases", seconds_for_any_law(), "20");
   print_time("law_selection of 50 pairs", seconds_for_law_selection(), "");
   fmt::print("\n{:60}{:>14}{:>14}\n", "processor seconds, all threads, at most", "measured", "target");
+  print_time("any_law of 8 states with phases", seconds_for_any_law(AnyLawRecord::states), "20");
+  print_time("any_law of a response, 21 states with phases", seconds_for_any_law(AnyLawRecord::response), "120");
+  print_time("any_law of 24 extremes", seconds_for_any_law(AnyLawRecord::decay), "");
+  print_time("any_law of a free vibration, 12 s at 2 kHz", seconds_for_any_law(AnyLawRecord::history), "");
+  print_time("what to measure after 8 amplitudes", seconds_for_design(), "");
+  print_time("ledger of assumptions, 12 s of y, x, v, a at 2 kHz", seconds_for_ledger(), "");
+  print_time("the most memory of all of these [MB]", peak_megabytes(), "500");
   print_time("fit of coulomb and damping, 10 s at 1 kHz", seconds_for_coulomb_fit(), "");
   print_time("fit of lugre (five numbers) and damping, 10 s at 1 kHz", seconds_for_lugre_fit(), "60");
   print_time("prediction of such a record", seconds_for_prediction(), "");

@@ -13,17 +13,23 @@ namespace dualdamp::identify {
 struct PlannedState {
   double Y = 0.0;      ///< input amplitude [m]
   double omega = 0.0;  ///< rad/s
+
+  bool operator==(const PlannedState&) const = default;
 };
 
 /// A release from rest, whose extremes are read.
 struct PlannedDecay {
   double release = 0.0;  ///< m
   int extremes = 0;
+
+  bool operator==(const PlannedDecay&) const = default;
 };
+
+using MeasurementPlan = std::variant<std::vector<PlannedState>, PlannedDecay>;
 
 struct CandidateMeasurement {
   std::string name;  ///< "phase of the same states", one line
-  std::variant<std::vector<PlannedState>, PlannedDecay> plan;
+  MeasurementPlan plan;
   bool phases = false;  ///< recorded beside the amplitudes of x
   /// Only phases: their amplitudes are those of the record and are no news.
   bool only_phases = false;

@@ -8,9 +8,11 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/methods/any_law/any_law.hpp"
 #include "identify/methods/any_law/decay_readings.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -27,7 +29,7 @@ using Eigen::VectorXd;
 /// Fits worse than the best one of their law by more than this take no part.
 constexpr double reach = 12.0;
 
-/// What a law at one severity expects of a measurement, over the deviations of its readings.
+/// What a law at one severity expects of a measurement.
 struct Expectation {
   const SeverityFit* fit = nullptr;
   VectorXd readings;
@@ -129,8 +131,8 @@ class Moments {
 };
 
 /// `student`: half width of a region, in deviations. The record allows all of these laws; those whose misfit the
-/// measurement raises by more than its square are told apart.
-Widths widths_of(const std::vector<Curve>& curves, double student) {
+/// measurement raises by more than its square are told apart. `moved`: deviations of c and F0 beside.
+Widths widths_of(const std::vector<Curve>& curves, double student, const ParameterSet& moved) {
   const double limit = student * student;
   Interval zeta{std::numeric_limits<double>::infinity(), 0.0};
   Interval F0 = zeta;
@@ -148,13 +150,22 @@ Widths widths_of(const std::vector<Curve>& curves, double student) {
     zeta = {std::min(zeta[0], c[0]), std::max(zeta[1], c[1])};
     F0 = {std::min(F0[0], f[0]), std::max(F0[1], f[1])};
   }
-  return {width(zeta), width(F0), mean_zeta.deviation(), mean_F0.deviation()};
+  const double both_sides = 2.0 * quantile95(std::numeric_limits<double>::infinity());
+  return {std::hypot(width(zeta), both_sides * moved.c), std::hypot(width(F0), both_sides * moved.F0),
+          std::hypot(mean_zeta.deviation(), moved.c), std::hypot(mean_F0.deviation(), moved.F0)};
 }
 
 class Advisor {
  public:
-  Advisor(const ReadingModel& record, const LawStudy& study, const KnownConstants& constants)
-      : record_(record), study_(study), constants_(constants), student_(quantile95(study.plain.noise.freedom)) {
+  Advisor(const ReadingModel& record, const LawStudy& study, const KnownConstants& constants,
+          const ParameterSet& moved)
+      : record_(record),
+        study_(study),
+        constants_(constants),
+        student_(quantile95(study.plain.noise.freedom)),
+        moved_(moved) {
+    // The curves are those of c, with the constants as stated.
+    moved_.c = moved.zeta * 2.0 * std::sqrt(constants.mass * constants.stiffness);
     for (const LawFits& law : study.laws) {
       const auto answer = std::ranges::find(study.intervals.laws, law.law.name(), &LawAnswer::name);
       if (answer == study.intervals.laws.end() || answer->rejected) continue;
@@ -183,19 +194,30 @@ class Advisor {
     return mean;
   }
 
-  [[nodiscard]] std::optional<Advice> advice(const CandidateMeasurement& candidate) const {
-    const std::unique_ptr<const ReadingModel> planned = plan(candidate);
+  /// Of candidates that take the same states, or the same release: the engines compute these once.
+  [[nodiscard]] std::vector<Advice> advice(std::span<const CandidateMeasurement> same) const {
+    const std::unique_ptr<const ReadingModel> planned = model_of(same.front().plan);
     std::vector<Rival> rivals = rivals_;
     for (Rival& rival : rivals)
-      if (!expect(*planned, rival)) return std::nullopt;
+      if (!expect(*planned, rival)) return {};
+    std::vector<Advice> list;
+    for (const CandidateMeasurement& candidate : same) list.push_back(advice(candidate, *planned, rivals));
+    return list;
+  }
+
+ private:
+  /// `expected`: with what they expect of all readings that the plan can give.
+  [[nodiscard]] Advice advice(const CandidateMeasurement& candidate, const ReadingModel& planned,
+                              const std::vector<Rival>& expected) const {
+    const std::vector<Rival> rivals = reading_only(candidate, planned, expected);
     Advice advice{.candidate = candidate};
-    const Widths before = widths_of(now(), student_);
+    const Widths before = widths_of(now(), student_, moved_);
     Widths after;
     for (const Rival& truth : rivals) {
       const VectorXd& readings = truth.points[truth.best].readings;
       std::vector<Curve> curves;
-      for (const Rival& other : rivals) curves.push_back(after_readings(*planned, other, readings));
-      const Widths widths = widths_of(curves, student_);
+      for (const Rival& other : rivals) curves.push_back(after_readings(planned, other, readings));
+      const Widths widths = widths_of(curves, student_, moved_);
       after.hull_zeta += truth.weight * widths.hull_zeta;
       after.hull_F0 += truth.weight * widths.hull_F0;
       after.average_zeta += truth.weight * widths.average_zeta;
@@ -211,7 +233,6 @@ class Advisor {
     return advice;
   }
 
- private:
   [[nodiscard]] std::vector<Curve> now() const {
     std::vector<Curve> curves;
     for (const Rival& rival : rivals_) curves.push_back(curve_now(rival));
@@ -232,44 +253,66 @@ class Advisor {
     return {rival.density, rival.law->best().chi2, severity_curve(planned, fits)};
   }
 
-  [[nodiscard]] std::unique_ptr<const ReadingModel> plan(const CandidateMeasurement& candidate) const {
-    const std::vector<double>& deviations = study_.plain.noise.deviations;
-    if (const auto* decay = std::get_if<PlannedDecay>(&candidate.plan))
-      return planned_decay(record_, decay->release, decay->extremes, constants_, deviations[0]);
-    // A phase that was not measured is taken to be as good as the amplitude in the middle of the range.
-    const bool knows_phase = deviations.size() > 1 && !record_.nuisances().empty();
-    const double phase = knows_phase ? deviations[1] : deviations[0] / record_.reference().amplitude;
+  /// A phase that was not measured is taken to be as good as the amplitude in the middle of the range.
+  [[nodiscard]] std::array<double, 2> deviations() const {
+    const std::vector<double>& own = study_.plain.noise.deviations;
+    const bool knows_phase = own.size() > 1 && !record_.nuisances().empty();
+    return {own[0], knows_phase ? own[1] : own[0] / record_.reference().amplitude};
+  }
+
+  /// With all that could be read: the phases of states as well.
+  [[nodiscard]] std::unique_ptr<const ReadingModel> model_of(const MeasurementPlan& plan) const {
+    if (const auto* decay = std::get_if<PlannedDecay>(&plan))
+      return planned_decay(record_, decay->release, decay->extremes, constants_, deviations()[0]);
     std::vector<Pair> states;
-    for (const PlannedState& planned : std::get<std::vector<PlannedState>>(candidate.plan)) {
+    for (const PlannedState& planned : std::get<std::vector<PlannedState>>(plan)) {
       Pair state{.Y = planned.Y,
                  .x = record_.reference().amplitude * planned.Y / record_.reference().Y,
                  .number = static_cast<int>(states.size()) + 1};
       state.omega = planned.omega;
-      if (candidate.phases) state.phase = 0.5 * std::numbers::pi;
+      state.phase = 0.5 * std::numbers::pi;
       states.push_back(state);
     }
-    const double amplitude = candidate.only_phases ? 1e3 * record_.reference().amplitude : deviations[0];
-    return planned_states(record_, std::move(states), constants_, {amplitude, phase});
+    return planned_states(record_, std::move(states), constants_, deviations());
   }
 
-  [[nodiscard]] bool expect(const ReadingModel& planned, Rival& rival) const {
-    VectorXd weights(planned.readings().size());
+  /// What a candidate reads of it, over the deviations.
+  [[nodiscard]] std::vector<Rival> reading_only(const CandidateMeasurement& candidate, const ReadingModel& planned,
+                                                std::vector<Rival> rivals) const {
+    std::vector<Index> rows;
+    for (std::size_t i = 0; i < planned.channels().size(); ++i)
+      if (planned.channels()[i] == 0 ? !candidate.only_phases : candidate.phases)
+        rows.push_back(static_cast<Index>(i));
+    VectorXd weights(static_cast<Index>(rows.size()));
     for (Index i = 0; i < weights.size(); ++i)
-      weights[i] =
-          1.0 /
-          planned.known_deviations()[static_cast<std::size_t>(planned.channels()[static_cast<std::size_t>(i)])];
+      weights[i] = 1.0 / deviations().at(static_cast<std::size_t>(
+                             planned.channels()[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])]));
+    for (Rival& rival : rivals) {
+      for (Expectation& point : rival.points) {
+        point.readings = VectorXd(weights.cwiseProduct(VectorXd(point.readings(rows))));
+        point.slopes = MatrixXd(weights.asDiagonal() * MatrixXd(point.slopes(rows, Eigen::all)));
+      }
+    }
+    return rivals;
+  }
+
+  /// Orbits of one severity are next to those of the last one, where both are of one law.
+  [[nodiscard]] bool expect(const ReadingModel& planned, Rival& rival) const {
+    std::unique_ptr<NearbyOrbits> near;
+    double last = 0.0;
     for (const SeverityFit& fit : rival.law->fits) {
       if (fit.chi2 > rival.law->best().chi2 + reach) continue;
+      if (near == nullptr || !(fit.severity * last > 0.0)) near = planned.no_orbits(planned.known_deviations());
+      last = 0.0;
       const LawAt law{fit.severity == 0.0 ? nullptr : rival.law->law.departure, fit.severity};
-      const std::unique_ptr<NearbyOrbits> own = planned.no_orbits(planned.known_deviations());
       const VectorXd unknowns = unknowns_for(record_, fit, planned);
-      const std::optional<VectorXd> residuals = planned.residuals(law, unknowns, *own);
+      const std::optional<VectorXd> residuals = planned.residuals(law, unknowns, *near);
       if (!residuals) continue;
-      const std::optional<MatrixXd> slopes = planned.derivatives(law, unknowns, *residuals, *own);
+      const std::optional<MatrixXd> slopes = planned.derivatives(law, unknowns, *residuals, *near);
       if (!slopes) continue;
-      if (&fit == &rival.law->best()) rival.best = rival.points.size();
-      const VectorXd predicted = planned.readings() - *residuals;
-      rival.points.push_back({&fit, predicted.cwiseProduct(weights), MatrixXd(weights.asDiagonal() * *slopes)});
+      last = fit.severity;
+      if (rival.points.empty() || fit.chi2 < rival.points[rival.best].fit->chi2) rival.best = rival.points.size();
+      rival.points.push_back({&fit, planned.readings() - *residuals, *slopes});
     }
     return !rival.points.empty();
   }
@@ -278,12 +321,26 @@ class Advisor {
   const LawStudy& study_;
   const KnownConstants& constants_;
   double student_;
+  ParameterSet moved_;
   std::vector<Rival> rivals_;
 };
 
+/// Neighbours in the list that differ in what they read alone.
+std::vector<std::span<const CandidateMeasurement>> by_plan(std::span<const CandidateMeasurement> candidates) {
+  std::vector<std::span<const CandidateMeasurement>> groups;
+  for (std::size_t first = 0, end = 0; first < candidates.size(); first = end) {
+    while (end < candidates.size() && candidates[end].plan == candidates[first].plan) ++end;
+    groups.push_back(candidates.subspan(first, end - first));
+  }
+  return groups;
+}
+
+/// Two digits, or whole percents where these are more.
 std::string percent(double share) {
   constexpr int digits = 2;
-  return core::format_number(100.0 * share, digits) + " %";
+  constexpr double all = 99.5;
+  const double value = 100.0 * share;
+  return (value < all ? core::format_number(value, digits) : std::to_string(std::llround(value))) + " %";
 }
 
 std::string text_of(const Advice& advice, const LawIntervals& now, double power_now) {
@@ -301,7 +358,8 @@ std::string text_of(const Advice& advice, const LawIntervals& now, double power_
 }  // namespace
 
 std::variant<Design, std::string> design_after(const Record& record, const KnownConstants& constants,
-                                               const KnownDeviations& known, const LawIntervalOptions& options) {
+                                               const KnownDeviations& known, const LawIntervalOptions& options,
+                                               const ParameterSet& moved) {
   if (!record.pairs || record.pairs->pairs.empty()) return "advice needs a record of steady states";
   auto readings = steady_readings(record, constants, known);
   if (const auto* why = std::get_if<std::string>(&readings)) return *why;
@@ -309,20 +367,23 @@ std::variant<Design, std::string> design_after(const Record& record, const Known
   std::variant<LawStudy, std::string> found = study_laws(model, constants, options);
   if (const auto* why = std::get_if<std::string>(&found)) return *why;
   const LawStudy& study = std::get<LawStudy>(found);
-  const Advisor advisor(model, study, constants);
+  const Advisor advisor(model, study, constants, moved);
   Design design{.now = study.intervals};
+  widen(moved, design.now);
   design.power_now = advisor.power_now();
   std::vector<Pair> states = record.pairs->pairs;
   for (Pair& state : states) state.omega = frequency_of(state, constants);
   const std::vector<CandidateMeasurement> candidates = candidates_after(states, constants, design.now.mean.zeta);
-  std::vector<std::optional<Advice>> advice(candidates.size());
-  sim::in_parts(candidates.size(), 1, 0, [&](std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) advice[i] = advisor.advice(candidates[i]);
+  const std::vector<std::span<const CandidateMeasurement>> groups = by_plan(candidates);
+  std::vector<std::vector<Advice>> advice(groups.size());
+  sim::in_parts(groups.size(), 1, 0, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) advice[i] = advisor.advice(groups[i]);
   });
-  for (std::optional<Advice>& one : advice) {
-    if (!one) continue;
-    one->text = text_of(*one, design.now, design.power_now);
-    design.advice.push_back(std::move(*one));
+  for (std::vector<Advice>& group : advice) {
+    for (Advice& one : group) {
+      one.text = text_of(one, design.now, design.power_now);
+      design.advice.push_back(std::move(one));
+    }
   }
   if (design.advice.empty()) return "no law that the record allows has steady states under any candidate";
   std::ranges::stable_sort(design.advice, {}, [](const Advice& one) { return one.hull.zeta * one.hull.F0; });

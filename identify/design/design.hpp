@@ -46,9 +46,11 @@ struct Design {
   std::vector<Advice> advice;  ///< the best first: by the hull of zeta and F0 together
 };
 
-/// The advice after a record of steady states, or why there is none.
+/// The advice after a record of steady states, or why there is none. `moved`: deviations of zeta and F0 by what is
+/// uncertain in the constants; no measurement of this list weighs the mass anew, and they stay as they are.
 [[nodiscard]] std::variant<Design, std::string> design_after(const Record& record, const KnownConstants& constants,
                                                              const KnownDeviations& known,
-                                                             const LawIntervalOptions& options);
+                                                             const LawIntervalOptions& options,
+                                                             const ParameterSet& moved = {});
 
 }  // namespace dualdamp::identify

@@ -130,7 +130,7 @@ class Compromiser {
   [[nodiscard]] double squares(const Eigen::VectorXd& q, bool both) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
-    double sum = (outputs - problem_.measured()).cwiseProduct(weights_).squaredNorm();
+    double sum = problem_.misses(outputs).cwiseProduct(weights_).squaredNorm();
     if (both) sum += (whitening_ * (q - held_)).squaredNorm();
     return std::isfinite(sum) ? sum : infinity;
   }
@@ -180,10 +180,10 @@ class Compromiser {
       if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, slopes, true))
         return false;
       residuals.resize(least.residuals);
-      residuals << (outputs - problem_.measured()).cwiseProduct(weights_), whitening_ * (q - held_);
+      residuals << problem_.misses(outputs).cwiseProduct(weights_), whitening_ * (q - held_);
       if (jacobian == nullptr) return true;
       jacobian->resize(least.residuals, size());
-      *jacobian << weights_.asDiagonal() * slopes, whitening_;
+      *jacobian << weights_.cwiseProduct(problem_.counted()).asDiagonal() * slopes, whitening_;
       return true;
     };
     const LeastSquaresFit found = fit(least);

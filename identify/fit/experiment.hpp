@@ -34,6 +34,8 @@ struct Signal {
   bool is_stated = false;
   /// Neighbours may be alike: errors of samples are not taken for independent.
   bool is_sampled = false;
+  /// Samples beside a jump, whose side of it the least difference of a model decides: they count for nothing.
+  std::vector<std::size_t> unsure;
 };
 
 enum class ExperimentKind { steady_states, decay, history, loop };

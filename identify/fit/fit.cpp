@@ -8,6 +8,7 @@
 
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
+#include "identify/fit/serial_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/fit/uncertainty.hpp"
 
@@ -19,14 +20,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
 
+/// The chance of the smaller of two, of which each may be unknown.
+double either_p_value(double first, double second) {
+  if (std::isnan(first)) return second;
+  return std::isnan(second) ? first : std::min(1.0, 2.0 * std::min(first, second));
+}
+
 void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, Eigen::Index parameters,
-                      bool robust, Fit& result) {
+                      const SerialTest& serial, bool robust, Fit& result) {
   double sum = 0.0;
   double count = 0.0;
   for (const SignalRows& rows : problem.signals()) {
     const Eigen::Index size = rows.end - rows.begin;
     const Eigen::VectorXd measured = problem.measured().segment(rows.begin, size);
-    FittedSignal signal{.rows = rows, .rms = rms(misses.segment(rows.begin, size))};
+    FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows)};
     signal.range = rms(measured.array() - measured.mean());
     if (problem.signal(rows).noise > 0.0) {
       signal.noise = problem.signal(rows).noise;
@@ -36,6 +43,8 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
     }
     signal.p_value =
         noise_p_value(problem.signal(rows), misses.segment(rows.begin, size), static_cast<std::size_t>(parameters));
+    if (!robust && !problem.signal(rows).is_sampled)
+      signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
     signal.independent = independent_samples(misses.segment(rows.begin, size), problem.signal(rows).is_sampled);
     result.log_likelihood_count += signal.independent;
     if (problem.signal(rows).is_stated) {
@@ -47,6 +56,36 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
     result.signals.push_back(signal);
   }
   if (count > 0.0) result.noise_units = std::sqrt(sum / count);
+}
+
+struct Request {
+  const Rig& rig;
+  const std::vector<FitParameter>& parameters;
+  const Experiments& experiments;
+  const FitOptions& options;
+};
+
+/// All that is said of the end of a search; a place with a smaller sum of squares, where there is one.
+std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
+                                        const SearchResult& found, Fit& result) {
+  const Eigen::VectorXd& q = found.coordinates;
+  Eigen::MatrixXd jacobian;
+  if (!problem.derivatives(q, result.outputs, jacobian)) {
+    result.outcome = {core::OutcomeKind::not_identifiable, "the motion has no derivative at the estimate"};
+    return std::nullopt;
+  }
+  const Eigen::VectorXd values = problem.values(q);
+  result.rig = with_values(request.rig, request.parameters, values).value_or(request.rig);
+  result.own = problem.own(values);
+  const Eigen::VectorXd misses = problem.misses(result.outputs);
+  const SerialTest serial(problem, found.weights, misses, jacobian);
+  describe_signals(problem, misses, q.size(), serial, request.options.robust, result);
+  warn_of_residuals(request.experiments, result);
+  for (std::size_t i = 0; i < request.parameters.size(); ++i)
+    result.parameters.push_back(
+        {.parameter = request.parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
+  return add_uncertainty(
+      {problem, found.weights, q, misses, jacobian, request.options.profile, request.options.robust}, result);
 }
 
 }  // namespace
@@ -68,30 +107,30 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const bool all_stated =
       std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
   result.starts = options.starts > 0 ? options.starts : all_stated ? 8 : 40;
-  const std::optional<SearchResult> found =
-      search_parameters(problem, parameters, sizes,
-                        {.points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust});
+  const SearchOptions search{
+      .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust};
+  std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
   if (!found) {
     result.outcome = {core::OutcomeKind::not_identifiable,
                       "the rig has no such motion with any of " + std::to_string(result.starts) + " starts"};
     return result;
   }
-  const Eigen::VectorXd& q = found->coordinates;
-  Eigen::MatrixXd jacobian;
-  if (!problem.derivatives(q, result.outputs, jacobian)) {
-    result.outcome = {core::OutcomeKind::not_identifiable, "the motion has no derivative at the estimate"};
-    return result;
+  constexpr int most_rounds = 4;
+  for (int round = 1;; ++round) {
+    Fit described = result;
+    const std::optional<Eigen::VectorXd> lower =
+        describe(problem, {rig, parameters, experiments, options}, *found, described);
+    if (!lower) return described;
+    std::optional<SearchResult> next;
+    if (round < most_rounds) next = search_from(problem, *lower, search);
+    if (!next) {
+      described.warnings.emplace_back(
+          "a profile came by a smaller sum of squares than that of the estimate, and the search from there did not "
+          "end: more starts, bounds or stated values would tell");
+      return described;
+    }
+    found = std::move(next);
   }
-  const Eigen::VectorXd values = problem.values(q);
-  result.rig = with_values(rig, parameters, values).value_or(rig);
-  result.own = problem.own(values);
-  const Eigen::VectorXd misses = result.outputs - problem.measured();
-  describe_signals(problem, misses, q.size(), options.robust, result);
-  warn_of_residuals(experiments, result);
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    result.parameters.push_back({.parameter = parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
-  add_uncertainty({problem, found->weights, q, misses, jacobian, options.profile, options.robust}, result);
-  return result;
 }
 
 Eigen::MatrixXd shared_covariance(const Fit& fit) {

@@ -8,6 +8,7 @@
 #include "identify/fit/tie.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/engine/engine.hpp"
 
@@ -61,6 +62,30 @@ std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, do
 
 constexpr std::size_t least_samples = 8;
 
+/// Samples on both sides of each jump of a signal, and the first one, before which it may have jumped too. A jump
+/// is a difference between neighbours that differs from the differences beside it by more than noise and the curve
+/// of the motion make.
+std::vector<std::size_t> beside_jumps(const std::vector<double>& signal) {
+  std::vector<double> excess;
+  for (std::size_t i = 1; i + 2 < signal.size(); ++i)
+    excess.push_back(std::abs(1.5 * (signal[i + 1] - signal[i]) - 0.5 * (signal[i + 2] - signal[i - 1])));
+  if (excess.empty()) return {};
+  constexpr double to_deviation = 1.4826;
+  constexpr double beyond = 4.0;
+  const double largest = beyond * to_deviation * upper_median(excess);
+  std::vector<std::size_t> found{0};
+  for (std::size_t i = 1; i + 2 < signal.size(); ++i) {
+    const bool is_peak =
+        excess[i - 1] >= (i > 1 ? excess[i - 2] : 0.0) && excess[i - 1] >= (i < excess.size() ? excess[i] : 0.0);
+    if (excess[i - 1] <= largest || !is_peak) continue;
+    if (found.back() != i) found.push_back(i);
+    found.push_back(i + 1);
+  }
+  // Of a signal that jumps throughout most would be left out.
+  constexpr std::size_t part = 5;
+  return found.size() <= signal.size() / part ? found : std::vector<std::size_t>{0};
+}
+
 class MeasuredMotion final : public Experiment {
  public:
   MeasuredMotion(const History& history, const ExperimentOptions& options)
@@ -81,6 +106,7 @@ class MeasuredMotion final : public Experiment {
                     .is_stated = stated > 0.0,
                     .is_sampled = true};
       for (std::size_t i = 0; i < values->size(); ++i) signal.at.push_back(start_ + static_cast<double>(i) / rate_);
+      if (signal.name == "a") signal.unsure = beside_jumps(*values);
       signals.push_back(std::move(signal));
     }
     samples_ = signals.front().measured.size();
@@ -125,6 +151,7 @@ class MeasuredMotion final : public Experiment {
     for (Signal& signal : part->signals) {
       signal.measured.resize(part->samples_);
       signal.at.resize(part->samples_);
+      std::erase_if(signal.unsure, [&](std::size_t i) { return i >= part->samples_; });
     }
     return part;
   }
@@ -138,6 +165,8 @@ class MeasuredMotion final : public Experiment {
     thin->rate_ = rate_ / static_cast<double>(stride);
     thin->samples_ = (samples_ - 1) / stride + 1;
     for (Signal& signal : thin->signals) {
+      std::erase_if(signal.unsure, [stride](std::size_t i) { return i % stride != 0; });
+      for (std::size_t& i : signal.unsure) i /= stride;
       for (std::size_t i = 0; i < thin->samples_; ++i) {
         signal.measured[i] = signal.measured[i * stride];
         signal.at[i] = signal.at[i * stride];

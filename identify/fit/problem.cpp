@@ -96,9 +96,17 @@ void FitProblem::number_rows() {
     }
   }
   measured_.resize(rows_);
-  for (const SignalRows& rows : signals_)
+  counted_ = Eigen::VectorXd::Ones(rows_);
+  for (const SignalRows& rows : signals_) {
     measured_.segment(rows.begin, rows.end - rows.begin) =
         Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.end - rows.begin);
+    for (const std::size_t i : signal(rows).unsure) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
+  }
+}
+
+double FitProblem::rms(const Eigen::VectorXd& misses, const SignalRows& rows) const {
+  const Eigen::Index size = rows.end - rows.begin;
+  return misses.segment(rows.begin, size).norm() / std::sqrt(counted_.segment(rows.begin, size).sum());
 }
 
 const Signal& FitProblem::signal(const SignalRows& rows) const {

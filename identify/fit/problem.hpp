@@ -58,6 +58,9 @@ class FitProblem {
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
+  [[nodiscard]] const Experiment& experiment(const SignalRows& rows) const {
+    return *experiments_[rows.experiment];
+  }
 
   /// Values of the parameters from coordinates, and back; values beyond a bound are taken to it.
   [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& q) const;
@@ -73,6 +76,14 @@ class FitProblem {
                                  bool seeks = false) const;
 
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
+  /// 1 for each reading that counts, 0 for one that does not.
+  [[nodiscard]] const Eigen::VectorXd& counted() const { return counted_; }
+  /// Outputs less the readings; 0 where a reading does not count.
+  [[nodiscard]] Eigen::VectorXd misses(const Eigen::VectorXd& outputs) const {
+    return (outputs - measured_).cwiseProduct(counted_);
+  }
+  /// Root of the mean square of these misses of a signal, over the readings that count.
+  [[nodiscard]] double rms(const Eigen::VectorXd& misses, const SignalRows& rows) const;
   /// What each experiment has of its own at these values.
   [[nodiscard]] std::vector<OwnValues> own(const Eigen::VectorXd& values) const;
 
@@ -94,6 +105,7 @@ class FitProblem {
   std::vector<SignalRows> signals_;
   std::vector<Eigen::Index> begins_;  ///< of each experiment
   Eigen::VectorXd measured_;
+  Eigen::VectorXd counted_;
   Eigen::Index rows_ = 0;
 };
 

@@ -66,31 +66,83 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) con
   }
 }
 
-std::optional<double> Profiler::growth(Eigen::Index i, double value, Way& way) const {
-  std::optional<double> best;
+double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
+  return std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
+}
+
+std::optional<double> Profiler::alone(Eigen::Index i, double value, Way& way) const {
+  Eigen::VectorXd values = problem_.values(way.q);
+  values[i] = value;
+  Eigen::VectorXd q = problem_.coordinates(values);
+  Eigen::VectorXd outputs;
+  if (!problem_.outputs(q, outputs)) return std::nullopt;
+  way.q = std::move(q);
+  way.residuals = problem_.misses(outputs).cwiseProduct(weights_);
+  return growth_of(way.residuals);
+}
+
+std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, Way& way) const {
+  const Way before = way;
+  std::optional<double> best = followed(i, value, way);
+  if (best && *best <= limit) return best;
+  // The others may have followed across a jump of the sum of squares that lies between, as of one stick more.
+  Way beside = before;
+  const std::optional<double> unfollowed = alone(i, value, beside);
+  if (!unfollowed || (best && *unfollowed >= *best)) return best;
+  way = std::move(beside);
+  return unfollowed;
+}
+
+bool Profiler::take(const Eigen::VectorXd& q, Way& way, double& best) const {
+  Eigen::VectorXd outputs;
+  if (!problem_.outputs(q, outputs)) return false;
+  Eigen::VectorXd residuals = problem_.misses(outputs).cwiseProduct(weights_);
+  const double found = growth_of(residuals);
+  if (!(found < best)) return true;
+  best = found;
+  way.q = q;
+  way.residuals = std::move(residuals);
+  note_lower(way);
+  return true;
+}
+
+void Profiler::note_lower(const Way& way) const {
+  // Of a variance of the readings: less is the end of a search that was near enough.
+  constexpr double margin = 0.05;
+  const double squares = way.residuals.squaredNorm();
+  const std::lock_guard lock(mutex_);
+  // The least of all, in whatever order the threads come by.
+  const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
+  if (squares < limit) lower_ = {way.q, squares};
+}
+
+std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way) const {
+  double best = std::numeric_limits<double>::infinity();
+  const auto result = [&] { return std::isfinite(best) ? std::optional<double>(best) : std::nullopt; };
+  // Along a bent valley it takes many derivatives; elsewhere the first ones do.
+  constexpr int most_derivatives = 12;
   constexpr int most_steps = 4;
-  constexpr int most_derivatives = 2;
   constexpr double settled = 0.01;
   for (int derivative = 0;; ++derivative) {
+    const double begun = best;
     bool is_settled = false;
     for (int round = 0; round < most_steps && !is_settled; ++round) {
-      Eigen::VectorXd q = step(i, value, way);
-      Eigen::VectorXd outputs;
-      if (!problem_.outputs(q, outputs)) return best;
-      Eigen::VectorXd residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
-      const double found = std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
-      // Beside its minimum by so much a step has left where the derivatives hold.
-      if (best && found > (1.0 + settled) * *best) break;
-      is_settled = best && *best - found <= settled * found;
-      if (best && found >= *best) continue;
-      best = found;
-      way.q = std::move(q);
-      way.residuals = std::move(residuals);
+      const double before = best;
+      const Eigen::VectorXd q = step(i, value, way);
+      const Eigen::VectorXd from = way.q;
+      if (!take(q, way, best)) return result();
+      // What has left where the derivatives hold is tried shorter.
+      constexpr double shorter = 0.3;
+      if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), way, best))
+        return result();
+      if (!(best < before)) break;
+      is_settled = before - best <= settled * best;
     }
-    if (is_settled || derivative == most_derivatives) return best;
+    if (is_settled || derivative == most_derivatives) return result();
+    if (derivative > 1 && !(begun - best > settled * best)) return result();
     Eigen::VectorXd outputs;
     Eigen::MatrixXd jacobian;
-    if (!problem_.derivatives(way.q, outputs, jacobian)) return best;
+    if (!problem_.derivatives(way.q, outputs, jacobian)) return result();
     way = at(way.q, way.residuals, weights_.asDiagonal() * jacobian);
   }
 }
@@ -119,7 +171,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
     const double value = value_at(way);
-    const std::optional<double> grown = growth(i, value, others);
+    const std::optional<double> grown = growth(i, value, limit, others);
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;

@@ -138,7 +138,9 @@ void warn_of_residuals(const Experiments& experiments, Fit& fit) {
     std::string text = who;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
     text +=
-        " are no noise: they hold motion that the fitted rig does not make. The law is not that of the rig, a "
+        std::string(signal.is_sampled ? " are no noise: they hold motion that the fitted rig does not make."
+                                      : " are no noise: they are too large or too alike from reading to reading.") +
+        " The law is not that of the rig, a "
         "constant is off, or the search ended beside the best fit (more starts, bounds, stated values); what "
         "the intervals say holds for the right law only";
     fit.warnings.push_back(std::move(text));

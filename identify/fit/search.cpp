@@ -31,7 +31,7 @@ class Search {
   [[nodiscard]] double squares(const Eigen::VectorXd& q) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
-    const double sum = (outputs - problem_.measured()).cwiseProduct(weights_).squaredNorm();
+    const double sum = problem_.misses(outputs).cwiseProduct(weights_).squaredNorm();
     return std::isfinite(sum) ? sum : infinity;
   }
 
@@ -51,7 +51,7 @@ class Search {
       Eigen::VectorXd outputs;
       if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, *jacobian, true))
         return false;
-      residuals = (outputs - problem_.measured()).cwiseProduct(weights_);
+      residuals = problem_.misses(outputs).cwiseProduct(weights_);
       if (jacobian != nullptr) *jacobian = weights_.asDiagonal() * *jacobian;
       return true;
     };
@@ -60,13 +60,13 @@ class Search {
 
   /// Weights from the residuals of a fit; how much the largest change of a deviation is, relative.
   double reweight(const Eigen::VectorXd& outputs, Eigen::Index parameters) {
-    const Eigen::VectorXd misses = outputs - problem_.measured();
+    const Eigen::VectorXd misses = problem_.misses(outputs);
     const double spent = static_cast<double>(parameters) / static_cast<double>(problem_.rows());
     double change = 0.0;
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
       const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
-      const double own = options_.robust ? robust_deviation(part) : deviation(part);
+      const double own = options_.robust ? robust_deviation(part) : problem_.rms(misses, rows);
       const double found =
           problem_.signal(rows).is_stated ? deviations_[s] : own / std::sqrt(1.0 - std::min(spent, 0.9));
       if (!(found > 0.0)) continue;
@@ -85,12 +85,8 @@ class Search {
     if (signal.noise > 0.0) return signal.noise;
     if (signal.unit == "rad") return 0.01;
     const Eigen::VectorXd part = problem_.measured().segment(rows.begin, rows.end - rows.begin);
-    const double size = deviation(part.array() - part.mean());
+    const double size = std::sqrt((part.array() - part.mean()).square().mean());
     return size > 0.0 ? 0.01 * size : 1.0;
-  }
-
-  static double deviation(const Eigen::VectorXd& part) {
-    return part.norm() / std::sqrt(static_cast<double>(part.size()));
   }
 
   void spread() {
@@ -98,6 +94,7 @@ class Search {
       const SignalRows& rows = problem_.signals()[s];
       weights_.segment(rows.begin, rows.end - rows.begin).setConstant(1.0 / deviations_[s]);
     }
+    weights_ = weights_.cwiseProduct(problem_.counted());
   }
 
   /// Huber's weights: a residual beyond the bound pulls like one at it.
@@ -230,7 +227,7 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
 bool holds_motion(const Eigen::VectorXd& q, const FitProblem& problem) {
   Eigen::VectorXd outputs;
   if (!problem.outputs(q, outputs)) return false;
-  const Eigen::VectorXd misses = outputs - problem.measured();
+  const Eigen::VectorXd misses = problem.misses(outputs);
   const auto parameters = static_cast<std::size_t>(q.size());
   return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
     const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
@@ -238,7 +235,21 @@ bool holds_motion(const Eigen::VectorXd& q, const FitProblem& problem) {
   });
 }
 
+bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
+  return options.robust || problem.signals().size() > 1;
+}
+
 }  // namespace
+
+std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
+                                        const SearchOptions& options) {
+  Search search(problem, options);
+  LeastSquaresFit start;
+  start.parameters = coordinates;
+  const std::optional<LeastSquaresFit> found =
+      finish(std::move(start), search, problem, has_several_weights(problem, options));
+  return found ? std::optional(SearchResult{found->parameters, search.weights()}) : std::nullopt;
+}
 
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                               const std::vector<FitParameter>& parameters,
@@ -249,7 +260,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   // The first steps ask for the region of the minimum, not for its place.
   const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
   const Search rough_search(rough_problem, options);
-  const bool several_weights = options.robust || problem.signals().size() > 1;
+  const bool several_weights = has_several_weights(problem, options);
   const Search alike(problem, options);  // searches that have ended weigh their own residuals
   std::optional<SearchResult> best;
   const auto take = [&](std::optional<LeastSquaresFit> found) {

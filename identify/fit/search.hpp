@@ -32,4 +32,8 @@ struct SearchResult {
                                                             const std::vector<double>& sizes,
                                                             const SearchOptions& options);
 
+/// The least squares next to a place.
+[[nodiscard]] std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
+                                                      const SearchOptions& options);
+
 }  // namespace dualdamp::identify

@@ -43,7 +43,7 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
       {"N/m", {10.0 * s.force / s.length, 100.0}},
       {"N.s/m", {0.1 * s.force / s.speed, 30.0}},
       {"N.s^2/m^2", {0.1 * s.force / (s.speed * s.speed), 30.0}},
-      {"N/m^3", {0.1 * s.force / (s.length * s.length * s.length), 10.0}},
+      {"N/m^3", {0.3 * s.force / (s.length * s.length * s.length), 10.0}},
       {"m", {0.03 * s.length, 30.0}},
       {"m/s", {0.2 * s.speed, 15.0}},
       {"s", {0.05 * time, 30.0}},
@@ -77,6 +77,12 @@ double share_of(int number, std::size_t dimension, std::size_t dimensions) {
   for (int i = 0; i < 40; ++i) root = std::pow(1.0 + root, 1.0 / (static_cast<double>(dimensions) + 1.0));
   const double step = std::pow(1.0 / root, static_cast<double>(dimension) + 1.0);
   return std::fmod(0.5 + step * number, 1.0);
+}
+
+/// -1 < way < 1 along numbers of both signs: evenly, or by their logarithm where they spread far.
+double of_either_sign(double way, double spread) {
+  constexpr double far = 10.0;
+  return spread < far ? way : std::copysign(std::pow(spread, 2.0 * std::abs(way) - 1.0), way);
 }
 
 }  // namespace
@@ -139,7 +145,8 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
   Eigen::VectorXd start(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& parameter = parameters[i];
-    const bool is_stated = !std::isnan(parameter.stated);
+    // Zero, as of a cubic spring that may be there or not, tells no size: every other start leaves it.
+    const bool is_stated = !std::isnan(parameter.stated) && (parameter.stated != 0.0 || number % 2 == 0);
     const double share = number == 0 ? 0.5 : share_of(number, i, parameters.size());
     const double about_stated = all_stated ? 1.5 : 1.0;
     const double spread = is_stated ? about_stated : guess_of(parameter, unit).spread;
@@ -148,8 +155,8 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
       value = parameter.stated;
     else if (is_stated && (number == 0 || !(parameter.stated > 0.0)))
       value = parameter.stated;
-    else if (parameter.range.low < 0.0)
-      value = is_stated ? value : sizes[i] * (2.0 * share - 1.0);
+    else if (parameter.range.low < 0.0 && !is_stated)
+      value = sizes[i] * of_either_sign(2.0 * share - 1.0, guess_of(parameter, unit).spread);
     if (parameter.above && !(is_stated && number == 0))
       value = start[static_cast<Eigen::Index>(*parameter.above)] * (1.0 + share);
     start[static_cast<Eigen::Index>(i)] = value;

@@ -66,7 +66,8 @@ Tie::Tie(const MeasuredSamples& samples, double frequency, double strength)
 }
 
 std::optional<sim::Model> Tie::tied(const sim::Model& model, const OwnValues& own) const {
-  if (!sim::is_linear(model.oscillator)) return std::nullopt;
+  // The force by which a spring that is no straight line passes a base motion on depends on the motion.
+  if (!sim::is_linear(model.oscillator) && model.excitation.moves_base()) return std::nullopt;
   const sim::Oscillator& o = model.oscillator;
   const double spring = follows_x_ ? strength_ * o.stiffness : 0.0;
   const double damper = 2.0 * std::sqrt(strength_ * o.mass * o.stiffness);

@@ -12,7 +12,8 @@
 /// about each. Where x was not measured there is no k_t; an acceleration is summed up from the velocity that the
 /// record is to begin with.
 ///
-/// Holds for springs that follow Hooke's law. Source: abarbanel2009. Cost: a motion under a sampled force.
+/// Holds for springs that follow Hooke's law, and for any spring on a base at rest. Source: abarbanel2009. Cost: a
+/// motion under a sampled force.
 
 #include <optional>
 #include <vector>
@@ -35,7 +36,7 @@ class Tie {
   /// `frequency`: of the motion [rad/s]. `strength`: s > 0.
   Tie(const MeasuredSamples& samples, double frequency, double strength);
 
-  /// The model with a force in place of its drive; nothing if its spring is not linear.
+  /// The model with a force in place of its drive; nothing if its spring is not linear and its base moves.
   [[nodiscard]] std::optional<sim::Model> tied(const sim::Model& model, const OwnValues& own) const;
 
  private:

@@ -42,8 +42,13 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
     return parameters[static_cast<std::size_t>(i)].unit == parameters[static_cast<std::size_t>(first)].unit &&
            std::abs(direction.change[i]) > part * std::abs(direction.change[first]);
   };
-  std::erase_if(order,
-                [&](Eigen::Index i) { return std::abs(direction.share[i]) < part * largest && !changes_alike(i); });
+  // Where nothing holds a direction, what it changes in the readings is made up for by what changes as much.
+  const auto makes_up = [&](Eigen::Index i) {
+    return !std::isfinite(direction.deviation) && direction.effect[i] > part * direction.effect.maxCoeff();
+  };
+  std::erase_if(order, [&](Eigen::Index i) {
+    return std::abs(direction.share[i]) < part * largest && !changes_alike(i) && !makes_up(i);
+  });
   TradeOff found;
   for (const Eigen::Index i : order) found.parameters.push_back(parameters[static_cast<std::size_t>(i)].name);
   const std::string known = std::isfinite(direction.deviation)

@@ -13,6 +13,7 @@ namespace dualdamp::identify {
 struct WeakDirection {
   Eigen::VectorXd change;  ///< of the values, for one unit along it
   Eigen::VectorXd share;   ///< of each parameter, in parts of its size; of length 1
+  Eigen::VectorXd effect;  ///< of each share on the readings, by size
   double deviation = 0.0;  ///< standard deviation along it, in these parts; infinite: nothing holds it
 };
 

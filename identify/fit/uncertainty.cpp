@@ -38,6 +38,9 @@ class Uncertainty {
     decompose();
   }
 
+  /// A place with a smaller sum of squares, where a profile has come by one.
+  [[nodiscard]] const std::optional<Eigen::VectorXd>& lower() const { return lower_; }
+
   void run() {
     const Eigen::MatrixXd slope = end_.problem.slope(end_.q);
     fit_.covariance = slope * covariance_ * slope.transpose();
@@ -65,11 +68,11 @@ class Uncertainty {
     all_stated_ = true;
     const double spent = static_cast<double>(size_) / static_cast<double>(end_.misses.size());
     for (const SignalRows& rows : end_.problem.signals()) {
-      const Eigen::Index count = rows.end - rows.begin;
-      const double own =
-          residuals_.segment(rows.begin, count).squaredNorm() / (static_cast<double>(count) * (1.0 - spent));
+      const Eigen::Index size = rows.end - rows.begin;
+      const double count = end_.problem.counted().segment(rows.begin, size).sum();
+      const double own = residuals_.segment(rows.begin, size).squaredNorm() / (count * (1.0 - spent));
       // Of stated noise only what chance does not explain is added.
-      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / static_cast<double>(count));
+      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / count);
       const bool as_stated = end_.problem.signal(rows).is_stated && own < chance;
       all_stated_ = all_stated_ && as_stated;
       variances_.push_back(as_stated ? 1.0 : own);
@@ -180,6 +183,14 @@ class Uncertainty {
   /// Nothing changes near the estimate: what a parameter does may come in steps, from reading to reading.
   [[nodiscard]] bool acts_in_steps(Eigen::Index i) const { return rows_.col(i).norm() == 0.0; }
 
+  /// Whether the profile ends elsewhere than the covariance has it.
+  [[nodiscard]] bool bends(const FittedParameter& fitted) const {
+    constexpr double much = 0.25;
+    const double width = quantile_ * fitted.std;
+    return std::abs(fitted.profile95[0] - fitted.interval95[0]) > much * width ||
+           std::abs(fitted.profile95[1] - fitted.interval95[1]) > much * width;
+  }
+
   /// What the profile says of the interval by the covariance.
   void judge_profile(Eigen::Index i) {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
@@ -194,6 +205,9 @@ class Uncertainty {
         return std::abs(direction[i]) > 0.99 * direction.norm();
       };
       std::erase_if(lost_, is_alone);
+    } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted)) {
+      fitted.interval95 = fitted.profile95;
+      fitted.reason = "the sum of squares is no parabola: the interval is that of the profile";
     } else if (end_.profile && !ends && fitted.std > 0.0) {
       fitted.reason = "the profile does not end: the interval by the covariance holds near the estimate only";
     }
@@ -213,6 +227,7 @@ class Uncertainty {
       if (fitted.at_bound && !std::isnan(fitted.profile95[0]) && !std::isnan(fitted.profile95[1]))
         fitted.interval95 = fitted.profile95;
     });
+    lower_ = profiler.lower();
   }
 
   [[nodiscard]] double mean_variance() const {
@@ -224,8 +239,9 @@ class Uncertainty {
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
     const Eigen::VectorXd all = whole_all();
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
-      fit_.not_identifiable.push_back(
-          trade_off({slope * all.asDiagonal() * direction, direction, deviation}, parameters));
+      const Eigen::VectorXd change = all.asDiagonal() * direction;
+      const Eigen::VectorXd effect = (rows_ * change.asDiagonal()).colwise().norm();
+      fit_.not_identifiable.push_back(trade_off({slope * change, direction, effect, deviation}, parameters));
     };
     for (const Eigen::VectorXd& direction : lost_) add(direction, infinity);
     if (free_.empty()) return;
@@ -249,6 +265,7 @@ class Uncertainty {
   Eigen::MatrixXd scaled_covariance_;  ///< in parts of the parameters' sizes
   std::vector<Eigen::VectorXd> lost_;  ///< directions that change nothing, in parts of the sizes
   double quantile_ = 0.0;
+  std::optional<Eigen::VectorXd> lower_;
 };
 
 }  // namespace
@@ -260,6 +277,10 @@ double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled) {
   return static_cast<double>(residuals.size()) / std::max(1.0, inflation);
 }
 
-void add_uncertainty(const FitEnd& end, Fit& fit) { Uncertainty(end, fit).run(); }
+std::optional<Eigen::VectorXd> add_uncertainty(const FitEnd& end, Fit& fit) {
+  Uncertainty uncertainty(end, fit);
+  uncertainty.run();
+  return uncertainty.lower();
+}
 
 }  // namespace dualdamp::identify

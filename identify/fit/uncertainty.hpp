@@ -3,6 +3,7 @@
 /// (`fit.hpp`).
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "identify/fit/fit.hpp"
 
@@ -22,7 +23,8 @@ struct FitEnd {
 /// Samples that count as independent: N/(1 + 2 sum of the autocorrelation, with Bartlett's weights).
 [[nodiscard]] double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled);
 
-/// Fills in deviations, intervals, bounds, trade-offs, covariance and slopes of `fit`.
-void add_uncertainty(const FitEnd& end, Fit& fit);
+/// Fills in deviations, intervals, bounds, trade-offs, covariance and slopes of `fit`. Where a profile comes by a
+/// place with a smaller sum of squares it gives that: the search has to go on from there.
+[[nodiscard]] std::optional<Eigen::VectorXd> add_uncertainty(const FitEnd& end, Fit& fit);
 
 }  // namespace dualdamp::identify

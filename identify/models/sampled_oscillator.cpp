@@ -78,7 +78,15 @@ double root(const Function& f, double low, double high) {
 }
 
 /// Chebyshev's points of (0, 1).
-double place(int i) { return 0.5 - 0.5 * std::cos(std::numbers::pi * (i + 0.5) / nodes); }
+const std::array<double, nodes>& places() {
+  static const std::array<double, nodes> points = [] {
+    std::array<double, nodes> all{};
+    for (int i = 0; i < nodes; ++i)
+      all[static_cast<std::size_t>(i)] = 0.5 - 0.5 * std::cos(std::numbers::pi * (i + 0.5) / nodes);
+    return all;
+  }();
+  return points;
+}
 
 /// Parts of an interval whose ends are looked at for a change of sign.
 constexpr int parts = 4;
@@ -289,18 +297,23 @@ SampledOscillator::Instant SampledOscillator::instant(double u) const {
   return instant;
 }
 
-/// A force along the motion, as a polynomial through eight points of what is left of the interval. It is smooth
-/// there: the direction is frozen.
+/// The motion at eight points of what is left of the interval: the same ones for all forces.
+void SampledOscillator::look_along() {
+  const double length = 1.0 - begin_;
+  for (std::size_t i = 0; i < nodes; ++i) along_[i] = instant(places()[i] * length);
+}
+
+/// A force along the motion, as a polynomial through these points. It is smooth there: the direction is frozen.
 SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
   static const Eigen::Matrix<double, nodes, nodes> to_powers = [] {
     Eigen::Matrix<double, nodes, nodes> powers;
     for (int r = 0; r < nodes; ++r)
-      for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(place(r), c);
+      for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(places()[static_cast<std::size_t>(r)], c);
     return Eigen::Matrix<double, nodes, nodes>(powers.inverse());
   }();
   const double length = 1.0 - begin_;
   Eigen::Matrix<double, nodes, 1> values;
-  for (int i = 0; i < nodes; ++i) values[i] = force(instant(place(i) * length));
+  for (int i = 0; i < nodes; ++i) values[i] = force(along_[static_cast<std::size_t>(i)]);
   const Eigen::Matrix<double, nodes, 1> coefficients = to_powers * values;
   Drive series{};
   double power = 1.0;
@@ -320,13 +333,17 @@ void SampledOscillator::expand(double begin) {
   constexpr int rounds = 3;  // each leaves the share of a sample interval's square of the last one's error
   for (int round = 0; round < rounds && !acting_.empty(); ++round) {
     Drive left = drive;
+    look_along();
     for (const auto& [force, g] : acting_) {
       const Drive pushed = push(*force);
       for (std::size_t j = 0; j < nodes; ++j) left[j] -= g * pushed[j];
     }
     expand_motion(left);
   }
-  if (!tangents_.empty()) linearise();
+  if (!tangents_.empty()) {
+    linearise();
+    look_along();
+  }
   for (Tangent& tangent : tangents_) expand(tangent);
 }
 

@@ -106,6 +106,7 @@ class SampledOscillator {
   void expand_motion(const Drive& drive);
   void expand(Tangent& tangent) const;
   void linearise();
+  void look_along();
   void start_tangents(const std::vector<By>& by, const std::vector<Force>& forces);
   void store_step(Derivatives& derivatives);
   [[nodiscard]] Drive push(const Force& force) const;
@@ -135,6 +136,7 @@ class SampledOscillator {
   Drive drive_here_{};
   Drive drive_{};
   Series series_{};
+  std::array<Instant, nodes> along_{};  ///< the motion of that series where forces are looked at
   std::vector<Acting> acting_;
   double local_stiffness_ = 0.0;  ///< with the slopes of the acting forces, by unit of time as damping_
   double local_damping_ = 0.0;

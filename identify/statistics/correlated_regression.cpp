@@ -82,7 +82,7 @@ double CorrelatedFit::freedom() const {
 std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target,
                                             const std::vector<Eigen::Index>& blocks) {
   const Eigen::Index count = columns.cols();
-  if (columns.rows() <= count) return std::nullopt;
+  if (count == 0 || columns.rows() <= count) return std::nullopt;
   const Eigen::VectorXd scale = columns.colwise().norm();
   if (!(scale.minCoeff() > 0.0)) return std::nullopt;
   const Eigen::MatrixXd scaled = columns * scale.cwiseInverse().asDiagonal();

@@ -174,6 +174,7 @@ LeastSquaresFit fit(const LeastSquaresProblem& problem) {
 
 std::optional<Eigen::MatrixXd> unit_covariance(const Eigen::MatrixXd& jacobian) {
   if (jacobian.rows() < jacobian.cols()) return std::nullopt;
+  if (jacobian.cols() == 0) return Eigen::MatrixXd(0, 0);
   const Eigen::VectorXd scale = jacobian.colwise().norm();
   if (!(scale.minCoeff() > 0.0)) return std::nullopt;
   const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();

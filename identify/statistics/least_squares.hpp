@@ -39,7 +39,7 @@ struct LeastSquaresFit {
 [[nodiscard]] LeastSquaresFit fit(const LeastSquaresProblem& problem);
 
 /// Covariance of the parameters for residuals of unit variance, (J^T J)^-1; nothing when the data leave a direction
-/// of the parameters undetermined.
+/// of the parameters undetermined, an empty one where there is none.
 [[nodiscard]] std::optional<Eigen::MatrixXd> unit_covariance(const Eigen::MatrixXd& jacobian);
 
 }  // namespace dualdamp::identify

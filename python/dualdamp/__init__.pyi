@@ -671,6 +671,7 @@ def next(
     sigma_Y: Quantity | None = None,
     sigma_x: Quantity | None = None,
     without: Sequence[str] | None = None,
+    gain_uncertainty: Mapping[str, Any] | None = None,
 ) -> Result: ...
 def fit(
     law: str | Law | Mapping[str, Any] | Sequence[str],

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "identify/methods/any_law/any_law.hpp"
 #include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
@@ -26,6 +25,7 @@ Section keys() {
     if (std::ranges::any_of(options, [&](const identify::Option* option) { return option->name == field.name; }))
       fields.push_back(std::move(field));
   }
+  fields.push_back(gain_uncertainty_field());
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
@@ -39,6 +39,7 @@ std::vector<Needs> needs() {
 void check(CheckedFile& file) {
   check_measurement(file);
   read_data(file);
+  if (const std::optional<identify::Record> record = outlined_record(file)) check_gains(file, *record);
   if (!file.data) return;
   if (!file.data->record.pairs)
     file.complain("analysis.data",
@@ -48,10 +49,9 @@ void check(CheckedFile& file) {
 }
 
 std::unique_ptr<const Question> ask(CheckedValues&& values) {
-  const auto options =
+  auto options =
       identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(method_options(values.analysis)));
-  return std::make_unique<DesignQuestion>(record_question(std::move(values)), options,
-                                          identify::interval_options(options));
+  return std::make_unique<DesignQuestion>(record_question(std::move(values)), std::move(options));
 }
 
 Json shrinkage_json(const identify::Shrinkage& shrinkage) {
@@ -104,7 +104,16 @@ std::string summary_of(const identify::Design& design) {
 Answer DesignQuestion::run(const RunContext& context) const {
   std::vector<std::string> warnings;
   const identify::Record record = record_->record(context, warnings);
-  const auto found = identify::design_after(record, record_->methods().constants, known_, options_);
+  const IdentifyQuestion::Methods& methods = record_->methods();
+  identify::ParameterSet moved;
+  if (methods.uncertainties.any()) {
+    const identify::Estimate by =
+        identify::moved_by_constants(record, methods.constants, methods.uncertainties, options_);
+    if (by.std) moved = *by.std;
+    warnings.insert(warnings.end(), by.warnings.begin(), by.warnings.end());
+  }
+  const auto found =
+      identify::design_after(record, methods.constants, options_, identify::interval_options(options_), moved);
   if (const auto* why = std::get_if<std::string>(&found)) return failed(*why);
   const auto& design = std::get<identify::Design>(found);
   Answer answer;
@@ -116,8 +125,7 @@ Answer DesignQuestion::run(const RunContext& context) const {
   result["candidates"] = Json::array();
   for (const Advice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
   answer.tables.push_back(candidate_table(design.advice));
-  for (Table& table : law_tables(design.now, record_->methods().constants))
-    answer.tables.push_back(std::move(table));
+  for (Table& table : law_tables(design.now, methods.constants)) answer.tables.push_back(std::move(table));
   return answer;
 }
 
@@ -127,6 +135,7 @@ const Analysis& design_analysis() {
                                     .keys = keys(),
                                     .needs = needs(),
                                     .results = fields(),
+                                    .uses_uncertainties = true,
                                     .check = check,
                                     .ask = ask};
   return analysis;

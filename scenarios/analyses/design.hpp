@@ -2,6 +2,7 @@
 /// `design`: what to measure next, so that the ranges over friction laws narrow.
 
 #include "identify/design/design.hpp"
+#include "identify/methods/any_law/any_law.hpp"
 #include "scenarios/analyses/identify.hpp"
 
 namespace dualdamp::scenarios {
@@ -9,16 +10,14 @@ namespace dualdamp::scenarios {
 class DesignQuestion final : public Question {
  public:
   /// `record`: how `identify` would read it.
-  DesignQuestion(std::unique_ptr<const IdentifyQuestion> record, identify::KnownDeviations known,
-                 identify::LawIntervalOptions options)
-      : record_(std::move(record)), known_(known), options_(std::move(options)) {}
+  DesignQuestion(std::unique_ptr<const IdentifyQuestion> record, identify::AnyLawOptions options)
+      : record_(std::move(record)), options_(std::move(options)) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
 
  private:
   std::unique_ptr<const IdentifyQuestion> record_;
-  identify::KnownDeviations known_;
-  identify::LawIntervalOptions options_;
+  identify::AnyLawOptions options_;
 };
 
 [[nodiscard]] const Analysis& design_analysis();

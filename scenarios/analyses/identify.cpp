@@ -22,7 +22,22 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// Of the gains of sensors: calibration leaves one, which noise does not show.
+/// Sensors that the methods read.
+std::vector<std::string> signals_of(const identify::Record& record) {
+  std::vector<std::string> signals;
+  const auto holds = [&](auto signal) {
+    return std::ranges::any_of(record.histories, [&](const identify::History& h) { return !(h.*signal).empty(); });
+  };
+  if (record.pairs || holds(&identify::History::y)) signals.emplace_back("y");
+  if (record.pairs || record.decay || holds(&identify::History::x)) signals.emplace_back("x");
+  if (holds(&identify::History::v)) signals.emplace_back("v");
+  if (holds(&identify::History::a)) signals.emplace_back("a");
+  if (holds(&identify::History::force)) signals.emplace_back("force");
+  return signals;
+}
+
+}  // namespace
+
 Field gain_uncertainty_field() {
   Section signals;
   for (const char* name : {"y", "x", "v", "a", "force"})
@@ -31,6 +46,26 @@ Field gain_uncertainty_field() {
   return section("gain_uncertainty", std::move(signals),
                  "how well the gains of the sensors are known: {x: 1 %}; y is that of Y too");
 }
+
+std::optional<identify::Record> outlined_record(const CheckedFile& file) {
+  if (file.needs() == nullptr) return std::nullopt;
+  if (file.needs()->source != "data") return outline(file);
+  return file.data ? std::optional(file.data->record) : std::nullopt;
+}
+
+void check_gains(CheckedFile& file, const identify::Record& record) {
+  if (!file.has("analysis", "gain_uncertainty")) return;
+  const std::vector<std::string> signals = signals_of(record);
+  const Json gains = file.values().at("analysis").at("gain_uncertainty");
+  for (const auto& [signal, gain] : gains.items()) {
+    if (std::ranges::find(signals, signal) != signals.end()) continue;
+    file.complain("analysis.gain_uncertainty." + signal,
+                  "the gain of " + signal + " is uncertain, and the record has no " + signal,
+                  "signals of the record: " + core::joined(signals), signal);
+  }
+}
+
+namespace {
 
 Section keys() {
   std::vector<Field> fields = data_fields();
@@ -57,40 +92,6 @@ std::vector<Needs> needs() {
           {"simulate", excitations().names(), {"frequency"}, true, ""},
           needs_of_free_vibrations("free_decay"),
           {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
-}
-
-/// A record like the one that the methods will read; nothing when the file is too faulty to know.
-std::optional<identify::Record> outlined_record(const CheckedFile& file) {
-  if (file.needs() == nullptr) return std::nullopt;
-  if (file.needs()->source != "data") return outline(file);
-  return file.data ? std::optional(file.data->record) : std::nullopt;
-}
-
-/// Sensors that the methods read.
-std::vector<std::string> signals_of(const identify::Record& record) {
-  std::vector<std::string> signals;
-  const auto holds = [&](auto signal) {
-    return std::ranges::any_of(record.histories, [&](const identify::History& h) { return !(h.*signal).empty(); });
-  };
-  if (record.pairs || holds(&identify::History::y)) signals.emplace_back("y");
-  if (record.pairs || record.decay || holds(&identify::History::x)) signals.emplace_back("x");
-  if (holds(&identify::History::v)) signals.emplace_back("v");
-  if (holds(&identify::History::a)) signals.emplace_back("a");
-  if (holds(&identify::History::force)) signals.emplace_back("force");
-  return signals;
-}
-
-/// The gain of a sensor that is not there would be ignored.
-void check_gains(CheckedFile& file, const identify::Record& record) {
-  if (!file.has("analysis", "gain_uncertainty")) return;
-  const std::vector<std::string> signals = signals_of(record);
-  const Json gains = file.values().at("analysis").at("gain_uncertainty");
-  for (const auto& [signal, gain] : gains.items()) {
-    if (std::ranges::find(signals, signal) != signals.end()) continue;
-    file.complain("analysis.gain_uncertainty." + signal,
-                  "the gain of " + signal + " is uncertain, and the record has no " + signal,
-                  "signals of the record: " + core::joined(signals), signal);
-  }
 }
 
 void check(CheckedFile& file) {
@@ -174,7 +175,8 @@ std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view l
 }  // namespace
 
 std::unique_ptr<const IdentifyQuestion> record_question(CheckedValues&& values) {
-  IdentifyQuestion::Methods no_methods{.constants = constants_of(values.model)};
+  IdentifyQuestion::Methods no_methods{.constants = constants_of(values.model),
+                                       .uncertainties = uncertainties_of(values)};
   return question_of(std::move(values), std::move(no_methods));
 }
 
@@ -199,18 +201,17 @@ identify::Record IdentifyQuestion::record(const RunContext& context, std::vector
   return record;
 }
 
-/// Of a method that takes seconds: the constants move it as they move the joint model.
-identify::Estimate IdentifyQuestion::slow_estimate(const identify::Reader& reader, const identify::Record& record,
-                                                   const identify::Ledger& ledger) const {
+/// Of a method that takes seconds: the constants move it as they move plain friction.
+identify::Estimate IdentifyQuestion::slow_estimate(const identify::Reader& reader,
+                                                   const identify::Record& record) const {
   identify::Estimate estimate = reader(record, methods_.constants);
-  if (!methods_.uncertainties.any()) return estimate;
-  if (ledger.joint) {
-    const identify::Estimate uncertain = identify::with_uncertainties(joint_estimate(methods_.ledger), record,
-                                                                      methods_.constants, methods_.uncertainties);
-    identify::add_uncertainty_of(*ledger.joint, uncertain, estimate);
-  } else {
-    estimate.warnings.emplace_back("the uncertainties of the constants are not in its intervals");
-  }
+  if (!estimate.outcome.ok() || !methods_.uncertainties.any()) return estimate;
+  const auto options =
+      identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(methods_.options));
+  const identify::Estimate moved =
+      identify::moved_by_constants(record, methods_.constants, methods_.uncertainties, options);
+  if (moved.std) identify::widen(*moved.std, estimate);
+  estimate.warnings.insert(estimate.warnings.end(), moved.warnings.begin(), moved.warnings.end());
   return estimate;
 }
 
@@ -222,7 +223,7 @@ identify::Identification IdentifyQuestion::conclude(const identify::Record& reco
   std::vector<identify::Estimate> estimates;
   for (const identify::MethodEntry* method : methods_.list) {
     const identify::Reader reader = reader_of(*method, methods_.options);
-    estimates.push_back(method->takes_seconds ? slow_estimate(reader, record, ledger) : read(reader));
+    estimates.push_back(method->takes_seconds ? slow_estimate(reader, record) : read(reader));
   }
   if (ledger.joint && methods_.uncertainties.any()) ledger.joint = read(joint_estimate(methods_.ledger));
   for (identify::Estimate& estimate : estimates) identify::widen(estimate, within);

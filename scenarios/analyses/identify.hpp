@@ -2,6 +2,7 @@
 /// `identify`: estimates by the identification methods from measured or simulated data.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -48,8 +49,7 @@ class IdentifyQuestion final : public Question {
   [[nodiscard]] Answer run(const RunContext& context) const override;
 
  private:
-  identify::Estimate slow_estimate(const identify::Reader& reader, const identify::Record& record,
-                                   const identify::Ledger& ledger) const;
+  identify::Estimate slow_estimate(const identify::Reader& reader, const identify::Record& record) const;
   identify::Identification conclude(const identify::Record& record, double within) const;
   std::vector<identify::Sensitivity> sensitivities(const identify::Identification& found,
                                                    const identify::Record& record) const;
@@ -57,6 +57,15 @@ class IdentifyQuestion final : public Question {
   std::variant<identify::MeasuredRecord, Synthetic> source_;
   Methods methods_;
 };
+
+/// A record like the one that the methods will read; nothing when the file is too faulty to know.
+[[nodiscard]] std::optional<identify::Record> outlined_record(const CheckedFile& file);
+
+/// Of the gains of sensors: calibration leaves one, which noise does not show.
+[[nodiscard]] Field gain_uncertainty_field();
+
+/// The gain of a sensor that `record` has not would be ignored.
+void check_gains(CheckedFile& file, const identify::Record& record);
 
 /// The record that a checked section `analysis` speaks of, without methods.
 [[nodiscard]] std::unique_ptr<const IdentifyQuestion> record_question(CheckedValues&& values);

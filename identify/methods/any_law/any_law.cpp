@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -10,6 +11,8 @@
 #include "identify/methods/any_law/decay_readings.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
+#include "identify/models/force_parameters.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -18,14 +21,17 @@ namespace {
 
 using Readings = std::variant<std::unique_ptr<const ReadingModel>, std::string>;
 
-Readings readings_of(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
-  if (record.pairs && !record.pairs->pairs.empty()) return steady_readings(record, constants, options);
-  return decay_readings(record, constants, options.sigma_x);
-}
-
 std::string lacks_readings(const Record& record) {
   if (record.pairs && !record.pairs->pairs.empty()) return {};
   return record.decay ? std::string() : "the record holds neither steady states nor extremes of a free vibration";
+}
+
+Readings readings_of(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
+  std::string fault = lacks_readings(record);
+  if (fault.empty()) fault = fault_of(constants);
+  if (!fault.empty()) return fault;
+  if (record.pairs && !record.pairs->pairs.empty()) return steady_readings(record, constants, options);
+  return decay_readings(record, constants, options.sigma_x);
 }
 
 /// Both ends and the value between them.
@@ -61,6 +67,80 @@ void tell(const LawIntervals& laws, Estimate& estimate) {
                                 " best at the largest severity: raise 'largest_severity' to see what lies beyond");
 }
 
+/// Plain friction with the constants as stated. Where one of these is moved by little the fit begins here, and not
+/// anew: it would end in another valley, and the two differ by more than the constant does. The noise weighs both:
+/// else what the constants move is lost in that of the weights.
+struct StatedFit {
+  ChannelNoise noise;
+  Eigen::VectorXd unknowns;
+  double F0_unit = 1.0;
+  double c_unit = 1.0;
+};
+
+std::optional<StatedFit> stated_fit(const ReadingModel& model, const AnyLawOptions& options) {
+  std::optional<PlainFit> plain = plain_fit(model);
+  if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
+  if (!plain) return std::nullopt;
+  return StatedFit{plain->noise, plain->fit.unknowns, model.F0_unit(), model.c_unit()};
+}
+
+/// The best fit next to it of readings with moved constants.
+std::optional<SeverityFit> fit_beside(const StatedFit& stated, const ReadingModel& model) {
+  LawStart start{.unknowns = stated.unknowns};
+  start.unknowns[0] *= stated.F0_unit / model.F0_unit();
+  start.unknowns[1] *= stated.c_unit / model.c_unit();
+  const std::unique_ptr<NearbyOrbits> near = model.no_orbits(stated.noise.deviations);
+  std::optional<SeverityFit> fit;
+  // A fit ends within a tenth of a standard deviation; from there the next is as good as exact.
+  constexpr int rounds = 3;
+  for (int i = 0; i < rounds; ++i) {
+    fit = fit_law(model, {}, stated.noise, start, *near);
+    if (!fit) break;
+    start.unknowns = fit->unknowns;
+  }
+  return fit;
+}
+
+/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. The first
+/// reading, with the constants as stated, gives `stated`.
+Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options,
+                        std::optional<StatedFit>& stated) {
+  Estimate estimate;
+  estimate.method = any_law_method.name;
+  const Readings readings = readings_of(record, constants, options);
+  if (const auto* why = std::get_if<std::string>(&readings)) {
+    refuse(estimate, *why);
+    return estimate;
+  }
+  const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
+  if (!stated) stated = stated_fit(model, options);
+  const std::optional<SeverityFit> fit = stated ? fit_beside(*stated, model) : std::nullopt;
+  if (!fit) {
+    refuse(estimate, "no Coulomb and viscous friction has readings like these");
+    return estimate;
+  }
+  estimate.value = parameters(
+      {constants.mass, fit->unknowns[1] * model.c_unit(), constants.stiffness, fit->unknowns[0] * model.F0_unit()});
+  estimate.std.emplace();
+  return estimate;
+}
+
+/// The largest of them, relative.
+double largest_of(const ConstantUncertainties& u, const KnownConstants& constants) {
+  double largest = std::max({u.gain_y, u.gain_x, u.gain_v, u.gain_a, u.gain_force});
+  for (const auto& [deviation, value] :
+       {std::pair{u.mass, constants.mass}, {u.stiffness, constants.stiffness}, {u.frequency, constants.frequency}})
+    if (deviation > 0.0) largest = std::max(largest, deviation / value);
+  return largest;
+}
+
+/// A cause of standard deviation `by` beside those within the interval. Forces and dampings are not negative.
+void widen(Interval& ends, double about, double by) {
+  const double value = std::clamp(about, ends[0], ends[1]);
+  const double extra = quantile95(std::numeric_limits<double>::infinity()) * by;
+  ends = {std::max(value - std::hypot(value - ends[0], extra), 0.0), value + std::hypot(ends[1] - value, extra)};
+}
+
 }  // namespace
 
 LawIntervalOptions interval_options(const AnyLawOptions& options) {
@@ -73,12 +153,6 @@ LawIntervalOptions interval_options(const AnyLawOptions& options) {
 Estimate any_law(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   Estimate estimate;
   estimate.method = any_law_method.name;
-  std::string fault = lacks_readings(record);
-  if (fault.empty()) fault = fault_of(constants);
-  if (!fault.empty()) {
-    refuse(estimate, std::move(fault));
-    return estimate;
-  }
   const Readings readings = readings_of(record, constants, options);
   if (const auto* why = std::get_if<std::string>(&readings)) {
     refuse(estimate, *why);
@@ -102,33 +176,45 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
   return estimate;
 }
 
-void add_uncertainty_of(const Estimate& stated, const Estimate& uncertain, Estimate& estimate) {
-  if (!stated.interval95 || !uncertain.interval95 || !estimate.interval95) return;
-  std::shared_ptr<LawIntervals> laws = estimate.laws ? std::make_shared<LawIntervals>(*estimate.laws) : nullptr;
-  const auto half = [](const Interval& ends) { return 0.5 * (ends[1] - ends[0]); };
-  const auto widen = [](Interval& ends, double about, double extra) {
-    const double value = std::clamp(about, ends[0], ends[1]);
-    ends = {value - std::hypot(value - ends[0], extra), value + std::hypot(ends[1] - value, extra)};
+Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
+                            const ConstantUncertainties& uncertainties, const AnyLawOptions& options) {
+  // A spring or a mass that is off by much has no motion like the record's: the change is that of a small step.
+  constexpr double small = 2e-3;
+  const double times = std::max(largest_of(uncertainties, constants) / small, 1.0);
+  ConstantUncertainties step = uncertainties;
+  for (double* one : {&step.mass, &step.stiffness, &step.frequency, &step.gain_y, &step.gain_x, &step.gain_v,
+                      &step.gain_a, &step.gain_force})
+    *one /= times;
+  std::optional<StatedFit> stated;
+  const Reader read = [&options, &stated](const Record& again, const KnownConstants& moved) {
+    return plain_estimate(again, moved, options, stated);
   };
-  struct Row {
-    double ParameterSet::* value;
-    Interval ParameterIntervals::* interval;
-    Interval LawIntervals::* hull;
-    Interval LawIntervals::* average;
-  };
-  using Laws = LawIntervals;
-  for (const Row& row : {Row{&ParameterSet::zeta, &ParameterIntervals::zeta, &Laws::zeta_hull, &Laws::zeta_average},
-                         Row{&ParameterSet::c, &ParameterIntervals::c, nullptr, nullptr},
-                         Row{&ParameterSet::x_f, &ParameterIntervals::x_f, nullptr, nullptr},
-                         Row{&ParameterSet::F0, &ParameterIntervals::F0, &Laws::F0_hull, &Laws::F0_average}}) {
-    const double with = half((*uncertain.interval95).*row.interval);
-    const double without = half((*stated.interval95).*row.interval);
-    const double extra = std::sqrt(std::max(with * with - without * without, 0.0));
-    widen((*estimate.interval95).*row.interval, estimate.value.*row.value, extra);
-    if (!laws || row.hull == nullptr) continue;
-    widen((*laws).*row.hull, estimate.value.*row.value, extra);
-    widen((*laws).*row.average, laws->mean.*row.value, extra);
-  }
+  Estimate estimate = with_uncertainties(read, record, constants, step);
+  if (!estimate.outcome.ok())
+    estimate.warnings.push_back("the uncertainties of the constants are not in the ranges over laws: " +
+                                estimate.outcome.reason);
+  if (estimate.std)
+    for (double ParameterSet::* one :
+         {&ParameterSet::zeta, &ParameterSet::c, &ParameterSet::x_f, &ParameterSet::F0})
+      (*estimate.std).*one *= times;
+  return estimate;
+}
+
+void widen(const ParameterSet& by, LawIntervals& laws) {
+  widen(laws.zeta_hull, laws.mean.zeta, by.zeta);
+  widen(laws.F0_hull, laws.mean.F0, by.F0);
+  widen(laws.zeta_average, laws.mean.zeta, by.zeta);
+  widen(laws.F0_average, laws.mean.F0, by.F0);
+}
+
+void widen(const ParameterSet& by, Estimate& estimate) {
+  if (!estimate.interval95 || !estimate.laws) return;
+  widen(estimate.interval95->zeta, estimate.value.zeta, by.zeta);
+  widen(estimate.interval95->c, estimate.value.c, by.c);
+  widen(estimate.interval95->x_f, estimate.value.x_f, by.x_f);
+  widen(estimate.interval95->F0, estimate.value.F0, by.F0);
+  auto laws = std::make_shared<LawIntervals>(*estimate.laws);
+  widen(by, *laws);
   estimate.laws = std::move(laws);
 }
 

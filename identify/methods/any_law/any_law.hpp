@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "identify/method.hpp"
+#include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/library.hpp"
+#include "identify/uncertainty/uncertain_constants.hpp"
 
 namespace dualdamp::identify {
 
@@ -70,9 +72,15 @@ struct AnyLawOptions : KnownDeviations {
 [[nodiscard]] Estimate any_law(const Record& record, const KnownConstants& constants,
                                const AnyLawOptions& options = {});
 
-/// Adds to the intervals of `estimate` what uncertain constants add to those of another estimate of the record:
-/// `uncertain` and `stated` are that one with and without them. any_law takes too long to be read again.
-void add_uncertainty_of(const Estimate& stated, const Estimate& uncertain, Estimate& estimate);
+/// What uncertain constants do to zeta, c, x_f and F0: `std` of the result, of plain friction, which the same
+/// readings give within milliseconds where any_law takes seconds. `warnings` name the constants that are not in it.
+[[nodiscard]] Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
+                                          const ConstantUncertainties& uncertainties,
+                                          const AnyLawOptions& options = {});
+
+/// Adds deviations `by` such causes to the ranges.
+void widen(const ParameterSet& by, LawIntervals& laws);
+void widen(const ParameterSet& by, Estimate& estimate);
 
 extern const MethodEntry any_law_method;
 

@@ -36,17 +36,14 @@ class DecayReadings final : public ReadingModel {
     driven_ = false;
     numbers_ = plain.used;
     nuisances_ = {{"release", release_deviation}, {"offset", offset_deviation}};
-    F0_unit_ = plain.value.F0;
-    c_unit_ = plain.value.c;
-    start_ = VectorXd::Zero(unknowns());
-    start_.head(2).setOnes();
     const double offset = plain.decay ? plain.decay->offset : 0.0;
-    start_[2] = -offset / release_;
-    start_[3] = offset / release_;
     const double last = std::abs(readings_[readings_.size() - 1] - offset);
     reference_ = {.amplitude = 0.5 * (std::abs(release_ - offset) + last),
                   .frequency = std::sqrt(constants.stiffness / constants.mass),
                   .Y = std::abs(release_)};
+    begin_with(plain.value, reference_.speed());
+    start_[2] = -offset / release_;
+    start_[3] = offset / release_;
     channels_.assign(static_cast<std::size_t>(readings_.size()), 0);
     known_deviations_ = {sigma_x};
     least_deviations_ = {least_relative_deviation * std::abs(release_)};
@@ -134,7 +131,7 @@ std::variant<std::unique_ptr<const ReadingModel>, std::string> decay_readings(co
                                                                               double sigma_x) {
   const Estimate plain = free_decay(record, constants, {.sigma_x = sigma_x});
   if (!plain.outcome.ok()) return plain.outcome.reason;
-  if (!(plain.value.F0 > 0.0 && plain.value.c > 0.0))
+  if (!is_friction(plain))
     return "plain Coulomb and viscous friction fits with a negative force or damping: there is no motion to begin "
            "with";
   std::vector<double> used;

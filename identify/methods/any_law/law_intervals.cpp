@@ -256,7 +256,9 @@ std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const 
                                                const LawIntervalOptions& options) {
   std::optional<PlainFit> plain = plain_fit(model);
   if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
-  if (!plain) return "no Coulomb and viscous friction has steady states like these";
+  if (!plain)
+    return "no Coulomb and viscous friction has readings like these, or they do not tell its force from its "
+           "damping";
   LawStudy study{.plain = std::move(*plain)};
   study.laws = fit_library(model, options, study.plain);
   std::vector<std::string> unsolved;

@@ -157,7 +157,9 @@ bool find_covariance(SeverityFit& fit) {
   const MatrixXd information = fit.slopes.transpose() * fit.slopes;
   const Eigen::LDLT<MatrixXd> factor(information);
   fit.covariance = factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
-  return fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() > 0.0 && std::isfinite(fit.chi2);
+  constexpr double determined = 100.0;  // units of F0 and c: a range beyond it would be all numbers
+  return fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() > 0.0 && std::isfinite(fit.chi2) &&
+         fit.covariance.diagonal().head(2).maxCoeff() < determined * determined;
 }
 
 /// What the smooth curve leaves of the residuals of each channel, from residuals over `noise`.

@@ -9,6 +9,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -36,6 +37,16 @@ struct Nuisance {
 struct NearbyOrbits {
   virtual ~NearbyOrbits() = default;
 };
+
+/// Whether plain friction is a motion to begin with: neither F0 nor c negative by more than its error, nor both
+/// nothing.
+[[nodiscard]] inline bool is_friction(const Estimate& plain) {
+  const auto may_be = [&](double ParameterSet::* value, std::array<double, 2> ParameterIntervals::* interval) {
+    return plain.value.*value > 0.0 || (plain.interval95 && ((*plain.interval95).*interval)[1] > 0.0);
+  };
+  return may_be(&ParameterSet::F0, &ParameterIntervals::F0) && may_be(&ParameterSet::c, &ParameterIntervals::c) &&
+         std::max(plain.value.F0, plain.value.c) > 0.0;
+}
 
 class ReadingModel {
  public:
@@ -87,6 +98,20 @@ class ReadingModel {
                                                                    NearbyOrbits& near) const = 0;
 
  protected:
+  /// Units of F0 and c, and where the search begins: those of plain friction, which moves at `speed`. Either may be
+  /// next to nothing: its unit is then a share of the other's force, and the search begins with little of it.
+  void begin_with(const ParameterSet& plain, double speed) {
+    constexpr double quarter_turn = 0.25 * std::numbers::pi;  // a Coulomb force over the viscous one of equal work
+    constexpr double least_unit = 0.05;
+    constexpr double little = 0.1;
+    const double forces = std::max(plain.F0, 0.0) + quarter_turn * std::max(plain.c, 0.0) * speed;
+    F0_unit_ = std::max(plain.F0, least_unit * forces);
+    c_unit_ = std::max(plain.c, least_unit * forces / (quarter_turn * speed));
+    start_ = Eigen::VectorXd::Zero(unknowns());
+    start_[0] = std::max(plain.F0 / F0_unit_, little);
+    start_[1] = std::max(plain.c / c_unit_, little);
+  }
+
   /// No reading is believed to a smaller share of its size, no phase to a smaller angle [rad].
   static constexpr double least_relative_deviation = 1e-4;
 

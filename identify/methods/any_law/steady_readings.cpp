@@ -67,11 +67,9 @@ class SteadyReadings final : public ReadingModel {
     reference_ = {.amplitude = 0.5 * (low->x + high->x), .frequency = fastest->omega, .Y = fastest->Y};
     count_states();
     if (phases_ < 2) phases_ = 0;
+    find_twins();
     if (phases_ > 0 || several_) nuisances_ = spring_nuisances();
-    F0_unit_ = begin.F0;
-    c_unit_ = begin.c;
-    start_ = VectorXd::Zero(unknowns());
-    start_.head(2).setOnes();
+    begin_with(begin, reference_.speed());
     take_readings(known);
     data_ = std::to_string(states_.size()) + " steady states" + (phases_ > 0 ? " with phases" : "");
   }
@@ -84,6 +82,7 @@ class SteadyReadings final : public ReadingModel {
     F0_unit_ = record.F0_unit();
     c_unit_ = record.c_unit();
     count_states();
+    find_twins();
     nuisances_ = spring_nuisances();
     take_readings({});
     known_deviations_ = {deviations[0], deviations[1]};
@@ -102,13 +101,20 @@ class SteadyReadings final : public ReadingModel {
     const double accuracy = static_cast<SteadyOrbits&>(near).accuracy;
     VectorXd result(readings_.size());
     Index phase_row = amplitudes();
+    std::vector<double> amplitude(states_.size());
+    std::vector<double> phase(states_.size());
     for (std::size_t i = 0; i < states_.size(); ++i) {
-      const sim::Model model = model_of(law, p, states_[i], accuracy);
-      const sim::SteadyState state = found(model, orbits[i]);
-      if (!state.outcome.ok()) return std::nullopt;
-      remember(model, state, orbits[i]);
-      result[static_cast<Index>(i)] = states_[i].x - state.amplitude;
-      if (has_phase(states_[i])) result[phase_row++] = wrapped(states_[i].phase - phase_of(model, state));
+      const std::size_t twin = twins_[i];
+      if (twin == i) {
+        const sim::Model model = model_of(law, p, states_[i], accuracy);
+        const sim::SteadyState state = found(model, orbits[i]);
+        if (!state.outcome.ok()) return std::nullopt;
+        remember(model, state, orbits[i]);
+        amplitude[i] = state.amplitude;
+        if (has_phase(states_[i])) phase[i] = phase_of(model, state);
+      }
+      result[static_cast<Index>(i)] = states_[i].x - amplitude[twin];
+      if (has_phase(states_[i])) result[phase_row++] = wrapped(states_[i].phase - phase[twin]);
     }
     return result;
   }
@@ -119,7 +125,8 @@ class SteadyReadings final : public ReadingModel {
     Eigen::MatrixXd jacobian(here.size(), unknowns());
     const double damping = 2.0 * p[1] * c_unit_ / (2.0 * std::sqrt(constants_.mass * constants_.stiffness));
     for (Index j = 0; j < std::min<Index>(unknowns(), stiffness_unknown + 1); ++j) {
-      const double h = j == stiffness_unknown ? step * std::clamp(damping, 1e-3, 0.5) : step * std::abs(p[j]);
+      constexpr double least = 0.25;  // of the unknown's unit
+      const double h = step * (j == stiffness_unknown ? std::clamp(damping, 1e-3, 0.5) : std::max(p[j], least));
       VectorXd moved = p;
       moved[j] += h;
       SteadyOrbits neighbours = static_cast<SteadyOrbits&>(near);
@@ -131,7 +138,7 @@ class SteadyReadings final : public ReadingModel {
     if (unknowns() > stiffness_unknown + 1) {
       Index phase_row = amplitudes();
       for (std::size_t i = 0; i < states_.size(); ++i) {
-        const double share = share_of_hardening(states_[i]);
+        const double share = share_of_hardening(states_[twins_[i]]);
         const auto row = static_cast<Index>(i);
         jacobian(row, stiffness_unknown + 1) = share * jacobian(row, stiffness_unknown);
         if (!has_phase(states_[i])) continue;
@@ -155,6 +162,17 @@ class SteadyReadings final : public ReadingModel {
 
   static std::vector<Nuisance> spring_nuisances() {
     return {{"stiffness", stiffness_deviation}, {"cubic stiffness", hardening_deviation}};
+  }
+
+  /// A state that was taken several times moves in one way: the first one of its kind stands for all.
+  void find_twins() {
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const auto here = states_.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto same = std::find_if(states_.begin(), here, [&](const Pair& other) {
+        return other.Y == here->Y && other.omega == here->omega && has_phase(other) == has_phase(*here);
+      });
+      twins_.push_back(static_cast<std::size_t>(same - states_.begin()));
+    }
   }
 
   void count_states() {
@@ -235,6 +253,7 @@ class SteadyReadings final : public ReadingModel {
   }
 
   std::vector<Pair> states_;
+  std::vector<std::size_t> twins_;  ///< the first state of the same base and frequency
   KnownConstants constants_;
   double unit_ = 1.0;  ///< the largest amplitude [m]
   Index phases_ = 0;
@@ -249,7 +268,7 @@ std::variant<std::unique_ptr<const ReadingModel>, std::string> steady_readings(c
   Estimate plain = den_hartog_fit(record, constants, {});
   if (!plain.outcome.ok()) plain = harmonic_balance(record, constants);
   if (!plain.outcome.ok()) return plain.outcome.reason;
-  if (!(plain.value.F0 > 0.0 && plain.value.c > 0.0)) return no_plain_motion;
+  if (!is_friction(plain)) return no_plain_motion;
   Estimate taken;
   const std::optional<std::vector<Pair>> states = take_states(record, constants, false, taken);
   if (!states) return taken.outcome.reason;

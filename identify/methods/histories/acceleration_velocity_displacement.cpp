@@ -167,6 +167,12 @@ std::string fault_of_unknowns(const KnownConstants& constants, bool with_force) 
   return {};
 }
 
+bool have_force(const std::vector<NumberedHistory>& histories) {
+  return std::ranges::any_of(histories, [](const NumberedHistory& item) {
+    return std::ranges::any_of(item.history->force, [](double force) { return force != 0.0; });
+  });
+}
+
 /// The regression with one choice of cut-off.
 struct Regression {
   Rows rows;
@@ -222,10 +228,7 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   estimate.method = "acceleration_velocity_displacement";
   const std::vector<NumberedHistory> histories = usable_histories(record, options, estimate);
   if (histories.empty()) return estimate;
-  const bool with_force = std::ranges::any_of(histories, [](const NumberedHistory& item) {
-    return std::ranges::any_of(item.history->force, [](double force) { return force != 0.0; });
-  });
-  if (std::string fault = fault_of_unknowns(constants, with_force); !fault.empty()) {
+  if (std::string fault = fault_of_unknowns(constants, have_force(histories)); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }
@@ -269,6 +272,16 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
                std::to_string(histories.size()) + (histories.size() == 1 ? " history" : " histories") + ", worth " +
                core::format_number(fit.independent, 3) + " independent ones");
   return estimate;
+}
+
+std::optional<ForceParameters> regressed_forces(const Record& record, const KnownConstants& constants,
+                                                const RegressionOptions& options) {
+  Estimate taken;
+  const std::vector<NumberedHistory> histories = usable_histories(record, options, taken);
+  if (histories.empty() || !fault_of_unknowns(constants, have_force(histories)).empty()) return std::nullopt;
+  const Columns columns(constants);
+  const Regression regression = regress(histories, 0, columns, constants, options);
+  return regression.fit ? std::optional(force_parameters(*regression.fit, columns, constants)) : std::nullopt;
 }
 
 constinit const MethodEntry acceleration_velocity_displacement_method{

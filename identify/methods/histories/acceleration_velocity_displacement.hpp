@@ -18,13 +18,21 @@
 /// alike from sample to sample beyond them widen it. Source: after chen1996, janot2019. Errors: `outcome`. Cost:
 /// some 100 operations a sample.
 
+#include <optional>
+
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 
+struct ForceParameters;
+
 [[nodiscard]] Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants,
                                                           const RegressionOptions& options = {});
+
+/// Its values alone, without their uncertainty, which costs forty times as much; nothing where it refuses.
+[[nodiscard]] std::optional<ForceParameters> regressed_forces(const Record& record, const KnownConstants& constants,
+                                                              const RegressionOptions& options);
 
 extern const MethodEntry acceleration_velocity_displacement_method;
 

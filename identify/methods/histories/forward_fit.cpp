@@ -9,6 +9,7 @@
 
 #include "identify/methods/decays/free_decay.hpp"
 #include "identify/methods/histories/acceleration_velocity_displacement.hpp"
+#include "identify/models/force_parameters.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/noise_level.hpp"
 
@@ -123,17 +124,10 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
                                     const KnownConstants& constants, const RegressionOptions& options) {
   Record used;
   for (const ForwardTest& test : tests) used.histories.push_back(*test.history);
-  const Estimate regression = acceleration_velocity_displacement(
-      record.histories.size() == tests.size() ? record : used, constants, options);
   ForceParameters force{constants.mass, 0.0, constants.stiffness, 0.0};
-  if (regression.outcome.ok()) {
-    force.c = regression.value.c;
-    force.F0 = std::max(0.0, regression.value.F0);
-    for (const FurtherParameter& parameter : regression.others) {
-      if (parameter.name == "mass") force.m = parameter.value;
-      if (parameter.name == "stiffness") force.k = parameter.value;
-    }
-  }
+  if (const std::optional<ForceParameters> regression =
+          regressed_forces(record.histories.size() == tests.size() ? record : used, constants, options))
+    force = {regression->m, regression->c, regression->k, std::max(0.0, regression->F0)};
   if (!(force.m > 0.0) || !(force.k > 0.0)) return {};
   std::vector<ForceParameters> list{force};
   for (const ForwardTest& test : tests)

@@ -6,6 +6,7 @@
 
 #include "friction_models/registry.hpp"
 #include "sim/motion/simulate.hpp"
+#include "tests/identify/fit/random_rigs.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;
@@ -149,6 +150,90 @@ TEST_CASE("fit: what the data do not tell apart is named", "[identify][fit]") {
   CHECK_THAT(fit.not_identifiable.front().text, Catch::Contains("trade off one to one"));
   CHECK(fit.not_identifiable.front().parameters.size() == 2);
   CHECK(named(fit, "damping").value + named(fit, "coefficient").value == Approx(4.0).epsilon(0.01));
+}
+
+TEST_CASE("fit: a small part of one number that makes up for all of another is named with it", "[identify][fit]") {
+  // A dashpot of 0.3 N at 1 m/s beside a damper of 6 N.s/m: along the direction that nothing holds the damper
+  // changes by a twentieth of itself.
+  const test::LawCase law{"viscous_power", {{"coefficient", 0.3}, {"exponent", 1.0}}, {"coefficient"}};
+  identify::Rig rig = test::rig_with(law);
+  rig.known.oscillator.damping = 6.0;
+  const Fit fit = fit_records(rig, {"coefficient", "damping"}, {test::history_of(rig, {.duration = 1.0}, 3)}, 1.0);
+  REQUIRE(fit.outcome.ok());
+  REQUIRE(fit.not_identifiable.size() == 1);
+  CHECK(fit.not_identifiable.front().parameters == std::vector<std::string>{"coefficient", "damping"});
+  CHECK_THAT(fit.not_identifiable.front().text, Catch::Contains("trade off"));
+}
+
+TEST_CASE("fit: a cubic spring that the scenario leaves at zero is found with the zero of the sensor",
+          "[identify][fit]") {
+  identify::Rig rig = test::rig_with(test::law_case_of("coulomb"));
+  rig.known.excitation = {};
+  rig.known.oscillator.cubic_stiffness = 2e6;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    CAPTURE(seed);
+    const Record record = test::history_of(rig, {.duration = 3.0, .initial = {0.03, 0.0}}, seed);
+    std::string fault;
+    const identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
+    REQUIRE(fault.empty());
+    identify::Rig sought = rig;
+    sought.known.oscillator.cubic_stiffness = 0.0;
+    sought.known.oscillator.damping = identify::unknown;
+    sought.laws[0].values = {};
+    std::vector<std::string> faults;
+    std::vector<identify::FitParameter> parameters = identify::unstated_parameters(sought, faults);
+    for (identify::FitParameter& cubic : identify::named(identify::parameters_of(sought), "cubic_stiffness", fault))
+      parameters.push_back(std::move(cubic));
+    for (const identify::Own own : {identify::Own::position, identify::Own::velocity, identify::Own::offset})
+      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    const Fit fit = identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
+    REQUIRE(fit.outcome.ok());
+    CHECK(fit.warnings.empty());
+    CHECK(named(fit, "cubic_stiffness").value == Approx(2e6).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("fit: of an acceleration alone intervals hold the truth, also of a release at the first sample",
+          "[identify][fit]") {
+  // The acceleration jumps where the mass turns. Differences across a jump had made the velocity at the release
+  // known to a tenth of what it is: off by 3 to 30 standard errors in 6 of 12 such fits.
+  int covered = 0;
+  int all = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const test::RandomRig rig = test::random_rig("coulomb", test::MotionKind::decay, seed, "a");
+    const Fit fit = test::fit_of(rig);
+    REQUIRE(fit.outcome.ok());
+    const std::vector<std::pair<const char*, double>> truths = {{"damping", rig.truth.known.oscillator.damping},
+                                                                {"kinetic", test::truth_of(rig.truth, "kinetic")},
+                                                                {"velocity", 0.0}};
+    for (const auto& [name, truth] : truths) {
+      const FittedParameter& fitted = named(fit, name);
+      CAPTURE(seed, name, truth, fitted.value, fitted.std);
+      if (std::isnan(fitted.interval95[0])) continue;
+      CHECK(std::abs(fitted.value - truth) < 5.0 * fitted.std);
+      covered += fitted.interval95[0] <= truth && truth <= fitted.interval95[1] ? 1 : 0;
+      ++all;
+    }
+  }
+  CAPTURE(covered, all);
+  CHECK(all > 24);
+  CHECK(covered > 0.85 * all);
+}
+
+TEST_CASE("fit: intervals follow a bent valley of the sum of squares", "[identify][fit]") {
+  // A history hardly holds the exponent and beta of this joint. With two derivatives on the way the profiles of its
+  // stiffness ended at half of the way, and the covariance knows of no bend: of these three none held the truth.
+  const test::Laboratory laboratory(test::law_case_of("iwan_four_parameter"), test::RecordKind::history);
+  for (const std::uint64_t seed : {1, 2, 5}) {
+    CAPTURE(seed);
+    const test::KnownFit known = laboratory.fit(seed);
+    REQUIRE(known.fit.outcome.ok());
+    CHECK(!known.leaves_more_than_the_truth);
+    const FittedParameter& stiffness = named(known.fit, "friction.stiffness");
+    CAPTURE(stiffness.value, stiffness.std, stiffness.reason);
+    CHECK(stiffness.interval95[0] < 2000.0);
+    CHECK(stiffness.interval95[1] > 2000.0);
+  }
 }
 
 TEST_CASE("fit: a decay and a frequency response together are better than each alone", "[identify][fit]") {

@@ -1,3 +1,4 @@
+#include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/least_squares.hpp"
 
 #include <catch2/catch.hpp>
@@ -96,6 +97,13 @@ TEST_CASE("A direction that the data leave open has no covariance") {
   jacobian(0, 1) = 0.0;
   REQUIRE(unit_covariance(jacobian).has_value());
   CHECK(((*unit_covariance(jacobian)) * (jacobian.transpose() * jacobian)).isIdentity(1e-12));
+}
+
+TEST_CASE("Where nothing is free there is no covariance to find, and no crash") {
+  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(Eigen::MatrixXd(4, 0));
+  REQUIRE(covariance.has_value());
+  CHECK(covariance->size() == 0);
+  CHECK_FALSE(fit_correlated(Eigen::MatrixXd(4, 0), Eigen::VectorXd::Ones(4), {0}).has_value());
 }
 
 TEST_CASE("A model without a value where the search begins is a failure and no crash") {

@@ -72,6 +72,30 @@ TEST_CASE("design: laws that are left out take no part", "[scenarios][design]") 
   CHECK(some.at("power_now") != all.at("power_now"));
 }
 
+TEST_CASE("design: uncertain constants are in the ranges now and after, as in those of identify",
+          "[scenarios][design]") {
+  const auto answer_to = [](const std::string& mass, const std::string& analysis) {
+    std::string text = scenario;
+    text.replace(text.find("1.042 kg"), 8, mass);
+    text.replace(text.find("type: design"), 12, analysis);
+    return testing::result_of(scenarios::run(scenarios::parse_scenario(text, "test.yaml")));
+  };
+  const auto width = [](const nlohmann::json& ends) { return ends[1].get<double>() - ends[0].get<double>(); };
+  const auto exact = answer_to("1.042 kg", "type: design");
+  const auto uncertain = answer_to("1.042 kg +- 15 %", "type: design");
+  const auto identified = answer_to("1.042 kg +- 15 %", "type: identify, methods: [any_law]");
+  for (const char* number : {"zeta", "F0"}) {
+    CHECK(width(uncertain["hull95"][number]) > 1.05 * width(exact["hull95"][number]));
+    CHECK(uncertain["hull95"][number] == identified["estimates"][0]["hull95"][number]);
+  }
+  // No measurement weighs the mass anew: what helped most helps less.
+  CHECK(uncertain["candidates"][0]["hull_shrinks_to"]["F0"].get<double>() >
+        exact["candidates"][0]["hull_shrinks_to"]["F0"].get<double>());
+  const auto gains = answer_to("1.042 kg", "type: design, gain_uncertainty: {x: 10 %, y: 10 %}");
+  CHECK(width(gains["hull95"]["F0"]) > width(exact["hull95"]["F0"]));
+  CHECK_THROWS_AS(answer_to("1.042 kg", "type: design, gain_uncertainty: {force: 10 %}"), core::InputError);
+}
+
 TEST_CASE("design: data that state their own frequencies, and data without steady states", "[scenarios][design]") {
   const auto write = [](const char* text) { std::ofstream("design_data.csv") << text; };
   const auto read = [](const std::string& excitation) {

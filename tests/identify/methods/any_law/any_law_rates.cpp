@@ -301,6 +301,11 @@ void print_advice(const identify::rigs::Rig& departure, int records, std::uint64
         followed_advice(rig, departure, severities.at(static_cast<std::size_t>(i) % severities.size()), seed);
     if (!followed) continue;
     ++advice[followed->advice];
+    std::printf("advice/%s seed %llu: narrower %.2f / %.2f, plain friction rejected %d -> %d, held %d / %d: %s\n",
+                std::string(departure.name).c_str(), static_cast<unsigned long long>(seed), followed->narrower[0],
+                followed->narrower[1], followed->rejected[0], followed->rejected[1], followed->held[0],
+                followed->held[1], followed->advice.c_str());
+    std::fflush(stdout);
     for (std::size_t j = 0; j < 2; ++j) {
       narrower[j].push_back(followed->narrower[j]);
       rejected[j] += followed->rejected[j] ? 1 : 0;

@@ -1,0 +1,109 @@
+#include "identify/fit/serial_test.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Of the squares of the differences between neighbours.
+Eigen::MatrixXd matrix_of_differences(Eigen::Index count) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index i = 0; i + 1 < count; ++i) {
+    matrix(i, i) += 1.0;
+    matrix(i + 1, i + 1) += 1.0;
+    matrix(i, i + 1) = matrix(i + 1, i) = -1.0;
+  }
+  return matrix;
+}
+
+double integrand(const Eigen::VectorXd& lambda, double u) {
+  double angle = 0.0;
+  double size = 0.0;
+  for (const double value : lambda) {
+    angle += 0.5 * std::atan(value * u);
+    size += 0.25 * std::log1p(value * value * u * u);
+  }
+  return std::sin(angle) * std::exp(-size) / u;
+}
+
+}  // namespace
+
+double chance_below_zero(const Eigen::VectorXd& lambda) {
+  const double unit = 1.0 / lambda.cwiseAbs().maxCoeff();
+  // u = unit e^w by the trapezoidal rule: the integrand over w falls exponentially on both sides.
+  constexpr double reach = 40.0;
+  constexpr int steps = 1600;
+  constexpr double step = 2.0 * reach / steps;
+  double sum = 0.0;
+  for (int i = 0; i <= steps; ++i) {
+    const double u = unit * std::exp(-reach + step * i);
+    sum += step * u * integrand(lambda, u);
+  }
+  return std::clamp(0.5 - sum * std::numbers::inv_pi, 0.0, 1.0);
+}
+
+double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& base) {
+  const Eigen::Index count = residuals.size();
+  constexpr double least_freedom = 3.5;
+  if (static_cast<double>(count) - base.squaredNorm() < least_freedom || !(residuals.squaredNorm() > 0.0))
+    return unknown;
+  const double d = (residuals.tail(count - 1) - residuals.head(count - 1)).squaredNorm() / residuals.squaredNorm();
+  constexpr Eigen::Index many = 400;
+  if (count > many)
+    return 0.5 * std::erfc((2.0 - d) * std::sqrt(static_cast<double>(count)) / (2.0 * std::numbers::sqrt2));
+  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count) - base * base.transpose();
+  const Eigen::MatrixXd differences = matrix_of_differences(count) - d * Eigen::MatrixXd::Identity(count, count);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> covariance(left);
+  const Eigen::MatrixXd root = covariance.eigenvectors() *
+                               covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                               covariance.eigenvectors().transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(root * differences * root);
+  return chance_below_zero(spectrum.eigenvalues());
+}
+
+SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
+                       const Eigen::MatrixXd& jacobian)
+    : problem_(problem), weights_(weights), misses_(misses), base_(misses.size(), 0) {
+  const auto is_tested = [&](const SignalRows& rows) { return !problem.signal(rows).is_sampled; };
+  if (jacobian.cols() == 0 || std::ranges::none_of(problem.signals(), is_tested)) return;
+  Eigen::MatrixXd columns = weights.asDiagonal() * jacobian;
+  for (Eigen::Index j = 0; j < columns.cols(); ++j)
+    if (const double norm = columns.col(j).norm(); norm > 0.0) columns.col(j) /= norm;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(columns);
+  constexpr double rounding = 1e-7;
+  decomposition.setThreshold(rounding);
+  base_ = decomposition.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), decomposition.rank());
+}
+
+double SerialTest::p_value(const SignalRows& rows) const {
+  const Signal& signal = problem_.signal(rows);
+  const Eigen::Index count = rows.end - rows.begin;
+  const Eigen::VectorXd measured = problem_.measured().segment(rows.begin, count);
+  constexpr double exact = 1e-5;
+  const double size = (measured.array() - measured.mean()).matrix().norm();
+  if (misses_.segment(rows.begin, count).norm() <= exact * size) return unknown;
+  std::vector<std::size_t> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return signal.at[i]; });
+  const bool turns = problem_.experiment(rows).kind == ExperimentKind::decay && signal.name == "x";
+  Eigen::VectorXd residuals(count);
+  Eigen::MatrixXd base(count, base_.cols());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto from = static_cast<Eigen::Index>(order[static_cast<std::size_t>(i)]);
+    const double side = turns && measured[from] < measured.mean() ? -1.0 : 1.0;
+    residuals[i] = side * misses_[rows.begin + from] * weights_[rows.begin + from];
+    base.row(i) = side * base_.row(rows.begin + from);
+  }
+  return serial_p_value(residuals, base);
+}
+
+}  // namespace dualdamp::identify
