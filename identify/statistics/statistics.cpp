@@ -110,7 +110,8 @@ void judge_sign(double value, double least, const std::array<double, 2>* interva
     return;
   }
   const auto& [low, high] = *interval;
-  if (negative && high < 0.0) {
+  // The interval has been corrected for bias, where the value may not be.
+  if (high < 0.0 && (negative || high < -least)) {
     faults.push_back(name + " came out negative by more than its uncertainty");
   } else if (low <= 0.0 && high >= 0.0 && high - low > least) {
     estimate.warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");

@@ -63,6 +63,9 @@ std::optional<BootstrapSpread> bootstrap_spread(
   // Where the record is not like the synthetic records its bias need not be theirs.
   if (ratio.maxCoeff() > 1.0) spread.covariance += spread.bias * spread.bias.transpose();
   spread.half_width = quantile95(count - 1) * std::sqrt(1.0 + 1.0 / count);
+  // A bias as large as the mass or the stiffness is no correction.
+  for (const Eigen::Index positive : {0, 2})
+    if (truth[positive] > 0.0 && !(spread.bias[positive] < truth[positive])) return std::nullopt;
   return spread;
 }
 
@@ -83,7 +86,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const std::o
     estimate.value = parameters(force);
     estimate.findings.emplace_back(
         "no interval is claimed: a mass with the estimated friction does not move as the measured one, or the "
-        "method makes nothing of its motion");
+        "method makes nothing of its motion, or another mass or stiffness");
     return;
   }
   const Eigen::VectorXd& b = spread->bias;

@@ -44,7 +44,8 @@ struct BootstrapSpread {
 };
 
 /// `draw(b)`: the record of number b; `read`: the method, nothing where it refuses. `truth`: what they
-/// were made with. Nothing when the method refuses more than one record in ten.
+/// were made with: m, c, k, F0 and what the method estimates beside them. Nothing when the method refuses more than
+/// one record in ten, or its bias is as large as the mass or the stiffness.
 [[nodiscard]] std::optional<BootstrapSpread> bootstrap_spread(
     const ParameterReading& own, const Eigen::VectorXd& truth, const std::function<Record(int)>& draw,
     const std::function<std::optional<ParameterReading>(const Record&)>& read, int records = synthetic_count);

@@ -55,3 +55,17 @@ TEST_CASE("The F test needs freedom and a term of its own") {
   CHECK(test->p_value < 1e-4);
   CHECK_FALSE(test->fired);
 }
+
+TEST_CASE("A parameter whose corrected interval lies below zero is no estimate, whatever the value is") {
+  const auto faults_of = [](double value, const std::array<double, 2>& interval) {
+    Estimate estimate;
+    std::vector<std::string> faults;
+    judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
+    return faults.size();
+  };
+  CHECK(faults_of(3.5, {-43.0, -38.0}) == 1);  // corrected for a bias that is larger than it
+  CHECK(faults_of(-40.0, {-43.0, -38.0}) == 1);
+  CHECK(faults_of(-0.1, {-0.4, 0.2}) == 0);
+  CHECK(faults_of(3.5, {3.0, 4.0}) == 0);
+  CHECK(faults_of(0.0, {-2e-12, -1e-12}) == 0);  // rounding
+}

@@ -81,6 +81,20 @@ TEST_CASE("The spread over synthetic records is that of their readings, moved by
   CHECK(spread->half_width == Approx(2.0227 * std::sqrt(1.0 + 1.0 / 40.0)).epsilon(1e-4));
 }
 
+TEST_CASE("A method that makes twice the mass or the stiffness of synthetic records has no spread") {
+  const auto draw = [](int b) { return number_of({}, b); };
+  const auto has_spread = [&](double m, double k) {
+    const ParameterReading own{Eigen::Vector4d(1.0, 0.4, 100.0, 2.1), Eigen::Vector4d(0.1, 0.1, 9.0, 0.2)};
+    const auto read = [&](const Record&) -> std::optional<ParameterReading> {
+      return ParameterReading{Eigen::Vector4d(m, 0.4, k, 2.1), own.errors};
+    };
+    return bootstrap_spread(own, own.parameters, draw, read).has_value();
+  };
+  CHECK(has_spread(1.9, 190.0));
+  CHECK_FALSE(has_spread(2.1, 100.0));
+  CHECK_FALSE(has_spread(1.0, 210.0));
+}
+
 TEST_CASE(
     "A record with larger errors than every synthetic record widens the interval by their ratio and by the bias") {
   std::array<double, synthetic_count> numbers{};
