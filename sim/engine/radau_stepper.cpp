@@ -162,17 +162,6 @@ class RadauStepper final : public Stepper {
     return false;
   }
 
-  /// Whether the last correction changed the speed of a stage by more than rounding may: a creep, whose speed is far
-  /// below what is allowed, is not known yet, and friction turns over within it.
-  [[nodiscard]] bool changed_speed(std::span<const double> x) const {
-    constexpr double slightly = 1e-3;
-    for (std::size_t i = 0; i < stages && n_() > speed; ++i) {
-      const double now = x[speed] + z_[i * n_() + speed];
-      if (!(std::abs(correction_[i * n_() + speed]) <= slightly * std::abs(now))) return true;
-    }
-    return false;
-  }
-
   enum class Pace { converged, slow, lost };
 
   /// With the Jacobian as it is.
@@ -184,7 +173,7 @@ class RadauStepper final : public Stepper {
       correct(field, x, t, h);
       const double size = correction_size(x, allowed);
       if (!std::isfinite(size)) return Pace::lost;
-      if (iteration == 0 && size <= 1.0 && !changed_speed(x)) return Pace::converged;
+      if (iteration == 0 && size <= 1.0) return Pace::converged;
       if (iteration > 0) {
         const double contraction = size / before;
         if (contraction >= 1.0) return size <= 1.0 ? Pace::converged : Pace::lost;

@@ -288,7 +288,7 @@ bool SmoothEngine::advance(double left) {
     rejected = true;
     h_ = h * std::clamp(ideal, largest_cut, 0.7);
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
-    if (h_ < 1e-40 * longest) break;
+    if (h_ < 1e-100 * longest) break;
   }
   outcome_ = {
       core::OutcomeKind::not_finite,
