@@ -40,6 +40,9 @@ constexpr int max_rejections = 200;
 /// In one of the shortest periods: beyond that friction changes too fast to be integrated in reasonable time.
 constexpr long max_steps = 300'000;
 
+/// At one instant to rounding: a creep is found within a few hundred.
+constexpr long max_standing = 3'000;
+
 /// Kinks of a delayed velocity pass on this often, each time one derivative higher.
 constexpr int echoes = 4;
 
@@ -251,9 +254,13 @@ bool SmoothEngine::makes_headway() {
     counted_to_ = time() + shortest_period();
     steps_ = 0;
   }
-  if (++steps_ <= max_steps) return true;
-  outcome_ = {core::OutcomeKind::event_limit, "more than " + std::to_string(max_steps) +
-                                                  " steps in one period before t = " + std::to_string(time()) +
+  const bool stands_still = time() == stood_at_;
+  stood_at_ = time();
+  standing_ = stands_still ? standing_ + 1 : 0;
+  if (++steps_ <= max_steps && standing_ <= max_standing) return true;
+  const std::string spent = standing_ > max_standing ? std::to_string(max_standing) + " steps at one instant, "
+                                                     : std::to_string(max_steps) + " steps in one period before ";
+  outcome_ = {core::OutcomeKind::event_limit, "more than " + spent + "t = " + std::to_string(time()) +
                                                   " s: friction changes too fast there to be integrated"};
   return false;
 }

@@ -151,7 +151,9 @@ class SmoothEngine final : public Engine {
   double h_ = 0.0;           ///< proposed next step [s]; 0: none
   double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
   long steps_ = 0;
-  double taken_ = 0.0;  ///< length of the step taken last [s]
+  double stood_at_ = 0.0;  ///< time of the last step [s]
+  long standing_ = 0;      ///< steps since then that took no time, to rounding
+  double taken_ = 0.0;     ///< length of the step taken last [s]
   Landing landing_;
   bool ended_at_once_ = false;  ///< a slip that began at v = 0 and never moved in its direction
   std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "sim/motion/simulate.hpp"
@@ -99,6 +100,21 @@ TEST_CASE("smooth engine: a creep far below what a step may err by is followed",
   CHECK(automatic.events.size() == 7);
   CHECK(implicit.events.size() == 7);
   CHECK(automatic.final.x == Approx(implicit.final.x).epsilon(1e-9));
+}
+
+TEST_CASE("smooth engine: a creep that no step leaves is given up soon, with the reason", "[sim][smooth]") {
+  // mu0/a = 101. Up to 300,000 steps at one instant took 2 to 8 s.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.70};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 1.51};
+  friction::ParameterValues values = {
+      {"normal_force", 4.76},         {"mu0", 0.507}, {"a", 0.005}, {"b", 0.00419}, {"slip_distance", 2.06e-4},
+      {"reference_velocity", 2.89e-6}};
+  values.set("evolution", "slip");
+  model.friction = test::laws_of("rate_state", std::move(values));
+  const sim::History history = sim::simulate(model, {.duration = 20.0});
+  CHECK(history.outcome.kind == core::OutcomeKind::event_limit);
+  CHECK(history.outcome.reason.find("steps at one instant") != std::string::npos);
 }
 
 TEST_CASE("smooth engine: a contact is asked to slip at its limit, not just before", "[sim][smooth]") {
