@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "sim/engine/variation.hpp"
 
@@ -42,6 +43,8 @@ constexpr long max_steps = 300'000;
 
 /// At one instant to rounding: a creep is found within a few hundred.
 constexpr long max_standing = 3'000;
+
+constexpr const char* ran_away = "the mass is far beyond the place from which a softening spring pushes outward";
 
 /// Kinks of a delayed velocity pass on this often, each time one derivative higher.
 constexpr int echoes = 4;
@@ -260,8 +263,10 @@ bool SmoothEngine::makes_headway() {
   if (++steps_ <= max_steps && standing_ <= max_standing) return true;
   const std::string spent = standing_ > max_standing ? std::to_string(max_standing) + " steps at one instant, "
                                                      : std::to_string(max_steps) + " steps in one period before ";
-  outcome_ = {core::OutcomeKind::event_limit, "more than " + spent + "t = " + std::to_string(time()) +
-                                                  " s: friction changes too fast there to be integrated"};
+  const bool away = has_run_away();
+  outcome_ = {away ? core::OutcomeKind::not_finite : core::OutcomeKind::event_limit,
+              "more than " + spent + "t = " + std::to_string(time()) +
+                  " s: " + (away ? ran_away : "friction changes too fast there to be integrated")};
   return false;
 }
 
@@ -297,12 +302,9 @@ bool SmoothEngine::advance(double left) {
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
     if (h_ < 1e-100 * longest) break;
   }
-  outcome_ = {
-      core::OutcomeKind::not_finite,
-      "the equation of motion could not be integrated at t = " + std::to_string(time()) +
-          " s: steps became too small" +
-          (has_run_away() ? ". The mass is far beyond the place from which a softening spring pushes outward"
-                          : "")};
+  outcome_ = {core::OutcomeKind::not_finite,
+              "the equation of motion could not be integrated at t = " + std::to_string(time()) +
+                  " s: steps became too small" + (has_run_away() ? std::string(": ") + ran_away : "")};
   return false;
 }
 
