@@ -8,7 +8,7 @@
 
 #include "sim/engine/lu_factors.hpp"
 #include "sim/engine/radau_collocation.hpp"
-#include "sim/engine/stepper.hpp"
+#include "sim/engine/sized_stepper.hpp"
 
 namespace dualdamp::sim {
 namespace {
@@ -36,6 +36,8 @@ double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 template <std::size_t N>
 class RadauStepper final : public Stepper {
  public:
+  static constexpr int estimate_order = stages;
+
   explicit RadauStepper(std::size_t n)
       : n_(extent<N>(n)),
         start_(n),
@@ -83,7 +85,7 @@ class RadauStepper final : public Stepper {
     for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_, k);
   }
 
-  [[nodiscard]] int order() const override { return stages; }
+  [[nodiscard]] int order() const override { return estimate_order; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
 
  private:
@@ -171,6 +173,7 @@ class RadauStepper final : public Stepper {
       correct(field, x, t, h);
       const double size = correction_size(x, allowed);
       if (!std::isfinite(size)) return Pace::lost;
+      if (iteration == 0 && size <= 1.0) return Pace::converged;
       if (iteration > 0) {
         const double contraction = size / before;
         if (contraction >= 1.0) return size <= 1.0 ? Pace::converged : Pace::lost;
@@ -287,43 +290,8 @@ class RadauStepper final : public Stepper {
   std::array<LuFactors<Complex, N>, pairs> pair_factors_;
 };
 
-class ImplicitStepper final : public Stepper {
- public:
-  [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
-                          std::span<const double> allowed, std::span<double> end,
-                          std::span<double> error) override {
-    if (size_ != x.size()) resize(x.size());
-    return method_->step(field, x, t, h, allowed, end, error);
-  }
-
-  void at(double part, std::span<double> x) const override { method_->at(part, x); }
-  [[nodiscard]] int order() const override { return stages; }
-  [[nodiscard]] double stiffness() const override { return 0.0; }
-
- private:
-  void resize(std::size_t size) {
-    size_ = size;
-    switch (size) {
-      case 2:
-        method_ = std::make_unique<RadauStepper<2>>(size);
-        break;
-      case 3:
-        method_ = std::make_unique<RadauStepper<3>>(size);
-        break;
-      case 4:
-        method_ = std::make_unique<RadauStepper<4>>(size);
-        break;
-      default:
-        method_ = std::make_unique<RadauStepper<any_size>>(size);
-    }
-  }
-
-  std::size_t size_ = 0;
-  std::unique_ptr<Stepper> method_;
-};
-
 }  // namespace
 
-std::unique_ptr<Stepper> make_implicit_stepper() { return std::make_unique<ImplicitStepper>(); }
+std::unique_ptr<Stepper> make_implicit_stepper() { return std::make_unique<SizedStepper<RadauStepper>>(); }
 
 }  // namespace dualdamp::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "sim/engine/variation.hpp"
 
@@ -20,10 +21,10 @@ constexpr double largest_growth = 5.0;
 constexpr double largest_cut = 0.1;
 constexpr double safety = 0.9;
 
-/// So many steps of dopri5 with h |lambda| (Hairer's test) beyond this make a stiff problem. It is far below 3.25,
-/// the boundary of stability: an implicit step costs seven explicit ones and is as much longer at the default
-/// tolerance, stiff or not, so that little is lost by an early change.
-constexpr double stiff = 0.5;
+/// So many explicit steps with h |lambda| (Hairer's test) beyond this make a stiff problem. It is far below 6, the
+/// boundary of stability: under friction that turns over sharply explicit steps are short long before they meet it.
+/// An implicit step costs about as much as an explicit one.
+constexpr double stiff = 1.0;
 constexpr int stiff_enough = 15;
 
 /// Friction that acts within this part of the longest step is not even tried by explicit steps.
@@ -39,6 +40,11 @@ constexpr int max_rejections = 200;
 
 /// In one of the shortest periods: beyond that friction changes too fast to be integrated in reasonable time.
 constexpr long max_steps = 300'000;
+
+/// At one instant to rounding: a creep is found within a few hundred.
+constexpr long max_standing = 3'000;
+
+constexpr const char* ran_away = "the mass is far beyond the place from which a softening spring pushes outward";
 
 /// Kinks of a delayed velocity pass on this often, each time one derivative higher.
 constexpr int echoes = 4;
@@ -251,10 +257,16 @@ bool SmoothEngine::makes_headway() {
     counted_to_ = time() + shortest_period();
     steps_ = 0;
   }
-  if (++steps_ <= max_steps) return true;
-  outcome_ = {core::OutcomeKind::event_limit, "more than " + std::to_string(max_steps) +
-                                                  " steps in one period before t = " + std::to_string(time()) +
-                                                  " s: friction changes too fast there to be integrated"};
+  const bool stands_still = time() == stood_at_;
+  stood_at_ = time();
+  standing_ = stands_still ? standing_ + 1 : 0;
+  if (++steps_ <= max_steps && standing_ <= max_standing) return true;
+  const std::string spent = standing_ > max_standing ? std::to_string(max_standing) + " steps at one instant, "
+                                                     : std::to_string(max_steps) + " steps in one period before ";
+  const bool away = has_run_away();
+  outcome_ = {away ? core::OutcomeKind::not_finite : core::OutcomeKind::event_limit,
+              "more than " + spent + "t = " + std::to_string(time()) +
+                  " s: " + (away ? ran_away : "friction changes too fast there to be integrated")};
   return false;
 }
 
@@ -288,14 +300,11 @@ bool SmoothEngine::advance(double left) {
     rejected = true;
     h_ = h * std::clamp(ideal, largest_cut, 0.7);
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
-    if (h_ < 1e-40 * longest) break;
+    if (h_ < 1e-100 * longest) break;
   }
-  outcome_ = {
-      core::OutcomeKind::not_finite,
-      "the equation of motion could not be integrated at t = " + std::to_string(time()) +
-          " s: steps became too small" +
-          (has_run_away() ? ". The mass is far beyond the place from which a softening spring pushes outward"
-                          : "")};
+  outcome_ = {core::OutcomeKind::not_finite,
+              "the equation of motion could not be integrated at t = " + std::to_string(time()) +
+                  " s: steps became too small" + (has_run_away() ? std::string(": ") + ran_away : "")};
   return false;
 }
 

@@ -303,7 +303,9 @@ double SmoothEngine::dip(std::size_t watch, Triple around) {
     value[1] = there;
   }
   const double grazed = 100.0 * model_.solver.tolerance * w.scale;
-  if (value[1] < grazed && before > grazed && after > grazed)
+  // A creep below that has no minimum that the dense output could tell from its own error.
+  const double sides = value[1] + grazed;
+  if (value[1] < grazed && before > sides && after > sides)
     grazings_.push_back({static_cast<int>(watch), at[1] * taken_});
   return -1.0;
 }

@@ -1,7 +1,8 @@
 #pragma once
 /// One step of x' = f(x, t): what the smooth engine needs from a one-step method, and the two methods it has.
 ///
-/// explicit  Dormand and Prince's pair of order 5(4), dense output of order 4 (Boost.Odeint);
+/// explicit  Dormand and Prince's method of order 8, DOP853, dense output of order 7 (stages by Boost.Odeint;
+///           hairer1993, II.10);
 /// implicit  Radau IIA with five stages: order 9, L-stable, stage order 5; for laws with a fast internal state
 ///           (hairer1996, IV.8).
 ///
@@ -45,7 +46,7 @@ class Stepper {
   [[nodiscard]] virtual int order() const = 0;
 
   /// h |lambda| of the fastest motion in the last step that returned true; an explicit method is limited by its
-  /// stability instead of its accuracy where this stays above 3.25 (dopri5; Hairer's test). 0: no such limit.
+  /// stability instead of its accuracy where this stays above 6 (DOP853; Hairer's test). 0: no such limit.
   [[nodiscard]] virtual double stiffness() const = 0;
 };
 

@@ -18,8 +18,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Error of steps and closure of orbits over the noise of the readings, and its bounds.
-constexpr double share_of_noise = 1.0 / 300.0;
+/// Tolerance of steps and of the closure of orbits over the noise of the readings, and its bounds: amplitudes and
+/// phases of 95 orbits in 100 err by 20 tolerances or less, and by a fiftieth of the noise.
+constexpr double share_of_noise = 1.0 / 1000.0;
 constexpr double finest = 1e-8;
 constexpr double coarsest = 1e-5;
 /// A motion that has not settled by then is no steady state that a laboratory waits for.

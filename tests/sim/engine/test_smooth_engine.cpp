@@ -215,7 +215,8 @@ TEST_CASE("smooth engine: the stick-slip example of the LuGre paper", "[sim][smo
   CHECK((rises[3] - rises[0]) / 3.0 == Approx(6.36272).margin(1e-5));
 }
 
-TEST_CASE("smooth engine: a motion too sharp to integrate is given up", "[sim][smooth]") {
+TEST_CASE("smooth engine: explicit steps give up a motion that is too sharp, implicit ones do not",
+          "[sim][smooth]") {
   // Near v = 0 the force of rock turns over within exp(-0.6/0.01) of the reference velocity.
   sim::Model model = test::standard_system(law("rate_state", {{"normal_force", 5.0},
                                                               {"mu0", 0.6},
@@ -224,6 +225,12 @@ TEST_CASE("smooth engine: a motion too sharp to integrate is given up", "[sim][s
                                                               {"slip_distance", 1e-4},
                                                               {"reference_velocity", 1e-3}}));
   model.excitation.amplitude = 0.035;  // m: beyond break-away for a part of each period
+  const sim::SteadyState automatic = sim::steady_state(model);
+  REQUIRE(automatic.outcome.ok());
+  CHECK(automatic.stops_per_cycle == 0);
+  model.solver = {.kind = sim::SolverKind::implicit_steps, .tolerance = 1e-13};
+  CHECK(automatic.amplitude == Approx(sim::steady_state(model).amplitude).epsilon(1e-9));
+  model.solver.kind = sim::SolverKind::explicit_steps;
   const sim::SteadyState state = sim::steady_state(model);
   CHECK(state.outcome.kind == core::OutcomeKind::event_limit);
   CHECK(state.outcome.reason.find("too fast") != std::string::npos);

@@ -1,0 +1,50 @@
+#pragma once
+/// A one-step method as a template of the number of equations, as a stepper of any number: two, three and four, the
+/// most frequent, have code of their own, whose loops the compiler knows.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "sim/engine/lu_factors.hpp"
+#include "sim/engine/stepper.hpp"
+
+namespace dualdamp::sim {
+
+template <template <std::size_t> class Method>
+class SizedStepper final : public Stepper {
+ public:
+  [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
+                          std::span<const double> allowed, std::span<double> end,
+                          std::span<double> error) override {
+    if (size_ != x.size()) resize(x.size());
+    return method_->step(field, x, t, h, allowed, end, error);
+  }
+
+  void at(double part, std::span<double> x) const override { method_->at(part, x); }
+  [[nodiscard]] int order() const override { return Method<any_size>::estimate_order; }
+  [[nodiscard]] double stiffness() const override { return method_ == nullptr ? 0.0 : method_->stiffness(); }
+
+ private:
+  void resize(std::size_t size) {
+    size_ = size;
+    switch (size) {
+      case 2:
+        method_ = std::make_unique<Method<2>>(size);
+        break;
+      case 3:
+        method_ = std::make_unique<Method<3>>(size);
+        break;
+      case 4:
+        method_ = std::make_unique<Method<4>>(size);
+        break;
+      default:
+        method_ = std::make_unique<Method<any_size>>(size);
+    }
+  }
+
+  std::size_t size_ = 0;
+  std::unique_ptr<Stepper> method_;
+};
+
+}  // namespace dualdamp::sim
