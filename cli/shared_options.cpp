@@ -50,13 +50,11 @@ void add_file_options(CLI::App& command, FileOptions& options) {
   };
   add("--unit", options.units, "Unit of a column, if the file does not state it: --unit x=mm", "COLUMN=UNIT");
   add("--column", options.columns,
-      "Name or number of a column in the file: --column x='LVDT 2'; in a .mat file also a field (run.x) or a "
-      "part of "
-      "a matrix ('data(:,2)')",
+      "Name or number of a column in the file: --column x='LVDT 2'; in a .mat file also a field (run.x) or a part "
+      "of a matrix ('data(:,2)')",
       "COLUMN=NAME");
   add("--scale", options.scales,
-      "What the numbers of a column are multiplied by: --scale x='2.5 mm/V'; the sensitivity of a sensor, "
-      "--scale "
+      "What the numbers of a column are multiplied by: --scale x='2.5 mm/V'; the sensitivity of a sensor, --scale "
       "a='100 mV/g'; or a plain factor, --scale force=35.15",
       "COLUMN=SCALE");
   command.add_option("--decimal", options.decimal, "Decimal mark of a CSV file, . or , (default: .)")

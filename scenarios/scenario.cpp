@@ -145,8 +145,7 @@ std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
   if (!model.friction.empty() || !sim::is_linear(model.oscillator))
     result.emplace_back(
         "the loss factor acts as a viscous damper eta k/w: it damps the harmonic of order n of this nonlinear "
-        "motion n "
-        "times as much as a complex stiffness would");
+        "motion n times as much as a complex stiffness would");
   return result;
 }
 

@@ -158,8 +158,7 @@ std::size_t export_cases(const StressTest& question, const scenarios::RunContext
   scenarios::write_files(directory,
                          {{"constants.csv",
                            [&](std::ostream& out) {
-                             out << "case,mass [kg],stiffness [N/m],frequency [rad/s],sigma_x [m],sigma_Y "
-                                    "[m]\n";
+                             out << "case,mass [kg],stiffness [N/m],frequency [rad/s],sigma_x [m],sigma_Y [m]\n";
                              for (std::size_t i = 0; i < constants.size(); ++i)
                                out << i + 1 << constants[i] << "\n";
                            }},

@@ -200,8 +200,7 @@ class Drawing {
         "role=\"img\">\n<title>{2}</title>\n<style>\n",
         width, height, escaped(chart_.title));
     out_ << "@media screen and (prefers-color-scheme: dark) { .ground { fill: #14171a } .ink { fill: #e8eaed } "
-            ".soft { fill: "
-            "#a9b1ba } .grid { stroke: #3a424b }";
+            ".soft { fill: #a9b1ba } .grid { stroke: #3a424b }";
     for (std::size_t i = 0; i < paints.size(); ++i)
       out_ << fmt::format(" .s{0} {{ stroke: {1} }} .f{0} {{ fill: {1}; stroke: {1} }}", i, paints[i].dark);
     out_ << " }\n</style>\n"

@@ -246,8 +246,7 @@ class Clock {
           worst,
           "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " + seconds(burst) +
               "), and samples are missing between them",
-          "stamps within one and a half bursts of a constant sample rate; or times of the instrument's own "
-          "clock");
+          "stamps within one and a half bursts of a constant sample rate; or times of the instrument's own clock");
     return rows(all_, "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " +
                           seconds(burst) + "): the samples are taken as evenly spaced, " +
                           seconds(even_step(all_)) + " apart");
@@ -272,8 +271,7 @@ class Clock {
     if (distance(part, worst) > most_delay * step)
       return fault(worst,
                    "the time steps are not constant " + range +
-                       ", and the signal fits neither them nor a "
-                       "constant sample rate",
+                       ", and the signal fits neither them nor a constant sample rate",
                    "a constant sample rate; here a step of about " + seconds(step));
     return rows(part, gaps + "the time stamps jitter " + range +
                           ": the samples, smoother without the jitter, are taken " + "as evenly spaced, " +

@@ -96,8 +96,7 @@ std::vector<Rig> drives() {
   return {
       {.name = "base_clipping",
        .meaning =
-           "the exciter nears the end of its stroke: y = Y tanh(a cos wt)/tanh(a), a = Y/stroke, read by its "
-           "peak",
+           "the exciter nears the end of its stroke: y = Y tanh(a cos wt)/tanh(a), a = Y/stroke, read by its peak",
        .parameters = {{.name = "stroke",
                        .unit = "m",
                        .meaning = "amplitude at which the base's motion begins to flatten",

@@ -229,12 +229,9 @@ TEST_CASE("sweep: a campaign has a grid of its own", "[scenarios][sweep]") {
   try {
     (void)scenarios::parse_scenario(
         "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb, "
-        "kinetic: "
-        "2 N}}\nexcitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}\nanalysis: {type: "
-        "stress_test, "
-        "laws: [dahl], severities: [0.1], ranges: [{name: a, amplitudes: [0.3 m, 0.4 m, 0.5 m]}]}\nsweep: "
-        "{system.mass: [1 "
-        "kg]}\n",
+        "kinetic: 2 N}}\nexcitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}\nanalysis: "
+        "{type: stress_test, laws: [dahl], severities: [0.1], ranges: [{name: a, amplitudes: [0.3 m, 0.4 m, 0.5 "
+        "m]}]}\nsweep: {system.mass: [1 kg]}\n",
         "campaign.yaml", {.analyses = bench::analyses()});
     FAIL("not refused");
   } catch (const core::InputError& error) {

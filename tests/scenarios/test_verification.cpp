@@ -224,8 +224,8 @@ TEST_CASE("verification: a speed is measured by the largest of the motion, not b
       "schema: dualdamp/1\nsystem: {mass: 0.41432072752942956, stiffness: 303.63364486198077, damping: "
       "1.1905290352859335, friction: [{law: coulomb, kinetic: 0.262991842864506, static: 1.0393771559493337}, "
       "{law: dahl, kinetic: 4.16543974228571, sigma0: 11906.00470499656}]}\nexcitation: {type: base_ramp, "
-      "velocity: "
-      "0.007235481363476474}\nanalysis: {type: simulate, duration: 21.548113309893175}\nnumerics: {verify: true}\n",
+      "velocity: 0.007235481363476474}\nanalysis: {type: simulate, duration: 21.548113309893175}\nnumerics: "
+      "{verify: true}\n",
       "test.yaml"));
   INFO(result.verification->reason);
   CHECK(result.verification->agrees);

@@ -377,8 +377,7 @@ constinit const MethodEntry den_hartog_fit_method{
     "den_hartog_fit",
     "damping ratio and friction force from the exact amplitude law, at any frequencies",
     "Coulomb and viscous friction, no sticking, errors in x alone; checked: sticking pairs are left out, quadratic "
-    "term "
-    "F-test, natural frequency F-test (several frequencies), measured phases where there are any",
+    "term F-test, natural frequency F-test (several frequencies), measured phases where there are any",
     "(x + G x_f)^2 + (H x_f)^2 = (Y/q)^2, Eqs (3)-(6), by nonlinear least squares over zeta, x_f and, if asked "
     "for, wn",
     "denhartog1931, hundal1979, liang2004identifying",

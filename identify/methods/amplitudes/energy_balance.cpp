@@ -71,8 +71,7 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
     estimate.findings.emplace_back(
         "the dissipation per path does not grow with the speed as Coulomb and viscous friction make it, so no "
-        "single "
-        "zeta and F0 describes these states");
+        "single zeta and F0 describes these states");
   return true;
 }
 
@@ -156,8 +155,7 @@ Estimate of_states(const Record& record, const KnownConstants& constants, Estima
     if (std::isnan(constants.mass))
       estimate.warnings.emplace_back(
           "a harmonic motion was assumed, since fundamental or mean square speed were not measured: c is some 2 % "
-          "too "
-          "large and F0 too small, or more away from resonance");
+          "too large and F0 too small, or more away from resonance");
     judge_own_reading(*states, constants, read,
                       "because fundamental or mean square speed were not measured and a harmonic motion is assumed",
                       estimate, faults);
@@ -187,8 +185,7 @@ constinit const MethodEntry energy_balance_method{
     "energy_balance",
     "viscous damping and friction force from the work of the base, exact at any frequency",
     "Coulomb and viscous friction, a harmonic base, two turning points in a period, a true phase; checked: "
-    "quadratic "
-    "term F-test, the bias where the mean square speed was not measured",
+    "quadratic term F-test, the bias where the mean square speed was not measured",
     "pi k Y X_1 sin(phi) = 4 F0 x + c integral v^2 dt over a period",
     "tomlinson1979, liang2006balancing",
     RecordKind::states,

@@ -312,8 +312,7 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
     estimate.findings.emplace_back(
         "the fundamental of the friction force bends with the speed, so no single zeta and F0 describes it (see "
-        "the "
-        "curve friction_velocity)");
+        "the curve friction_velocity)");
     estimate.warnings.emplace_back(
         "a curve of amplitudes at one frequency is the same for a suitable law of velocity, of position or of "
         "amplitude: which of them bends it, it cannot tell");
@@ -333,8 +332,8 @@ constinit const MethodEntry harmonic_balance_method{
     "harmonic_balance",
     "viscous damping, friction force and the friction-velocity curve from the balance of the first harmonic",
     "harmonic balance, no sticking, friction a function of velocity; checked: sticking pairs are left out, "
-    "quadratic "
-    "friction F-test, the bias of harmonic balance at the estimate, Abel inversion beside the fitted curve",
+    "quadratic friction F-test, the bias of harmonic balance at the estimate, Abel inversion beside the fitted "
+    "curve",
     "k Y sin(phi) = sum_n C_n kappa_n (w X)^n, f(v) = sum_n C_n |v|^n sgn(v), C_0 = F0, C_1 = c",
     "iourtchenko2002, tomlinson1980",
     RecordKind::states,

@@ -234,12 +234,10 @@ void judge(const Test& test, Estimate& estimate) {
   estimate.warnings.emplace_back(
       test.one_frequency
           ? "amplitudes at one frequency cannot tell which mechanism bends them: a law of velocity, one of "
-            "position and "
-            "one of amplitude can give exactly these data, and F0 (1 - |x|/L) gives those of a smaller c; other "
-            "frequencies, phases, harmonics or a free decay tell them apart"
+            "position and one of amplitude can give exactly these data, and F0 (1 - |x|/L) gives those of a "
+            "smaller c; other frequencies, phases, harmonics or a free decay tell them apart"
           : "amplitudes tell a law of velocity from one of position by their frequencies alone, and neither from "
-            "one of "
-            "amplitude: phases, harmonics or a free decay tell them apart");
+            "one of amplitude: phases, harmonics or a free decay tell them apart");
 }
 
 /// The laws that these pairs can support.
@@ -300,8 +298,7 @@ constinit const MethodEntry law_selection_method{
     "law_selection",
     "compares Coulomb + viscous friction with other laws on amplitude pairs",
     "no sticking, errors in x alone, harmonic balance for the difference between laws; checked: sticking pairs are "
-    "left "
-    "out, F test of the best wider law; what amplitudes cannot tell apart is said",
+    "left out, F test of the best wider law; what amplitudes cannot tell apart is said",
     "least squares in x of ((k - m w^2) X)^2 + Phi(w X, X)^2 = (k Y)^2, ranked by AICc or BIC",
     "burnham2002, schwarz1978, denhartog1931",
     RecordKind::states,

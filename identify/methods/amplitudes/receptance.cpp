@@ -273,8 +273,7 @@ constinit const MethodEntry receptance_method{
     "receptance",
     "viscous damping and friction force from amplitude and phase over frequency",
     "harmonic balance, no sticking, a true phase; checked: sticking pairs are left out, linear term F-test, the "
-    "bias "
-    "of harmonic balance at the estimate, the limacon where the input was constant",
+    "bias of harmonic balance at the estimate, the limacon where the input was constant",
     "Im(k Y/X exp(i phi)) = c w + 4 F0/(pi X); Re = k - m w^2",
     "tomlinson1980",
     RecordKind::states,

@@ -17,11 +17,8 @@ constinit const MethodEntry resonance_deming_method{
     "resonance_deming",
     "damping ratio and friction force from a straight line, with errors in both amplitudes",
     "excitation at w = wn, zeta small, no sticking, a known ratio of the errors of x and Y (by default errors by "
-    "the "
-    "same fraction); checked: sticking pairs are left out, quadratic friction F-test, what the method would make "
-    "of "
-    "its "
-    "own estimate by the exact law",
+    "the same fraction); checked: sticking pairs are left out, quadratic friction F-test, what the method would "
+    "make of its own estimate by the exact law",
     "x = a + b Y by Deming's line, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn",
     "liang2004identifying, deming1943, fuller1987",
     RecordKind::pairs,

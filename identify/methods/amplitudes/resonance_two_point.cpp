@@ -165,8 +165,7 @@ constinit const MethodEntry resonance_two_point_method{
     "resonance_two_point",
     "damping ratio and friction force from two amplitude pairs",
     "excitation at w = wn, zeta small, no sticking; checked: sticking pairs are left out, what the method would "
-    "make "
-    "of its own estimate by the exact law",
+    "make of its own estimate by the exact law",
     "zeta = (Y2 - Y1)/(2 (x2 - x1)), x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2)), G by Eq (4) at w = wn",
     "liang2004identifying",
     RecordKind::pairs,

@@ -267,10 +267,8 @@ constinit const MethodEntry resonance_within_sweep_method{
     "resonance_within_sweep",
     "one damping ratio and a friction force for each sweep from parallel lines",
     "excitation at w = wn, zeta small, no sticking, errors in x alone, friction that may drift between sweeps but "
-    "not "
-    "within one; checked: sticking pairs are left out, quadratic friction F-test, separate slopes F-test, what the "
-    "method "
-    "would make of its own estimate by the exact law",
+    "not within one; checked: sticking pairs are left out, quadratic friction F-test, separate slopes F-test, what "
+    "the method would make of its own estimate by the exact law",
     "x = a_j + b Y, zeta = 1/(2 b), x_f,j = -a_j/G(zeta), G by Eq (4) at w = wn",
     "liang2004identifying, draper1998, welch1947",
     RecordKind::pairs,

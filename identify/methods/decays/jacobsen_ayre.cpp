@@ -106,8 +106,7 @@ constinit const MethodEntry jacobsen_ayre_method{
     "jacobsen_ayre",
     "rule of thumb: damping ratio from the large swings, friction from the small ones; biased, a baseline",
     "viscous damping alone rules the first two swings, dry friction alone the last two, extremes about zero; "
-    "checked: "
-    "extremes alternate, the bias that follows from the estimate itself",
+    "checked: extremes alternate, the bias that follows from the estimate itself",
     "zeta = ln(X_0/X_2)/(2 pi), x_f = (X_(n-3) - X_(n-1))/4",
     "jacobsen1958, liang1998decrement",
     RecordKind::decay,

@@ -263,8 +263,7 @@ constinit const MethodEntry extended_kalman_method{
     "extended_kalman",
     "viscous and Coulomb friction as states of an extended Kalman filter on the displacement",
     "mass and stiffness known, y and force without error, a smooth sign of the velocity; checked: twice the width "
-    "of "
-    "that sign, the innovations",
+    "of that sign, the innovations",
     "v' = [k (y - x) + f - c v - F0 tanh(v/e)]/m, F0' = c' = 0, extended Kalman filter on x",
     "liang2004identifying, detchmendy1966",
     RecordKind::history,

@@ -272,9 +272,8 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
 constinit const MethodEntry friction_force_method{
     "friction_force",
     "friction force over velocity and displacement, contact stiffness and transition velocity",
-    "mass and stiffness known, signals without lag or gain error, white noise; checked: a term in "
-    "x, "
-    "which gain errors and wrong constants leave",
+    "mass and stiffness known, signals without lag or gain error, white noise; checked: a term in x, which gain "
+    "errors and wrong constants leave",
     "F = k (y - x) + f - m a; F = c v + F0 sgn v + offset for |v| > least speed",
     "liang2004identifying",
     RecordKind::history,

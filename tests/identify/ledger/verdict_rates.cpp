@@ -201,8 +201,7 @@ void print(const Row& row, const Counts& c) {
     std::printf("[known %.0f by %s] ", share(best->second, c.records), best->first.c_str());
   std::printf(
       "%-34s n %3d tested %3.0f seen %5.1f rejected %5.1f friction %5.1f alone %5.1f joint %5.1f %5.1f answer "
-      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f "
-      "off %3.0f found %3.0f %4.2f s | named: %s | where off: %s | by: %s\n",
+      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f off %3.0f found %3.0f %4.2f s | named: %s | where off: %s | by: %s\n",
       row.name.c_str(), c.records, share(c.tested, c.records), share(c.seen, c.records),
       share(c.rejected, c.records), share(c.friction, c.records), share(c.blamed, c.records),
       share(c.joint_zeta, c.joint), share(c.joint_F0, c.joint), share(c.answers, c.records),

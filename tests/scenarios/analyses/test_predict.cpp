@@ -21,8 +21,7 @@ TEST_CASE("predict: a rig of too much friction is called wrong", "[scenarios][pr
   }
   const auto text = [](const std::string& kinetic, const std::string& more) {
     return "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 0 N.s/m, friction: {law: "
-           "coulomb, "
-           "kinetic: " +
+           "coulomb, kinetic: " +
            kinetic + "}}\nanalysis: {type: predict, data: predict_decay.csv, free: kinetic, " + more + "}\n";
   };
   const auto validation_of = [&](const std::string& kinetic) {
