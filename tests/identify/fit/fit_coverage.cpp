@@ -59,6 +59,7 @@ void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
   int failed = 0;
   int warned = 0;
   const std::clock_t begin = std::clock();
+  const std::string case_name = name_of(law);
   const identify::Rig rig = test::rig_with(law);
   const test::Laboratory laboratory(law, kind);
   for (int seed = seeds.first; seed <= seeds.last; ++seed) {
@@ -66,7 +67,7 @@ void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
     const identify::Fit& fit = known.fit;
     if (!fit.outcome.ok()) {
       ++failed;
-      std::printf("%s: %s\n", law.law.c_str(), fit.outcome.reason.c_str());
+      std::printf("%s: %s\n", case_name.c_str(), fit.outcome.reason.c_str());
       continue;
     }
     if (!fit.warnings.empty()) ++warned;
@@ -82,12 +83,12 @@ void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
     const Count& c = counts[name];
     const double intervals = std::max(c.intervals, 1);
     std::printf("%-24s %-22s %3d/%-3d %5.1f %%  profile %3d/%-3d %5.1f %%  named %3d  mean %5.2f  rms %5.2f\n",
-                law.law.c_str(), name.c_str(), c.covered, c.intervals, 100.0 * c.covered / intervals, c.profiled,
+                case_name.c_str(), name.c_str(), c.covered, c.intervals, 100.0 * c.covered / intervals, c.profiled,
                 c.profiles, 100.0 * c.profiled / std::max(c.profiles, 1), c.named, c.sum / intervals,
                 std::sqrt(c.squares / intervals));
   }
   const int fits = seeds.last - seeds.first + 1;
-  std::printf("%-24s %d fits, %d failed, %d with warnings, %.2f s each%s%s\n", law.law.c_str(), fits, failed,
+  std::printf("%-24s %d fits, %d failed, %d with warnings, %.2f s each%s%s\n", case_name.c_str(), fits, failed,
               warned, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / fits,
               beside.empty() ? "" : "; beside the least squares with seeds", beside.c_str());
   std::fflush(stdout);
@@ -113,7 +114,7 @@ int main(int argc, char** argv) {
                                    : kind == "loop" ? test::RecordKind::loop
                                                     : test::RecordKind::history;
   for (const test::LawCase& law : test::law_cases())
-    if ((wanted.empty() || std::ranges::find(wanted, law.law) != wanted.end()) && test::shows(law, records))
+    if ((wanted.empty() || std::ranges::find(wanted, name_of(law)) != wanted.end()) && test::shows(law, records))
       run(law, records, seeds);
   return 0;
 }

@@ -99,19 +99,47 @@ std::vector<LawCase> further_cases() {
        {"mu", "lift"}}};
 }
 
+std::vector<LawCase> modified_cases() {
+  const std::vector<ParameterValues> warming = {{{"power", 0.3}, {"time_constant", 0.5}}};
+  const ParameterValues stribeck = {{"kinetic", 1.0}, {"static", 1.6}, {"stribeck_velocity", 0.05}, {"drift", 0.1}};
+  return {{.law = "coulomb",
+           .truth = {{"kinetic", 1.0}, {"drift", -0.1}},
+           .sought = {"kinetic", "drift"},
+           .modifier = "drift"},
+          {.law = "coulomb",
+           .truth = {{"kinetic", 1.0}, {"position_slope", 40.0}},
+           .sought = {"kinetic", "position_slope"},
+           .modifier = "position_slope"},
+          {.law = "coulomb",
+           .truth = {{"kinetic", 2.0}, {"warming", warming}},
+           .sought = {"kinetic", "warming.power", "warming.time_constant"},
+           .modifier = "warming"},
+          {.law = "dahl",
+           .truth = {{"kinetic", 1.0}, {"sigma0", 5000.0}, {"position_slope", 40.0}},
+           .sought = {"kinetic", "sigma0", "position_slope"},
+           .modifier = "position_slope"},
+          {.law = "stribeck",
+           .truth = stribeck,
+           .sought = {"kinetic", "static", "stribeck_velocity", "drift"},
+           .modifier = "drift"}};
+}
+
 }  // namespace
+
+std::string name_of(const LawCase& law) { return law.modifier.empty() ? law.law : law.law + "+" + law.modifier; }
 
 const std::vector<LawCase>& law_cases() {
   static const std::vector<LawCase> cases = [] {
     std::vector<LawCase> all = usual_cases();
     for (LawCase& further : further_cases()) all.push_back(std::move(further));
+    for (LawCase& modified : modified_cases()) all.push_back(std::move(modified));
     return all;
   }();
   return cases;
 }
 
 const LawCase& law_case_of(const std::string& law) {
-  const auto found = std::ranges::find(law_cases(), law, &LawCase::law);
+  const auto found = std::ranges::find(law_cases(), law, name_of);
   if (found == law_cases().end()) throw std::invalid_argument("there is no case of " + law);
   return *found;
 }

@@ -15,10 +15,13 @@ struct LawCase {
   std::string law;
   friction::ParameterValues truth;
   std::vector<std::string> sought;
-  double amplitude = 5e-3;  ///< of the base [m]
+  double amplitude = 5e-3;    ///< of the base [m]
+  std::string modifier = {};  ///< of the law, in the name of the case
 };
+/// dahl, coulomb+drift
+[[nodiscard]] std::string name_of(const LawCase& law);
 
-/// Laws of the registry, each with a drive under which a history shows what is sought.
+/// Laws of the registry, then some with a modifier, each with a drive under which a history shows what is sought.
 [[nodiscard]] const std::vector<LawCase>& law_cases();
 [[nodiscard]] const LawCase& law_case_of(const std::string& law);
 
