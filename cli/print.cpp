@@ -152,7 +152,7 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
   std::string text = scenario.file + ": " + scenario.analysis_name;
   if (!scenario.title.empty()) text += ": " + scenario.title;
   text += "\n";
-  if (!result.verdict.empty()) text += "\n" + folded(result.verdict) + "\n";
+  if (!result.sentence.empty()) text += "\n" + folded(result.sentence) + "\n";
   text += numbers_text(result.summary);
   for (const scenarios::Table& table : result.tables)
     if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table, units);

@@ -1,6 +1,7 @@
 #include "scenarios/run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -16,6 +17,9 @@ namespace dualdamp::scenarios {
 
 namespace {
 
+/// The results that say in a sentence what the others mean.
+constexpr std::array<const char*, 2> sentences = {"verdict", "advice"};
+
 /// Of several lines: nothing for a table.
 bool is_document(const Json& value) {
   return value.is_string() && value.get_ref<const std::string&>().find('\n') != std::string::npos;
@@ -26,8 +30,8 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const ShownUnits units = shown_units(scenario.written_units);
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
     // Sentences are told apart from numbers; the verdict says the answer, and the table of estimates holds it.
-    if (value.is_structured() || is_document(value) || name == "verdict" || name.ends_with(".text") ||
-        name.starts_with("answer"))
+    if (value.is_structured() || is_document(value) || std::ranges::find(sentences, name) != sentences.end() ||
+        name.ends_with(".text") || name.starts_with("answer"))
       return;
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
@@ -70,7 +74,8 @@ RunResult result_of(const Scenario& scenario, Answer answer) {
     result.status = core::ExitStatus::numerical_failure;
   } else {
     result.result = answer.result.dump();
-    if (answer.result.contains("verdict")) result.verdict = answer.result.at("verdict").get<std::string>();
+    for (const char* sentence : sentences)
+      if (answer.result.contains(sentence)) result.sentence = answer.result.at(sentence).get<std::string>();
     summarise(scenario, answer.result, result.summary);
     result.tables = std::move(answer.tables);
     for (Table& table : result.tables)

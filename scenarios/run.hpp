@@ -38,7 +38,7 @@ struct RunResult {
                  {.name = "value", .kind = CellKind::text},
                  {.name = "unit", .kind = CellKind::text}}};
   std::vector<Table> tables;  ///< its lists; each becomes a file
-  std::string verdict;        ///< what it means, in plain words; of an identification
+  std::string sentence;       ///< what it means, in plain words: a verdict, an advice
   std::vector<Check> checks;
   std::optional<Verification> verification;  ///< where the scenario asks for one
   core::Provenance provenance;

@@ -50,8 +50,7 @@ class Clock {
     if (all_.size() < fewest_samples)
       return fault(0, "a history of " + std::to_string(all_.size()) + " rows is too short",
                    "at least " + std::to_string(fewest_samples) + " rows; or extremes, each row turning back");
-    for (std::size_t row = 0; row < t_.size(); ++row)
-      if (std::isnan(t_[row])) return {};  // a problem already reported
+    if (std::ranges::any_of(t_, [](double t) { return std::isnan(t); })) return {};  // a problem already reported
     const auto back = first_step_back();
     if (back < t_.size())
       return fault(back, "the time does not increase",

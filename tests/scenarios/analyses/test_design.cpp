@@ -1,9 +1,11 @@
 #include "scenarios/analyses/design.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/diagnostics.hpp"
 #include "tests/scenarios/answers.hpp"
@@ -23,7 +25,8 @@ analysis: {type: design, measurement: {type: xy_curve, amplitudes: {from: 4 mm, 
 }  // namespace
 
 TEST_CASE("design: candidates with their widths and power, the best first", "[scenarios][design]") {
-  const auto answer = testing::result_of(scenarios::run(scenarios::parse_scenario(scenario, "test.yaml")));
+  const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(scenario, "test.yaml"));
+  const auto answer = testing::result_of(run);
   const auto& candidates = answer.at("candidates");
   // The simulated states have phases: recording them is no candidate.
   REQUIRE(candidates.size() == 9);
@@ -39,7 +42,11 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
     CHECK(candidate.at("cost").get<double>() >= 1.0);
     before = size;
   }
+  // The advice stands above the table of numbers, and not in it.
   CHECK(answer.at("advice") == candidates[0].at("text"));
+  CHECK(answer.at("advice") == run.sentence);
+  const std::vector<std::string>& names = run.summary.columns[0].texts;
+  CHECK(std::ranges::find(names, "advice") == names.end());
 }
 
 TEST_CASE("design: of the record that another scenario identifies", "[scenarios][design]") {
