@@ -151,9 +151,7 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
     const double about_stated = all_stated ? 1.5 : 1.0;
     const double spread = is_stated ? about_stated : guess_of(parameter, unit).spread;
     double value = sizes[i] * std::pow(spread, 2.0 * share - 1.0);
-    if (parameter.owner == Owner::record)
-      value = parameter.stated;
-    else if (is_stated && (number == 0 || !(parameter.stated > 0.0)))
+    if (parameter.owner == Owner::record || (is_stated && (number == 0 || !(parameter.stated > 0.0))))
       value = parameter.stated;
     else if (parameter.range.low < 0.0 && !is_stated)
       value = sizes[i] * of_either_sign(2.0 * share - 1.0, guess_of(parameter, unit).spread);

@@ -217,7 +217,7 @@ bool ConstantUncertainties::any() const {
 
 Estimate with_uncertainties(const Reader& read, const Record& record, const KnownConstants& constants,
                             const ConstantUncertainties& uncertainties) {
-  const Estimate stated = read(record, constants);
+  Estimate stated = read(record, constants);
   if (!stated.outcome.ok() || !uncertainties.any()) return stated;
   const Input input{record, constants};
   Variation variation(read, input, stated);
