@@ -101,18 +101,26 @@ std::optional<SeverityFit> fit_beside(const StatedFit& stated, const ReadingMode
   return fit;
 }
 
+/// The readings that any_law compares; nothing where the record has none, which refuses the estimate.
+std::unique_ptr<const ReadingModel> readings_for(Estimate& estimate, const Record& record,
+                                                 const KnownConstants& constants, const AnyLawOptions& options) {
+  Readings readings = readings_of(record, constants, options);
+  if (const auto* why = std::get_if<std::string>(&readings)) {
+    refuse(estimate, *why);
+    return nullptr;
+  }
+  return std::get<std::unique_ptr<const ReadingModel>>(std::move(readings));
+}
+
 /// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. The first
 /// reading, with the constants as stated, gives `stated`.
 Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options,
                         std::optional<StatedFit>& stated) {
   Estimate estimate;
   estimate.method = any_law_method.name;
-  const Readings readings = readings_of(record, constants, options);
-  if (const auto* why = std::get_if<std::string>(&readings)) {
-    refuse(estimate, *why);
-    return estimate;
-  }
-  const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
+  const std::unique_ptr<const ReadingModel> readings = readings_for(estimate, record, constants, options);
+  if (!readings) return estimate;
+  const ReadingModel& model = *readings;
   if (!stated) stated = stated_fit(model, options);
   const std::optional<SeverityFit> fit = stated ? fit_beside(*stated, model) : std::nullopt;
   if (!fit) {
@@ -153,12 +161,9 @@ LawIntervalOptions interval_options(const AnyLawOptions& options) {
 Estimate any_law(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   Estimate estimate;
   estimate.method = any_law_method.name;
-  const Readings readings = readings_of(record, constants, options);
-  if (const auto* why = std::get_if<std::string>(&readings)) {
-    refuse(estimate, *why);
-    return estimate;
-  }
-  const ReadingModel& model = *std::get<std::unique_ptr<const ReadingModel>>(readings);
+  const std::unique_ptr<const ReadingModel> readings = readings_for(estimate, record, constants, options);
+  if (!readings) return estimate;
+  const ReadingModel& model = *readings;
   std::variant<LawStudy, std::string> found = study_laws(model, constants, interval_options(options));
   if (const auto* why = std::get_if<std::string>(&found)) {
     refuse(estimate, *why);
