@@ -55,14 +55,15 @@ const std::vector<Parameter>& RateState::parameters() {
 }
 
 std::vector<std::string> RateState::warnings(const ParameterValues& values) {
-  // Motions that stick, whose contacts age, are followed up to 40 and have been given up from 50 on.
+  // While the mass creeps its contacts age. Up to 40 such motions are followed. Beyond, some are given up, and from
+  // 60 on reversals of a creep have been listed that a run at a tighter tolerance does not have.
   constexpr double largest = 40.0;
   const double ratio = values.number("mu0") / values.number("a");
   if (ratio <= largest) return {};
   return {
-      "a motion that reverses may take very long to compute: at a reversal the force turns over within "
-      "exp(-mu0/a) = exp(-" +
-      core::format_number(ratio, 3) + ") of the reference velocity"};
+      "at a reversal the force turns over within exp(-mu0/a) = exp(-" + core::format_number(ratio, 3) +
+      ") of the reference velocity: a motion that creeps may be given up, and how often it turns while it creeps "
+      "is uncertain"};
 }
 
 RateState::RateState(const ParameterValues& values)
