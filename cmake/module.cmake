@@ -7,6 +7,17 @@
 # beside those of the standard library that most sources of every folder read.
 set(DUALDAMP_PRECOMPILED <algorithm> <cmath> <functional> <limits> <map> <memory> <optional> <span> <string> <variant> <vector>)
 
+# dualdamp_rooms(<target> <source>...): the sources of one room (subfolder) are compiled as one unit, so that headers are
+# read and templates instantiated once for all of them. Names in their anonymous namespaces are the room's, not the file's.
+function(dualdamp_rooms target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(room "${source}" DIRECTORY)
+    string(MAKE_C_IDENTIFIER "room_${room}" room)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
+  endforeach()
+endfunction()
+
 function(dualdamp_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE;PRECOMPILED")
   if(arg_UNPARSED_ARGUMENTS)
@@ -27,6 +38,8 @@ function(dualdamp_module name)
   target_sources(${target}
     PRIVATE ${arg_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
+  list(FILTER arg_SOURCES INCLUDE REGEX "\\.cpp$")
+  dualdamp_rooms(${target} ${arg_SOURCES})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:dualdamp_options>)
   if(name IN_LIST DUALDAMP_BRIEF_FOLDERS)
