@@ -13,6 +13,7 @@
 /// Errors: `outcome`, not_identifiable: fewer samples than parameters, less than one period, K w beyond half the
 /// sample rate, a constant signal where the frequency is to be refined. Cost: about 10 ns a sample and harmonic.
 
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
+
+inline constexpr double two_pi = 2.0 * std::numbers::pi;
 
 struct Harmonic {
   double amplitude = 0.0;  ///< A_k, unit of the signal, >= 0
