@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 
 namespace dualdamp::friction {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "identify/fit/problem.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"

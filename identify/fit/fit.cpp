@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/serial_test.hpp"

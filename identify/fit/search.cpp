@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/statistics/least_squares.hpp"

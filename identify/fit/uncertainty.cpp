@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "identify/fit/profile.hpp"
 #include "identify/fit/residual_covariance.hpp"
 #include "identify/fit/trade_offs.hpp"

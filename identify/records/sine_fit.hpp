@@ -13,16 +13,16 @@
 /// Errors: `outcome`, not_identifiable: fewer samples than parameters, less than one period, K w beyond half the
 /// sample rate, a constant signal where the frequency is to be refined. Cost: about 10 ns a sample and harmonic.
 
-#include <numbers>
 #include <span>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
-inline constexpr double two_pi = 2.0 * std::numbers::pi;
+using core::two_pi;
 
 struct Harmonic {
   double amplitude = 0.0;  ///< A_k, unit of the signal, >= 0

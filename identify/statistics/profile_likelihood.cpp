@@ -4,7 +4,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 
 namespace dualdamp::identify {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 
 namespace dualdamp::sim::analytic {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "sim/engine/variation.hpp"
 
 namespace dualdamp::sim {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/infinity.hpp"
+#include "core/constants.hpp"
 #include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
