@@ -1,11 +1,8 @@
-# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]
-# [PRECOMPILED ...]): the library of one folder.
+# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]): the library of one folder.
 # HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
 # A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
 # say PAIRS, the test ROOM/test_NAME.cpp: one line for each law, method or analysis.
-# PUBLIC and PRIVATE are what it links. PRECOMPILED are headers of libraries that most of its sources would read anew,
-# beside those of the standard library that most sources of every folder read.
-set(DUALDAMP_PRECOMPILED <algorithm> <cmath> <functional> <limits> <map> <memory> <optional> <span> <string> <variant> <vector>)
+# PUBLIC and PRIVATE are what it links.
 
 # dualdamp_rooms(<target> <source>...): the sources of one room (subfolder) are compiled as one unit, so that headers are
 # read and templates instantiated once for all of them. Names in their anonymous namespaces are the room's, not the file's.
@@ -19,7 +16,7 @@ function(dualdamp_rooms target)
 endfunction()
 
 function(dualdamp_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE;PRECOMPILED")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dualdamp_module(${name}): unexpected ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -45,7 +42,6 @@ function(dualdamp_module name)
   if(name IN_LIST DUALDAMP_BRIEF_FOLDERS)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:dualdamp_brief_options>)
   endif()
-  target_precompile_headers(${target} PRIVATE ${DUALDAMP_PRECOMPILED} ${arg_PRECOMPILED})
   if(name IN_LIST DUALDAMP_LINK_TIME_FOLDERS)
     target_compile_options(${target} PRIVATE "$<${DUALDAMP_LINK_TIME}:-flto=auto;-ffat-lto-objects;${DUALDAMP_SHORT_LOOPS}>")
   endif()

@@ -54,12 +54,6 @@ installed_packages() {
   dpkg-query -W -f='${db:Status-Status} ${Package}\n' $(awk '!/^#/ { print $1 }' "$root/scripts/packages.txt") 2>/dev/null | sed -n 's/^installed //p'
 }
 
-# ccache takes a precompiled header from another tree only where the generated header that it stands for has the same age.
-# clang takes none at all whose header has changed its age: one of a tree that `cmake --preset` alone has configured is made anew.
-same_age_of_precompiled() {
-  find "$1" -name 'cmake_pch.hxx' -newermt 2000-01-02 -exec sh -c 'for header; do rm -f "$header.pch" && touch -d 2000-01-01 "$header"; done' _ {} +
-}
-
 # Configures when that was never done, when the presets or the installed packages changed, or when the tree has moved since.
 configure() {
   local tree=$root/build/$1 fresh=() packages
@@ -72,7 +66,7 @@ configure() {
   fi
   say "configuring build/$1"
   (cd -- "$root" && cmake --preset "$1" "${fresh[@]}") >"$tree/configure.log" 2>&1 </dev/null &&
-    same_age_of_precompiled "$tree" && printf '%s' "$packages" >"$tree/.packages" && return 0
+    printf '%s' "$packages" >"$tree/.packages" && return 0
   tail -n 40 "$tree/configure.log" >&2
   return 1
 }
