@@ -198,6 +198,12 @@ class DecayReader {
     put_mean(result, first, x_.size(), first);
     // What a sensor is off by at one place, a hundred samples at rest repeat a hundred times.
     result.last = std::min(x_.size(), first + 2 * static_cast<std::size_t>(half_period_));
+    // The noise hides when the mass stopped: half a period after its last turning point.
+    std::vector<double>& times = result.record.times;
+    if (times.size() < 3) return;
+    const std::size_t turned = times.size() - 2;
+    const std::size_t from = turned > 1 ? 1 : 0;  // it hides the moment of release as well
+    times.back() = times[turned] + (times[turned] - times[from]) / static_cast<double>(turned - from);
   }
 
   /// Extremes of a free decay alternate, and their swings shrink. Before the release, or while a blow pushes the

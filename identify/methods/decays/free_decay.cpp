@@ -15,6 +15,7 @@
 #include "identify/methods/decays/extremes.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/median.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -225,16 +226,19 @@ void judge_times(const DecayRecord& record, const Estimate& estimate, const Know
   const double zeta = estimate.value.zeta;
   const double expected =
       pi * std::sqrt(constants.mass) / std::sqrt(constants.stiffness) / std::sqrt((1.0 - zeta) * (1.0 + zeta));
-  const double average = (record.times[count - 1] - record.times[0]) / static_cast<double>(count - 1);
+  std::vector<double> swings;
   for (std::size_t i = 1; i < count; ++i) {
-    if (record.times[i] - record.times[i - 1] > 2.0 * expected) {
+    swings.push_back(record.times[i] - record.times[i - 1]);
+    if (swings.back() > 2.0 * expected) {
       faults.push_back("extremes seem to be missing between " + std::to_string(i) + " and " +
                        std::to_string(i + 1));
       return;
     }
   }
-  if (std::abs(average / expected - 1.0) > 0.02) {
-    warnings.push_back("half swings last " + core::format_number(average, 4) +
+  // The first and the last may belong to a release by hand and to a mass that rests.
+  const double swing = upper_median(std::move(swings));
+  if (std::abs(swing / expected - 1.0) > 0.02) {
+    warnings.push_back("half swings last " + core::format_number(swing, 4) +
                        " s, and mass, stiffness and zeta say " + core::format_number(expected, 4) + " s");
   }
 }
