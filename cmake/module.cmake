@@ -1,9 +1,3 @@
-# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]): the library of one folder.
-# HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
-# A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
-# say PAIRS, the test ROOM/test_NAME.cpp: one line for each law, method or analysis.
-# PUBLIC and PRIVATE are what it links.
-
 # dualdamp_rooms(<target> <source>...): the sources of one room (subfolder) are compiled as one unit, so that headers are
 # read and templates instantiated once for all of them. Names in their anonymous namespaces are the room's, not the file's.
 function(dualdamp_rooms target)
@@ -15,6 +9,11 @@ function(dualdamp_rooms target)
   endforeach()
 endfunction()
 
+# dualdamp_module(<folder> HEADERS ... SOURCES ... [PAIRS ...] [PUBLIC ...] [PRIVATE ...]): the library of one folder.
+# HEADERS are public: installed, and included as "<folder>/<header>"; headers of the folder's own stand among SOURCES.
+# A pair ROOM/NAME stands for the public header ROOM/NAME.hpp, the source ROOM/NAME.cpp and, where the folder's tests
+# say PAIRS, the test ROOM/test_NAME.cpp: one line for each law, method or analysis.
+# PUBLIC and PRIVATE are what it links.
 function(dualdamp_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;PAIRS;PUBLIC;PRIVATE")
   if(arg_UNPARSED_ARGUMENTS)
