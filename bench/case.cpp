@@ -1,19 +1,19 @@
 #include "bench/case.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/motions.hpp"
 #include "identify/estimate.hpp"
 #include "identify/methods/any_law/any_law.hpp"
+#include "scenarios/format/json.hpp"
 
 namespace dualdamp::bench {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using identify::Estimate;
+using scenarios::Json;
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 

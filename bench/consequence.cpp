@@ -114,9 +114,10 @@ std::optional<Eigen::VectorXd> scaled(const Motions& motions, const identify::Se
 }
 
 /// What Coulomb + viscous friction would show, as a function of ln(c/c0) and ln(F0/F00).
-class Response {
+class MatchedResponse {
  public:
-  Response(const MotionMaker& maker, Truth truth, const identify::Sensors& sensors, const Readings& deviations)
+  MatchedResponse(const MotionMaker& maker, Truth truth, const identify::Sensors& sensors,
+                  const Readings& deviations)
       : maker_(maker), truth_(std::move(truth)), sensors_(sensors), deviations_(deviations) {}
 
   [[nodiscard]] std::optional<Eigen::VectorXd> operator()(const Eigen::Vector2d& p) const {
@@ -149,7 +150,7 @@ struct Nearest {
 };
 
 /// Gauss and Newton, with shorter steps where a whole one leads away.
-std::optional<Nearest> nearest(const Response& response, const Eigen::VectorXd& data) {
+std::optional<Nearest> nearest(const MatchedResponse& response, const Eigen::VectorXd& data) {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
   std::optional<Eigen::VectorXd> here = response(p);
   if (!here) return std::nullopt;
@@ -227,7 +228,7 @@ Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed
   Readings deviations = deviations_of(motions.here, nominal, slopes);
   const bool has_noise = !deviations.empty() && std::ranges::all_of(deviations, [](double s) { return s > 0.0; });
   if (!has_noise) std::ranges::fill(deviations, 1.0);
-  const Response simple(maker, believed, nominal, deviations);
+  const MatchedResponse simple(maker, believed, nominal, deviations);
   const std::optional<Eigen::VectorXd> data = scaled(motions.here, laboratory.sensors, deviations);
   if (!data) return result;
   const double stretch = std::sqrt(rig.truth.model.oscillator.mass * rig.truth.model.oscillator.stiffness /

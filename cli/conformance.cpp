@@ -11,14 +11,14 @@ namespace dualdamp::cli {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& option, const std::string& message) {
+[[noreturn]] void refuse_option(const std::string& option, const std::string& message) {
   throw core::InputError(core::Diagnostic{{.file = option}, message, {}, {}, {}});
 }
 
 double positive(const std::string& option, const std::string& text, const std::string& unit) {
   const core::QuantityText quantity = core::parse_quantity(text, unit);
-  if (!quantity.value) refuse(option, quantity.fault);
-  if (!(*quantity.value > 0.0)) refuse(option, "must be above 0");
+  if (!quantity.value) refuse_option(option, quantity.fault);
+  if (!(*quantity.value > 0.0)) refuse_option(option, "must be above 0");
   return *quantity.value;
 }
 
@@ -29,7 +29,7 @@ sim::LawCase case_of(const LawsCommand& command) {
     result.stroke_time = positive("--stroke-time", command.stroke_time, "s");
     return result;
   } catch (const std::invalid_argument& error) {
-    refuse("laws --check", error.what());
+    refuse_option("laws --check", error.what());
   }
 }
 

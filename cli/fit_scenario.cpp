@@ -67,7 +67,7 @@ void add_drive(const RecordCommand& command, scenarios::LoadOptions& options) {
   for (const std::string& assignment : command.set) options.set.push_back({assignment});
 }
 
-[[noreturn]] void refuse(const std::string& file, std::string message) {
+[[noreturn]] void refuse_result(const std::string& file, std::string message) {
   throw core::InputError(core::Diagnostic{.place = {.file = file}, .message = std::move(message)});
 }
 
@@ -79,8 +79,8 @@ Json fitted_document(const std::string& path) {
   constexpr std::size_t largest = std::size_t{1} << 26U;
   Json document = scenarios::parse_json(scenarios::read_file(file.string(), largest));
   if (!document.is_object() || document.value("analysis", Json()) != "fit" || !document.contains("result"))
-    refuse(file.string(), "this is not the result of a fit");
-  if (!document.at("result").is_object()) refuse(file.string(), "the fit has no result");
+    refuse_result(file.string(), "this is not the result of a fit");
+  if (!document.at("result").is_object()) refuse_result(file.string(), "the fit has no result");
   return document;
 }
 
@@ -158,7 +158,7 @@ scenarios::Scenario scenario_of(const PredictCommand& command) {
   try {
     return prediction_by(document, command);
   } catch (const Json::exception&) {
-    refuse(command.result, "the result of the fit is damaged");
+    refuse_result(command.result, "the result of the fit is damaged");
   }
 }
 

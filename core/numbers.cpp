@@ -16,7 +16,9 @@ std::size_t skip_digits(std::string_view text, std::size_t at) {
   return at;
 }
 
-NumberText refused(std::string fault, std::size_t length) { return {std::nullopt, length, std::move(fault)}; }
+NumberText refused_number(std::string fault, std::size_t length) {
+  return {std::nullopt, length, std::move(fault)};
+}
 
 /// The run of characters a person would take for the number, for messages.
 std::size_t word_length(std::string_view text) {
@@ -28,13 +30,13 @@ std::size_t word_length(std::string_view text) {
 NumberText without_digit(std::string_view text, std::size_t sign) {
   const std::string_view rest = text.substr(sign);
   if (rest.size() > 1 && rest[0] == '.' && is_digit(rest[1]))
-    return refused("has no digit before its point", word_length(text));
+    return refused_number("has no digit before its point", word_length(text));
   if (text.size() > 1 && text[0] == '+' && (is_digit(text[1]) || text[1] == '.'))
-    return refused("has a leading plus sign", word_length(text));
+    return refused_number("has a leading plus sign", word_length(text));
   for (const std::string_view name : {"nan", "NaN", ".nan", ".NaN", "NAN", ".NAN", "inf", "Inf", ".inf", ".Inf",
                                       "INF", ".INF", "infinity", "Infinity"})
-    if (rest.substr(0, word_length(rest)) == name) return refused("is not finite", word_length(text));
-  return refused(rest.empty() ? "is missing" : "does not begin with a digit", 0);
+    if (rest.substr(0, word_length(rest)) == name) return refused_number("is not finite", word_length(text));
+  return refused_number(rest.empty() ? "is missing" : "does not begin with a digit", 0);
 }
 
 NumberText converted(std::string_view digits) {
@@ -43,7 +45,7 @@ NumberText converted(std::string_view digits) {
   const bool nonzero =
       digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos;
   if (nonzero && (result.ec == std::errc::result_out_of_range || value == 0.0 || !std::isfinite(value)))
-    return refused("is outside the range of double precision", digits.size());
+    return refused_number("is outside the range of double precision", digits.size());
   return {value, digits.size(), {}};
 }
 
@@ -59,12 +61,12 @@ NumberText read_number(std::string_view text) {
   std::size_t end = skip_digits(text, sign);
   if (text[sign] == '0') {
     if (end < text.size() && (text[end] == 'x' || text[end] == 'X'))
-      return refused("is hexadecimal", word_length(text));
-    if (end > sign + 1) return refused("has a leading zero", word_length(text));
+      return refused_number("is hexadecimal", word_length(text));
+    if (end > sign + 1) return refused_number("has a leading zero", word_length(text));
   }
   if (end < text.size() && text[end] == '.') {
     const std::size_t fraction = skip_digits(text, end + 1);
-    if (fraction == end + 1) return refused("has no digit after its point", word_length(text));
+    if (fraction == end + 1) return refused_number("has no digit after its point", word_length(text));
     end = fraction;
   }
   if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
@@ -75,13 +77,21 @@ NumberText read_number(std::string_view text) {
     if (exponent > end + 1 + exponent_sign) end = exponent;
   }
   if (end + 1 < text.size() && text[end] == ',' && is_digit(text[end + 1]))
-    return refused("has a comma: the decimal sign is a point, and digits are not grouped", word_length(text));
+    return refused_number("has a comma: the decimal sign is a point, and digits are not grouped",
+                          word_length(text));
   return converted(text.substr(0, end));
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string_view::npos ? std::string_view()
+                                         : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
 }
 
 NumberText parse_number(std::string_view text) {
   NumberText number = read_number(text);
-  if (number.value && number.length != text.size()) return refused("is followed by something else", text.size());
+  if (number.value && number.length != text.size())
+    return refused_number("is followed by something else", text.size());
   return number;
 }
 

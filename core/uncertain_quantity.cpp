@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> signs = {"\u00b1", "+/-", "+-"};
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
 struct Halves {
   std::string_view value;
   std::string_view uncertainty;
@@ -36,7 +30,7 @@ std::string_view unit_of(std::string_view text) {
   return trimmed(text.substr(length));
 }
 
-UncertainQuantityText refused(std::string fault) { return {{}, {}, std::move(fault), {}}; }
+UncertainQuantityText refused_pair(std::string fault) { return {{}, {}, std::move(fault), {}}; }
 
 UncertainQuantityText without_uncertainty(const QuantityText& quantity) {
   return {quantity.value, {}, quantity.fault, quantity.suggestion};
@@ -69,8 +63,8 @@ UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::strin
   std::string uncertainty_text(both->uncertainty);
   if (unit.empty() && !uncertainty_text.empty()) uncertainty_text += " " + std::string(unit_of(value_text));
   const QuantityText uncertainty = parse_quantity(uncertainty_text, is_relative ? "1" : si_unit, coordinate);
-  if (!uncertainty.value) return refused("the uncertainty: " + uncertainty.fault);
-  if (*uncertainty.value < 0.0) return refused("the uncertainty is negative");
+  if (!uncertainty.value) return refused_pair("the uncertainty: " + uncertainty.fault);
+  if (*uncertainty.value < 0.0) return refused_pair("the uncertainty is negative");
   result.uncertainty = is_relative ? *uncertainty.value * std::abs(*result.value) : *uncertainty.value;
   return result;
 }

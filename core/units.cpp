@@ -49,17 +49,11 @@ std::string to_ascii(std::string_view unit) {
   return text;
 }
 
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
-}
-
 std::string quoted(std::string_view text) {
   return "'" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...'" : "'");  // some are of a megabyte
 }
 
-QuantityText refused(std::string fault) { return {std::nullopt, std::move(fault), {}}; }
+QuantityText refused_quantity(std::string fault) { return {std::nullopt, std::move(fault), {}}; }
 
 /// A usual unit that differs in case only, or in nothing but the prefix's spelling, or that has a radian more.
 std::string similar_unit(std::string_view unit, std::string_view si_unit, Coordinate coordinate) {
@@ -134,23 +128,23 @@ UnitAnswer factor_of(std::string_view text, std::string_view dimension_name, Coo
 }  // namespace
 
 QuantityText parse_quantity(std::string_view text, std::string_view si_unit, Coordinate coordinate) {
-  const std::string body = trimmed(text);
+  const std::string body(trimmed(text));
   const NumberText number = read_number(body);
   if (!number.value) {
-    if (number.length == 0) return refused("there is no number at the beginning of " + quoted(body));
-    return refused("the number " + quoted(body.substr(0, number.length)) + " " + number.fault);
+    if (number.length == 0) return refused_quantity("there is no number at the beginning of " + quoted(body));
+    return refused_quantity("the number " + quoted(body.substr(0, number.length)) + " " + number.fault);
   }
-  const std::string unit = trimmed(std::string_view(body).substr(number.length));
+  const std::string unit(trimmed(std::string_view(body).substr(number.length)));
   const UnitAnswer answer = factor_of(unit, si_unit, coordinate);
   if (!answer.factor) {
-    QuantityText result = refused(answer.fault);
+    QuantityText result = refused_quantity(answer.fault);
     const std::string similar = similar_unit(unit, si_unit, coordinate);
     if (!similar.empty()) result.suggestion = body.substr(0, number.length) + " " + similar;
     return result;
   }
   const double value = answer.factor->apply(*number.value);
   if (!std::isfinite(value) || (value == 0.0 && *number.value != 0.0))
-    return refused(quoted(body) + " is outside the range of double precision");
+    return refused_quantity(quoted(body) + " is outside the range of double precision");
   return {value, {}, {}};
 }
 

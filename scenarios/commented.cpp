@@ -40,7 +40,7 @@ std::string fallback_of(const Field& field) {
   return text;
 }
 
-class Writer {
+class CommentedWriter {
  public:
   void section(const Node& node, const Section& section, const std::string& indent) {
     for (const Field& field : section.fields) {
@@ -95,7 +95,7 @@ class Writer {
 
 std::string commented(const std::string& text, const AnalysisList& analyses) {
   const Document document("template", text);
-  Writer writer;
+  CommentedWriter writer;
   writer.section(document.root(), scenario_format(analyses), "");
   return writer.take();
 }

@@ -23,15 +23,15 @@ constexpr double slow_instant = 1e-4;
 
 /// The largest of |x| or |v| so far, a twentieth of the walk ahead: a motion that has just begun is not yet a size.
 /// What happens between two samples counts, by the speed there and by the position of events.
-struct Sizes {
+struct WalkSizes {
   std::vector<double> x;
   std::vector<double> v;
 };
 
-Sizes sizes(const Walk& walk) {
+WalkSizes sizes(const Walk& walk) {
   constexpr std::size_t ahead = walk_samples / 20;
   const std::size_t count = walk.samples.size();
-  Sizes result{std::vector<double>(count), std::vector<double>(count)};
+  WalkSizes result{std::vector<double>(count), std::vector<double>(count)};
   double x = 0.0;
   double v = 0.0;
   std::size_t seen = 0;

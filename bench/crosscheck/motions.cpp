@@ -18,7 +18,7 @@ namespace {
 
 using scenarios::Json;
 
-constexpr double tolerance = 1e-7;
+constexpr double agreed_tolerance = 1e-7;
 constexpr double energy_tolerance_exact = 1e-10;
 constexpr double energy_tolerance_smooth = 1e-7;
 constexpr double change = 1e-10;
@@ -102,7 +102,7 @@ class Motions {
       findings_.push_back({name, Verdict::disagree, 0.0, "the other motion is not finite"});
       return;
     }
-    const Difference gap = difference(first_, other, sensitivity, tolerance);
+    const Difference gap = difference(first_, other, sensitivity, agreed_tolerance);
     Finding finding{name, Verdict::agreed, gap.worst, {}};
     if (!gap.fault.empty()) {
       finding.verdict = Verdict::disagree;
@@ -112,7 +112,7 @@ class Motions {
       finding.text = gap.exception;
     } else if (gap.resting > 0) {
       finding.verdict = Verdict::exception;
-      finding.text = fmt::format("at rest within the tolerance: {} groups", gap.resting);
+      finding.text = fmt::format("at rest within the agreed_tolerance: {} groups", gap.resting);
     } else if (gap.coincident > 0) {
       finding.verdict = Verdict::exception;
       finding.text = fmt::format("coincident events: {} groups", gap.coincident);
@@ -150,7 +150,7 @@ class Motions {
       findings_.push_back(
           {name, cost ? Verdict::not_compared : Verdict::disagree, 0.0,
            (cost ? "smooth engine: " : "only the smooth engine gives up: ") + other.outcome.reason});
-    } else if (!other.finite || difference(first_, other, sensitivity_, tolerance).fault.empty()) {
+    } else if (!other.finite || difference(first_, other, sensitivity_, agreed_tolerance).fault.empty()) {
       judge(name, other);
     } else {
       Sensitivity wider = sensitivity_;
@@ -180,12 +180,13 @@ class Motions {
     const double allowed = is_exact_ ? energy_tolerance_exact : energy_tolerance_smooth;
     Finding finding{"energy balance", Verdict::agreed, defect, {}};
     if (first_.energy_scale == 0.0) finding.worst = 0.0;
-    // The smooth engine knows positions to its tolerance of a thousandth of what the drive could move the mass by.
+    // The smooth engine knows positions to its agreed_tolerance of a thousandth of what the drive could move the
+    // mass by.
     constexpr double unresolved = 1e-12;
     if (!is_exact_ && std::abs(first_.energy.defect) <= unresolved * first_.drive_energy &&
         !(finding.worst <= allowed)) {
       finding.verdict = Verdict::exception;
-      finding.text = "at rest within the tolerance: the mass creeps";
+      finding.text = "at rest within the agreed_tolerance: the mass creeps";
     } else if (!(finding.worst <= allowed)) {
       finding.verdict = Verdict::disagree;
       finding.text = fmt::format("defect {:.2e} of the energy exchanged", defect);

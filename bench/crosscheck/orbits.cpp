@@ -15,7 +15,7 @@ namespace dualdamp::crosscheck {
 
 namespace {
 
-constexpr double tolerance = 1e-7;
+constexpr double closure_tolerance = 1e-7;
 /// Over the periods of the steady state; a subharmonic does not close over a forcing period.
 sim::Transient transient(const sim::Model& model, const sim::SteadyState& state) {
   const Patience patience;
@@ -51,7 +51,8 @@ Finding compare_transient(const sim::SteadyState& state, const sim::Transient& m
     const double modulus = largest_multiplier(state);
     constexpr double safely = 1e-20;
     // With one on the unit circle orbits form a continuum, along which a motion may creep however slowly.
-    if (!is_cut && motion.closure > tolerance && std::pow(modulus, motion.periods / state.period_ratio) < safely)
+    if (!is_cut && motion.closure > closure_tolerance &&
+        std::pow(modulus, motion.periods / state.period_ratio) < safely)
       return {name, Verdict::disagree, 0.0,
               fmt::format("largest multiplier {:.4g}, but after {} periods the transient closes to {:.1e} only",
                           modulus, motion.periods, motion.closure)};
@@ -60,7 +61,7 @@ Finding compare_transient(const sim::SteadyState& state, const sim::Transient& m
   const double size = std::max(size_of(motion), std::abs(state.peak));
   const double apart = std::max(std::abs(state.peak - motion.peak), std::abs(state.trough - motion.trough));
   const double worst = apart == 0.0 ? 0.0 : apart / size;
-  if (worst <= tolerance) return {name, Verdict::agreed, worst, {}};
+  if (worst <= closure_tolerance) return {name, Verdict::agreed, worst, {}};
   return {name, Verdict::disagree, worst,
           fmt::format("peak {:.10g}, trough {:.10g}; transient {:.10g}, {:.10g} after {} periods{}", state.peak,
                       state.trough, motion.peak, motion.trough, motion.periods,

@@ -1,18 +1,18 @@
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "bench/score/scores.hpp"
 #include "core/diagnostics.hpp"
+#include "scenarios/format/json.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {
 
 namespace {
 
-using Json = nlohmann::json;
+using scenarios::Json;
 
 double number_in(const Json& json, const char* key) {
   const auto found = json.find(key);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = StoredRun::Json;
 
 constexpr const char* as_no_run_writes = "the file is not as a run wrote it: run the scenario again";
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const fs::path& file, std::string message) {
   core::Diagnostic problem;
@@ -127,7 +127,7 @@ void finish(StoredColumn& column) {
   for (const std::string& text : column.texts) {
     const auto number = core::parse_number(text).value;
     column.is_text = column.is_text || (!number && !text.empty());
-    column.numbers.push_back(number.value_or(none));
+    column.numbers.push_back(number.value_or(missing));
   }
 }
 
@@ -230,7 +230,7 @@ StoredTable StoredRun::list(std::string_view path) const {
   for (StoredColumn& column : table.columns)
     for (const Json& row : rows) {
       const Json value = row.value(column.name, Json());
-      column.numbers.push_back(value.is_number() ? value.get<double>() : none);
+      column.numbers.push_back(value.is_number() ? value.get<double>() : missing);
       column.texts.push_back(value.is_string() ? value.get<std::string>() : "");
       column.is_text = column.is_text || value.is_string();
     }

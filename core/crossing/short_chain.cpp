@@ -7,7 +7,7 @@ namespace dualdamp::core {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double smallest_share = std::numeric_limits<double>::epsilon();
 
 /// (k + 1) (m!/(m + k)!) is below rounding behind this many terms of G_m, m >= 2.
 constexpr std::size_t longest = 24;
@@ -43,7 +43,7 @@ std::array<double, ShortChain::most> ShortChain::at(double s) const {
     low += term * order;
     // Every other h_k may vanish.
     const double left = std::abs(term) * order;
-    if (left < epsilon && last < epsilon) break;
+    if (left < smallest_share && last < smallest_share) break;
     last = left;
     order += 1.0;
     share *= reciprocals[count_ + k + 1];

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/constants.hpp"
+
 namespace dualdamp::friction {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 }  // namespace
 

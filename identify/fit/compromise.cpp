@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/fit/problem.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -15,7 +16,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 double size_of_stated(const FitParameter& parameter) {
   const double size = std::abs(parameter.stated);

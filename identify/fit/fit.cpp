@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/serial_test.hpp"
@@ -16,7 +16,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
 

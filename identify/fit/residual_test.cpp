@@ -17,7 +17,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr Eigen::Index least_samples = 64;
+constexpr Eigen::Index least_test_samples = 64;
 
 /// The longest length up to `count` whose prime factors are 2, 3 and 5: others take long to transform.
 Eigen::Index quick_length(Eigen::Index count) {
@@ -74,7 +74,8 @@ double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std
   constexpr double exact = 1e-5;
   const double size = (measured.array() - measured.mean()).matrix().norm();
   if (residuals.norm() <= exact * size) return unknown;
-  if (signal.is_sampled) return residuals.size() < least_samples ? unknown : p_value_of_motion(measured, residuals);
+  if (signal.is_sampled)
+    return residuals.size() < least_test_samples ? unknown : p_value_of_motion(measured, residuals);
   const double freedom = static_cast<double>(residuals.size()) - static_cast<double>(parameters);
   if (!signal.is_stated || freedom < 1.0) return unknown;
   // F with a denominator that is known is chi-square.

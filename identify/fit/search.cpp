@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -14,7 +14,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 /// Weights and steps.
 class Search {

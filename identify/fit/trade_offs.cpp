@@ -11,7 +11,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-std::string percent(double share) { return core::format_number(100.0 * std::abs(share), 2) + " %"; }
+std::string percent_of_size(double share) { return core::format_number(100.0 * std::abs(share), 2) + " %"; }
 
 /// "sigma1 and damping trade off one to one".
 std::string pair_text(const WeakDirection& direction, const std::vector<FitParameter>& parameters, Eigen::Index a,
@@ -24,7 +24,7 @@ std::string pair_text(const WeakDirection& direction, const std::vector<FitParam
   if (first.unit == second.unit && std::abs(std::abs(ratio) - 1.0) < equal) return both + " one to one";
   constexpr double small = 0.1;
   const double shares = direction.share[b] / direction.share[a];
-  return both + ": 10 % more of " + first.name + " with " + percent(small * shares) +
+  return both + ": 10 % more of " + first.name + " with " + percent_of_size(small * shares) +
          (shares < 0.0 ? " less of " : " more of ") + second.name;
 }
 
@@ -52,13 +52,13 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   TradeOff found;
   for (const Eigen::Index i : order) found.parameters.push_back(parameters[static_cast<std::size_t>(i)].name);
   const std::string known = std::isfinite(direction.deviation)
-                                ? "; the data leave " + percent(2.0 * direction.deviation * largest) + " of " +
-                                      found.parameters.front() + " open"
+                                ? "; the data leave " + percent_of_size(2.0 * direction.deviation * largest) +
+                                      " of " + found.parameters.front() + " open"
                                 : "; nothing in the data holds them";
   if (order.size() == 1)
     found.text = std::isfinite(direction.deviation)
                      ? "the data hardly show " + found.parameters.front() + ": it is known to " +
-                           percent(2.0 * direction.deviation * largest) + " of its value"
+                           percent_of_size(2.0 * direction.deviation * largest) + " of its value"
                      : "the data do not show " + found.parameters.front() + " at all";
   else if (order.size() == 2)
     found.text = pair_text(direction, parameters, order[0], order[1]) + known;

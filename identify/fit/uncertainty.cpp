@@ -4,10 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/fit/profile.hpp"
 #include "identify/fit/residual_covariance.hpp"
 #include "identify/fit/trade_offs.hpp"
@@ -17,7 +17,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 class Uncertainty {
  public:

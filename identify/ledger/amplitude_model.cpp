@@ -207,7 +207,7 @@ class SteadyStates {
   bool with_phases_ = false;
 };
 
-struct Fit {
+struct AmplitudeFit {
   Parameters at;
   Deviations deviations;
   Rows rows;
@@ -260,8 +260,9 @@ void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
 }
 
 /// The fit where sigma_Y is `ratio` times sigma_x. `relaxed`: where the coefficients taken begin.
-Fit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio, double relaxed) {
-  Fit fit;
+AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio,
+                      double relaxed) {
+  AmplitudeFit fit;
   fit.at = {begin, states.none_relaxed()};
   for (const std::size_t j : taken) fit.at.g[static_cast<Eigen::Index>(j)] = relaxed;
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
@@ -290,7 +291,8 @@ Fit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken
 /// The best share of the deviations. Some 25 states hardly tell it: sensors of like accuracy are the most probable,
 /// a factor of three is one standard deviation. At one frequency the gain of Y on x hardly varies and without
 /// phases the record cannot tell at all: errors in x alone then, unless inputs that repeat say otherwise.
-Fit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken, double relaxed = 0.0) {
+AmplitudeFit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken,
+                      double relaxed = 0.0) {
   if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0, relaxed);
   double Y = 0.0;
   double x = 0.0;
@@ -299,10 +301,10 @@ Fit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken
     x += point.x;
   }
   const double deviation = std::log(3.0);
-  Fit best;
+  AmplitudeFit best;
   double least = std::numeric_limits<double>::infinity();
   for (const double share : {0.03, 0.1, 0.3, 0.55, 1.0, 1.8, 3.3, 10.0}) {
-    Fit fit = fit_with(states, begin, taken, share * Y / x, relaxed);
+    AmplitudeFit fit = fit_with(states, begin, taken, share * Y / x, relaxed);
     const double deviance = fit.deviance + std::pow(std::log(share) / deviation, 2);
     if (deviance < least || !std::isfinite(best.deviance)) {
       best = std::move(fit);
@@ -362,7 +364,7 @@ void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction,
 }
 
 /// What a natural frequency other than stated makes of the constants: the stiffness is not as stated, or the mass.
-KnownConstants constants_at(const Fit& fit, const SteadyStates& states, KnownConstants constants) {
+KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states, KnownConstants constants) {
   for (std::size_t j = 0; j < states.terms().size(); ++j) {
     const double g = fit.at.g[static_cast<Eigen::Index>(j)];
     if (states.terms()[j]->test == stiffness_free) constants.stiffness *= std::exp(-2.0 * g);
@@ -371,8 +373,8 @@ KnownConstants constants_at(const Fit& fit, const SteadyStates& states, KnownCon
   return constants;
 }
 
-JointModel model_of(const Fit& fit, const SteadyStates& states, const Taken& relaxed, double unit,
-                    const KnownConstants& stated) {
+JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& states, const Taken& relaxed,
+                              double unit, const KnownConstants& stated) {
   const KnownConstants constants = constants_at(fit, states, stated);
   JointModel model;
   model.constants = constants;
@@ -393,14 +395,14 @@ JointModel model_of(const Fit& fit, const SteadyStates& states, const Taken& rel
                  stated](const Taken& taken) {
     const bool second_order =
         std::ranges::any_of(taken, [&](std::size_t j) { return std::ranges::find(hidden, j) != hidden.end(); });
-    Fit best = best_fit(states, begin, taken);
+    AmplitudeFit best = best_fit(states, begin, taken);
     // What acts in the second order has no slope at zero.
     constexpr double away = 0.02;
     for (const double g : second_order ? std::vector<double>{away, -away} : std::vector<double>{}) {
-      Fit other = best_fit(states, begin, taken, g);
+      AmplitudeFit other = best_fit(states, begin, taken, g);
       if (other.deviance < best.deviance) best = std::move(other);
     }
-    return model_of(best, states, taken, unit, stated);
+    return amplitude_model_of(best, states, taken, unit, stated);
   };
   const double to_force = constants.stiffness * unit;
   // At a constant F0 = k x_f.
@@ -431,10 +433,10 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   std::vector<std::string> said;
   while (points.size() >= fewest) {
     const SteadyStates states(points, true);
-    const Fit fit = best_fit(states, first_guess(points), {});
+    const AmplitudeFit fit = best_fit(states, first_guess(points), {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
     if (drop_sticking(points, fit.at.friction, said)) continue;
-    JointModel model = model_of(fit, states, {}, unit, constants);
+    JointModel model = amplitude_model_of(fit, states, {}, unit, constants);
     model.left_out = std::move(said);
     return model;
   }

@@ -91,7 +91,7 @@ Complex delayed(const PlainFriction& friction, double x, double r, double g) {
 }
 
 using enum Assumption;
-constexpr std::array<AmplitudeTerm, 13> terms = {{
+constexpr std::array<AmplitudeTerm, 13> all_amplitude_terms = {{
     {constants, mass_free, false, detuned},
     {constants, stiffness_free, false, detuned},
     {sensors, "lag of the phase free", false, lagging},
@@ -109,6 +109,6 @@ constexpr std::array<AmplitudeTerm, 13> terms = {{
 
 }  // namespace
 
-std::span<const AmplitudeTerm> amplitude_terms() { return terms; }
+std::span<const AmplitudeTerm> amplitude_terms() { return all_amplitude_terms; }
 
 }  // namespace dualdamp::identify

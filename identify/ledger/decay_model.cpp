@@ -73,7 +73,7 @@ using enum Assumption;
 /// A period other than stated: alike but for F0 = k x_f.
 constexpr std::string_view mass_free = "period free, stiffness as stated";
 constexpr std::string_view stiffness_free = "period free, mass as stated";
-constexpr std::array<DecayTerm, 9> terms = {{
+constexpr std::array<DecayTerm, 9> all_decay_terms = {{
     {constants, mass_free, no_loss, always},
     {constants, stiffness_free, no_loss, always},
     {spring, "cubic stiffness", stiffer, stiffening},
@@ -88,7 +88,7 @@ constexpr std::array<DecayTerm, 9> terms = {{
 /// Terms that a record can tell: those of times only where there are times.
 std::vector<const DecayTerm*> terms_of(bool timed) {
   std::vector<const DecayTerm*> list;
-  for (const DecayTerm& term : terms)
+  for (const DecayTerm& term : all_decay_terms)
     if (timed || term.loss != no_loss) list.push_back(&term);
   return list;
 }

@@ -35,7 +35,7 @@ double one_sided_friction(const At& /*at*/, const MotionScale& /*scale*/) { retu
 double one_sided_damping(const At& at, const MotionScale& scale) { return at.direction * speed(at, scale); }
 
 using enum Assumption;
-constexpr std::array<HistoryTerm, 12> terms = {{
+constexpr std::array<HistoryTerm, 12> all_history_terms = {{
     {sensors, "gain of the drive free", drive_gain},
     {spring, "cubic stiffness", cubic_spring},
     {spring, "quadratic stiffness", square_spring},
@@ -52,6 +52,6 @@ constexpr std::array<HistoryTerm, 12> terms = {{
 
 }  // namespace
 
-std::span<const HistoryTerm> history_terms() { return terms; }
+std::span<const HistoryTerm> history_terms() { return all_history_terms; }
 
 }  // namespace dualdamp::identify

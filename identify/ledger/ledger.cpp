@@ -39,7 +39,7 @@ std::string rounded(double value) {
 std::string in_percent(double share) { return rounded(100.0 * share) + " %"; }
 
 /// The first of the models that the record allows; else why there is none.
-MaybeModel model_of(const Record& record, const KnownConstants& constants) {
+MaybeModel testable_model(const Record& record, const KnownConstants& constants) {
   MaybeModel model = std::string("the record holds nothing that can be tested");
   if (!record.histories.empty()) model = history_model(record, constants);
   if (std::holds_alternative<std::string>(model) && record.pairs) model = amplitude_model(record, constants);
@@ -312,7 +312,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Ledger ledger;
   ledger.coordinate = constants.coordinate;
   for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
-  const MaybeModel found = model_of(record, constants);
+  const MaybeModel found = testable_model(record, constants);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     for (LedgerEntry& entry : ledger.entries) entry.reason = *reason;
     return ledger;

@@ -23,7 +23,7 @@ constexpr double bound = 2.0;  ///< k
 constexpr std::array<ReadingKind, 4> kinds = {ReadingKind::amplitude, ReadingKind::phase, ReadingKind::extreme,
                                               ReadingKind::time};
 
-std::variant<JointModel, std::string> model_of(const Record& record, const KnownConstants& constants) {
+std::variant<JointModel, std::string> readings_model(const Record& record, const KnownConstants& constants) {
   if (record.pairs) return amplitude_model(record, constants);
   return decay_model(record, constants);
 }
@@ -69,7 +69,7 @@ struct Distance {
 
 /// Distances of the readings of `measured` from the fit to `moved`. Nothing where there is no fit.
 std::optional<std::vector<Distance>> distances(Record& measured, Record& moved, const KnownConstants& constants) {
-  const auto found = model_of(moved, constants);
+  const auto found = readings_model(moved, constants);
   if (std::holds_alternative<std::string>(found)) return std::nullopt;
   const auto& model = std::get<JointModel>(found);
   const Eigen::VectorXd left = model.residuals - model.base * pivoted_least_squares(model.base, model.residuals);

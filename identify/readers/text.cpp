@@ -205,4 +205,6 @@ std::string excerpt(std::string_view text) {
   return std::string(text.substr(0, end));
 }
 
+std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
+
 }  // namespace dualdamp::identify

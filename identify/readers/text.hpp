@@ -29,4 +29,7 @@ void refuse_binary(std::string_view text, const std::string& file);
 /// The beginning of `text` that fits into a message, cut between characters.
 [[nodiscard]] std::string excerpt(std::string_view text);
 
+/// The same between quotes.
+[[nodiscard]] std::string quoted(std::string_view text);
+
 }  // namespace dualdamp::identify

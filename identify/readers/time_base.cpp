@@ -42,9 +42,9 @@ double cubic(const std::array<double, 4>& t, const std::array<double, 4>& x, dou
   return value;
 }
 
-class Clock {
+class StampReader {
  public:
-  explicit Clock(const TimeStamps& stamps) : stamps_(stamps), t_(stamps.t), all_{0, stamps.t.size()} {}
+  explicit StampReader(const TimeStamps& stamps) : stamps_(stamps), t_(stamps.t), all_{0, stamps.t.size()} {}
 
   TimeBase run() {
     if (all_.size() < fewest_samples)
@@ -299,7 +299,7 @@ class Clock {
 
 }  // namespace
 
-TimeBase time_base_of(const TimeStamps& stamps) { return Clock(stamps).run(); }
+TimeBase time_base_of(const TimeStamps& stamps) { return StampReader(stamps).run(); }
 
 std::vector<double> interpolated_evenly(std::span<const double> t, std::span<const double> values) {
   const std::size_t n = t.size();

@@ -14,7 +14,6 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr int most_harmonics = 9;
 constexpr int most_blocks = 24;
 /// Residuals above this share of the signal: it is no steady state at this frequency.

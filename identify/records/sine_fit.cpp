@@ -15,8 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
 /// sum of cos(angle tau) over n samples tau = -(n-1)/2, ..., (n-1)/2: Dirichlet's kernel.
 double dirichlet(double angle, double n) {
   const double half = std::remainder(0.5 * angle, std::numbers::pi);

@@ -7,25 +7,20 @@
 
 namespace dualdamp::identify {
 
-namespace {
-
-using Range = std::pair<Eigen::Index, Eigen::Index>;
-
-std::vector<Range> ranges(const std::vector<Eigen::Index>& blocks, Eigen::Index count) {
-  std::vector<Range> list;
+std::vector<std::pair<Eigen::Index, Eigen::Index>> block_ranges(const std::vector<Eigen::Index>& blocks,
+                                                                Eigen::Index count) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> list;
   Eigen::Index begin = 0;
   for (const Eigen::Index block : blocks)
     if (block > begin) list.emplace_back(std::exchange(begin, block), block);
-  list.emplace_back(begin, count);
+  if (count > begin) list.emplace_back(begin, count);
   return list;
 }
-
-}  // namespace
 
 Eigen::VectorXd covariances_of(const Eigen::VectorXd& errors, const std::vector<Eigen::Index>& blocks, int most,
                                double freedom) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(most + 1);
-  for (const auto& [begin, end] : ranges(blocks, errors.size()))
+  for (const auto& [begin, end] : block_ranges(blocks, errors.size()))
     for (Eigen::Index lag = 0; lag <= most && lag < end - begin; ++lag)
       sums[lag] += errors.segment(begin, end - begin - lag).dot(errors.segment(begin + lag, end - begin - lag));
   return sums / freedom;
@@ -53,7 +48,7 @@ Autoregression autoregression_of(const Eigen::VectorXd& covariances, double coun
 Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows, const std::vector<Eigen::Index>& blocks,
                          const Autoregression& autoregression) {
   const Eigen::Index p = autoregression.coefficients.size();
-  const std::vector<Range> parts = ranges(blocks, rows.rows());
+  const auto parts = block_ranges(blocks, rows.rows());
   Eigen::Index left = 0;
   for (const auto& [begin, end] : parts) left += std::max<Eigen::Index>(0, end - begin - p);
   Eigen::MatrixXd result(left, rows.cols());

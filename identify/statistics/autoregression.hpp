@@ -8,6 +8,7 @@
 /// (box2016). Cost: p times that of reading the rows.
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 namespace dualdamp::identify {
@@ -16,6 +17,11 @@ struct Autoregression {
   Eigen::VectorXd coefficients;  ///< a_1 ... a_p; empty: independent errors
   double deviation = 1.0;        ///< s
 };
+
+/// First and last + 1 of the rows of each record, in `count` rows. `blocks`: rows at which another record begins; 0
+/// need not be named.
+[[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> block_ranges(
+    const std::vector<Eigen::Index>& blocks, Eigen::Index count);
 
 /// Mean products of errors at lags 0 ... most. `blocks`: rows at which another record begins, across which nothing
 /// correlates; 0 need not be named. `freedom`: what sums are divided by.

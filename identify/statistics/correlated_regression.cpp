@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "identify/statistics/autoregression.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/linear_least_squares.hpp"
 
@@ -13,18 +14,6 @@ namespace dualdamp::identify {
 namespace {
 
 /// Blocks as pairs of first row and end.
-std::vector<std::pair<Eigen::Index, Eigen::Index>> ranges(const std::vector<Eigen::Index>& blocks,
-                                                          Eigen::Index rows) {
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> list;
-  Eigen::Index begin = 0;
-  for (const Eigen::Index block : blocks) {
-    if (block > begin) list.emplace_back(begin, block);
-    begin = std::max(begin, block);
-  }
-  if (rows > begin) list.emplace_back(begin, rows);
-  return list;
-}
-
 using Ranges = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
 double product_at(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index lag) {
@@ -99,7 +88,7 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   fit.residuals = target - scaled * solution;
   fit.deviation = std::sqrt(fit.residuals.squaredNorm() / static_cast<double>(columns.rows() - count));
 
-  const Ranges parts = ranges(blocks, columns.rows());
+  const Ranges parts = block_ranges(blocks, columns.rows());
   const std::vector<double> rho = correlation_of(fit.residuals, parts);
   double inflation = 1.0;
   for (std::size_t l = 1; l < rho.size(); ++l) inflation += 2.0 * weight(l, rho.size()) * rho[l];

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 struct Point {
   double value = 0.0;

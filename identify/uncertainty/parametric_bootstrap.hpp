@@ -31,6 +31,9 @@ namespace dualdamp::identify {
 
 inline constexpr int synthetic_count = 40;
 
+/// Place of a sensor's offset [N] behind m, c, k and F0.
+inline constexpr Eigen::Index offset_place = 4;
+
 /// What a method makes of one record: m, c, k, F0, and after them what else it estimates.
 struct ParameterReading {
   Eigen::VectorXd parameters;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -50,7 +50,7 @@ Choice measurements() {
             {std::move(histories), {{{"duration", "cycles"}, true}}}}}};
 }
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using core::two_pi;
 
 std::optional<double> sensor_number(const CheckedFile& file, const std::string& key) {
   if (!file.has("analysis", "sensors") || !file.values().at("analysis").at("sensors").contains(key))

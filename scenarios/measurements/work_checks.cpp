@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
@@ -13,7 +13,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
+using core::two_pi;
 
 }  // namespace
 

@@ -9,13 +9,15 @@
 #include <numbers>
 #include <vector>
 
+#include "core/constants.hpp"
+
 namespace dualdamp::sim::analytic {
 
 namespace {
 
 using std::numbers::pi;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 /// scale times 1 - sin(sqrt z)/sqrt z, an entire function of z; `sine_ratio` is scale sin(sqrt z)/sqrt z, used
 /// where nothing cancels.

@@ -11,14 +11,19 @@
 
 namespace dualdamp::sim {
 
+inline constexpr std::size_t radau_stages = 5;
+
 struct RadauCollocation {
-  static constexpr std::size_t stages = 5;
+  static constexpr std::size_t stages = radau_stages;
   static constexpr std::size_t pairs = stages / 2;  ///< of complex eigenvalues; one is left, and real
   static_assert(stages % 2 == 1);
   using Row = std::array<double, stages>;
   using Matrix = std::array<Row, stages>;
 
   RadauCollocation();
+
+  /// Computed at the first call.
+  static const RadauCollocation& once();
 
   /// u(c) = sum_j basis(c)_j z_j.
   [[nodiscard]] Row basis(double c) const;

@@ -17,17 +17,11 @@ using Complex = std::complex<double>;
 using Vector = std::vector<double>;
 using Row = RadauCollocation::Row;
 using Matrix = RadauCollocation::Matrix;
-constexpr std::size_t stages = RadauCollocation::stages;
 constexpr std::size_t pairs = RadauCollocation::pairs;
-constexpr std::size_t middle = stages / 2;
+constexpr std::size_t middle = radau_stages / 2;
 /// The component that is the speed of the mass, on which friction acts (`flow.hpp`).
 constexpr std::size_t speed = 1;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-const RadauCollocation& radau() {
-  static const RadauCollocation once;
-  return once;
-}
 
 /// NaN where one of them is.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
@@ -36,16 +30,16 @@ double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 template <std::size_t N>
 class RadauStepper final : public Stepper {
  public:
-  static constexpr int estimate_order = stages;
+  static constexpr int estimate_order = radau_stages;
 
   explicit RadauStepper(std::size_t n)
       : n_(extent<N>(n)),
         start_(n),
         end_(n),
-        polynomial_(n * stages),
-        z_(n * stages),
-        rates_(n * stages),
-        correction_(n * stages),
+        polynomial_(n * radau_stages),
+        z_(n * radau_stages),
+        rates_(n * radau_stages),
+        correction_(n * radau_stages),
         state_(n),
         middle_state_(n),
         probed_(n),
@@ -67,7 +61,7 @@ class RadauStepper final : public Stepper {
       }
     }
     if (!estimate(field, x, t, h, error)) return false;
-    for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[(stages - 1) * n_() + k];
+    for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[(radau_stages - 1) * n_() + k];
     std::ranges::copy(x, start_.begin());
     std::ranges::copy(end, end_.begin());
     std::swap(polynomial_, z_);
@@ -97,7 +91,7 @@ class RadauStepper final : public Stepper {
   /// sum_j weights_j states_j, component k.
   [[nodiscard]] double combine(const Row& weights, const Vector& states, std::size_t k) const {
     double sum = 0.0;
-    for (std::size_t j = 0; j < stages; ++j) sum += weights[j] * states[j * n_() + k];
+    for (std::size_t j = 0; j < radau_stages; ++j) sum += weights[j] * states[j * n_() + k];
     return sum;
   }
 
@@ -108,9 +102,9 @@ class RadauStepper final : public Stepper {
     const double length = h / h_;
     if (!(from >= 0.0 && from <= 1.0 && length > 0.0 && from + length <= farthest)) return false;
     const Row here = radau_.basis(from);
-    for (std::size_t i = 0; i < stages; ++i) {
+    for (std::size_t i = 0; i < radau_stages; ++i) {
       Row basis = radau_.basis(from + length * radau_.nodes[i]);
-      for (std::size_t j = 0; j < stages; ++j) basis[j] -= here[j];
+      for (std::size_t j = 0; j < radau_stages; ++j) basis[j] -= here[j];
       for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = combine(basis, polynomial_, k);
     }
     return true;
@@ -119,7 +113,7 @@ class RadauStepper final : public Stepper {
   /// z from the rates at the start: away from a speed at which alone friction is steep.
   void begin_straight(const VectorField& field, std::span<const double> x, double t, double h) {
     field.evaluate(x, t, state_);
-    for (std::size_t i = 0; i < stages; ++i)
+    for (std::size_t i = 0; i < radau_stages; ++i)
       for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = radau_.nodes[i] * h * state_[k];
   }
 
@@ -144,7 +138,7 @@ class RadauStepper final : public Stepper {
                                      std::span<const double> allowed) {
     constexpr double round_off = 64.0 * epsilon;
     if (n_() <= speed) return false;
-    for (std::size_t i = 0; i < stages; ++i) {
+    for (std::size_t i = 0; i < radau_stages; ++i) {
       if (!(h * std::abs(speed_defect_[i]) > allowed[speed])) continue;
       for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
       const double slope = combine(radau_.slopes[i], z_, speed) / h;
@@ -211,13 +205,13 @@ class RadauStepper final : public Stepper {
 
   /// One iteration: z += correction.
   void correct(const VectorField& field, std::span<const double> x, double t, double h) {
-    for (std::size_t i = 0; i < stages; ++i) {
+    for (std::size_t i = 0; i < radau_stages; ++i) {
       for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
       field.evaluate(state_, t + radau_.nodes[i] * h, std::span(rates_).subspan(i * n_(), n_()));
     }
-    for (std::size_t i = 0; i < stages; ++i)
+    for (std::size_t i = 0; i < radau_stages; ++i)
       for (std::size_t k = 0; k < n_(); ++k) rates_[i * n_() + k] -= combine(radau_.slopes[i], z_, k) / h;
-    for (std::size_t i = 0; i < stages && n_() > speed; ++i) speed_defect_[i] = rates_[i * n_() + speed];
+    for (std::size_t i = 0; i < radau_stages && n_() > speed; ++i) speed_defect_[i] = rates_[i * n_() + speed];
     transform(radau_.from_stages, rates_, correction_);
     real_factors_.solve(correction_.data());
     for (std::size_t p = 0; p < pairs; ++p) solve_pair(p, correction_.data() + (1 + 2 * p) * n_());
@@ -227,7 +221,7 @@ class RadauStepper final : public Stepper {
   }
 
   void transform(const Matrix& matrix, const Vector& from, Vector& to) const {
-    for (std::size_t i = 0; i < stages; ++i)
+    for (std::size_t i = 0; i < radau_stages; ++i)
       for (std::size_t k = 0; k < n_(); ++k) to[i * n_() + k] = combine(matrix[i], from, k);
   }
 
@@ -247,7 +241,7 @@ class RadauStepper final : public Stepper {
     for (std::size_t k = 0; k < n_(); ++k) {
       double change = 0.0;
       double reach = 0.0;
-      for (std::size_t i = 0; i < stages; ++i) {
+      for (std::size_t i = 0; i < radau_stages; ++i) {
         change = larger(change, std::abs(correction_[i * n_() + k]));
         reach = std::max(reach, std::abs(z_[i * n_() + k]));
       }
@@ -266,7 +260,7 @@ class RadauStepper final : public Stepper {
     return std::ranges::all_of(error, [](double value) { return std::isfinite(value); });
   }
 
-  const RadauCollocation& radau_ = radau();
+  const RadauCollocation& radau_ = RadauCollocation::once();
   Extent<N> n_;
   // The last step that succeeded.
   double t_ = 0.0;
@@ -281,7 +275,7 @@ class RadauStepper final : public Stepper {
   Vector state_;
   Vector middle_state_;  ///< where the Jacobian was taken
   Vector probed_;
-  Row speed_defect_{};  ///< f - u' at the stages before the last correction
+  Row speed_defect_{};  ///< f - u' at the radau_stages before the last correction
   std::vector<Complex> pair_;
   double factored_h_ = 0.0;
   Vector jacobian_;

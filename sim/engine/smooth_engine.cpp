@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
+#include "core/constants.hpp"
 #include "sim/engine/variation.hpp"
 
 namespace dualdamp::sim {
@@ -14,7 +14,7 @@ using friction::Direction;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 /// Errors of a step change by at most these factors.
 constexpr double largest_growth = 5.0;

@@ -11,12 +11,6 @@ namespace dualdamp::sim {
 namespace {
 
 using Vector = std::vector<double>;
-constexpr std::size_t stages = RadauCollocation::stages;
-
-const RadauCollocation& radau() {
-  static const RadauCollocation once;
-  return once;
-}
 
 /// sum_j slopes_ij u_j = h (J_i (column + u_i) + forcing_i) in every stage i; a set of s states is stored one after
 /// the other.
@@ -28,18 +22,18 @@ class RadauVariation final : public Variation {
         state_(n),
         later_(n),
         earlier_(n),
-        jacobians_(stages * n * n),
-        forcing_(stages * n),
-        right_(stages * n),
-        matrix_(stages * n * stages * n),
-        factors_(stages * n) {}
+        jacobians_(radau_stages * n * n),
+        forcing_(radau_stages * n),
+        right_(radau_stages * n),
+        matrix_(radau_stages * n * radau_stages * n),
+        factors_(radau_stages * n) {}
 
   [[nodiscard]] bool pass(const VectorField& field, const TakenStep& step, std::span<double> columns,
                           std::span<double> late) override {
     linearise(field, step);
     for (std::size_t first = 0; first < columns.size(); first += n_()) {
       const std::span<double> column = columns.subspan(first, n_());
-      for (std::size_t i = 0; i < stages; ++i) multiply(i, column, std::span(right_).subspan(i * n_(), n_()));
+      for (std::size_t i = 0; i < radau_stages; ++i) multiply(i, column, std::span(right_).subspan(i * n_(), n_()));
       add_change(column);
     }
     std::ranges::fill(late, 0.0);
@@ -50,11 +44,11 @@ class RadauVariation final : public Variation {
   }
 
  private:
-  /// Jacobians h J_i and h df/dt of the stages, and the factors of their equations.
+  /// Jacobians h J_i and h df/dt of the radau_stages, and the factors of their equations.
   void linearise(const VectorField& field, const TakenStep& step) {
-    const std::size_t size = n_() * stages;
+    const std::size_t size = n_() * radau_stages;
     std::ranges::fill(matrix_, 0.0);
-    for (std::size_t i = 0; i < stages; ++i) {
+    for (std::size_t i = 0; i < radau_stages; ++i) {
       step.stepper.at(radau_.nodes[i], state_);
       const double t = step.t + radau_.nodes[i] * step.h;
       const std::span<double> jacobian = std::span(jacobians_).subspan(i * n_() * n_(), n_() * n_());
@@ -65,7 +59,7 @@ class RadauVariation final : public Variation {
       for (std::size_t k = 0; k < n_(); ++k)
         forcing_[i * n_() + k] = step.h * (later_[k] - earlier_[k]) / (2.0 * step.increment);
       // With the other sign: the factors are those of 0 - matrix.
-      for (std::size_t j = 0; j < stages; ++j)
+      for (std::size_t j = 0; j < radau_stages; ++j)
         for (std::size_t k = 0; k < n_(); ++k) matrix_[(j * n_() + k) * size + i * n_() + k] = -radau_.slopes[i][j];
       for (std::size_t j = 0; j < n_(); ++j)
         for (std::size_t k = 0; k < n_(); ++k)
@@ -84,10 +78,10 @@ class RadauVariation final : public Variation {
   /// The last stage of what right_ makes.
   void add_change(std::span<double> column) {
     factors_.solve(right_.data());
-    for (std::size_t k = 0; k < n_(); ++k) column[k] += right_[(stages - 1) * n_() + k];
+    for (std::size_t k = 0; k < n_(); ++k) column[k] += right_[(radau_stages - 1) * n_() + k];
   }
 
-  const RadauCollocation& radau_ = radau();
+  const RadauCollocation& radau_ = RadauCollocation::once();
   Extent<N> n_;
   Vector state_;
   Vector later_;
@@ -96,7 +90,7 @@ class RadauVariation final : public Variation {
   Vector forcing_;
   Vector right_;
   Vector matrix_;
-  LuFactors<double, N * stages> factors_;
+  LuFactors<double, N * radau_stages> factors_;
 };
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
@@ -23,7 +23,7 @@ namespace analytic = sim::analytic;
 namespace {
 
 constexpr double greatest_zeta = 0.95;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 /// Parameters (zeta, x_f in the unit of the data, ln(wn/wn of the constants)); the last may be held at 0.
 class AmplitudeLaw {
@@ -130,16 +130,16 @@ std::optional<Eigen::Vector3d> starting_point(const AmplitudeLaw& law) {
   return best;
 }
 
-struct Fit {
+struct ExactFit {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::VectorXd residual;
   Eigen::MatrixX3d jacobian;  ///< in all three directions
 };
 
-std::optional<Fit> fit_model(const AmplitudeLaw& law) {
+std::optional<ExactFit> fit_model(const AmplitudeLaw& law) {
   const std::optional<Eigen::Vector3d> start = starting_point(law);
   if (!start) return std::nullopt;
-  Fit result;
+  ExactFit result;
   const auto full = [&law](const Eigen::VectorXd& p) {
     return Eigen::Vector3d(p[0], p[1], law.size() == 3 ? p[2] : 0.0);
   };
@@ -179,10 +179,10 @@ std::optional<Eigen::Vector3d> refine(const AmplitudeLaw& law, Eigen::Vector3d p
 }
 
 /// Fits, leaves out the pairs that stick at the estimate, and fits again until none does.
-std::optional<Fit> fit_sliding(AmplitudeLaw& law, double unit, const KnownConstants& constants,
-                               Estimate& estimate) {
+std::optional<ExactFit> fit_sliding(AmplitudeLaw& law, double unit, const KnownConstants& constants,
+                                    Estimate& estimate) {
   while (law.rows() >= law.size()) {
-    std::optional<Fit> fit = fit_model(law);
+    std::optional<ExactFit> fit = fit_model(law);
     if (!fit) return std::nullopt;
     const double x_f = fit->p[1];
     std::vector<Datum> left;
@@ -211,13 +211,13 @@ std::optional<Fit> fit_sliding(AmplitudeLaw& law, double unit, const KnownConsta
 }
 
 /// The constants with the mass that makes the fitted natural frequency of the known stiffness.
-KnownConstants fitted_constants(const KnownConstants& constants, const Fit& fit) {
+KnownConstants fitted_constants(const KnownConstants& constants, const ExactFit& fit) {
   KnownConstants result = constants;
   result.mass *= std::exp(-2.0 * fit.p[2]);
   return result;
 }
 
-void add_uncertainty(const AmplitudeLaw& law, const Fit& fit, double unit, const KnownConstants& constants,
+void add_uncertainty(const AmplitudeLaw& law, const ExactFit& fit, double unit, const KnownConstants& constants,
                      const std::optional<Scatter>& scatter, Estimate& estimate) {
   const std::optional<Eigen::MatrixXd> covariance = unit_covariance(fit.jacobian.leftCols(law.size()));
   if (scatter && covariance) {
@@ -238,7 +238,7 @@ void add_uncertainty(const AmplitudeLaw& law, const Fit& fit, double unit, const
 }
 
 /// Is the friction another one at larger amplitudes, and is the natural frequency another one?
-void test_fit(const AmplitudeLaw& law, const Fit& fit, Estimate& estimate) {
+void test_fit(const AmplitudeLaw& law, const ExactFit& fit, Estimate& estimate) {
   const Eigen::MatrixXd columns = fit.jacobian.leftCols(law.size());
   const Eigen::VectorXd residual = -fit.residual;  // measurement less law
   Eigen::VectorXd square(law.rows());
@@ -260,7 +260,7 @@ void test_fit(const AmplitudeLaw& law, const Fit& fit, Estimate& estimate) {
 }
 
 /// Phases are not fitted; they speak of the instruments and of wn.
-void judge_phases(const Record& record, const AmplitudeLaw& law, const Fit& fit, Estimate& estimate) {
+void judge_phases(const Record& record, const AmplitudeLaw& law, const ExactFit& fit, Estimate& estimate) {
   double sum = 0.0;
   int count = 0;
   for (const Datum& datum : law.pairs()) {
@@ -279,7 +279,7 @@ void judge_phases(const Record& record, const AmplitudeLaw& law, const Fit& fit,
                                 " degrees in the mean: a lag of the instruments, or another natural frequency");
 }
 
-Deviance deviance_of(const AmplitudeLaw& law, const Fit& fit, double unit, double variance) {
+Deviance deviance_of(const AmplitudeLaw& law, const ExactFit& fit, double unit, double variance) {
   return [&law, &fit, unit, variance, least = fit.residual.squaredNorm()](double zeta, double x_f) {
     const auto deviance = [&](double u) { return (sum_of_squares(law, {zeta, x_f / unit, u}) - least) / variance; };
     if (law.size() == 2) return deviance(0.0);
@@ -289,7 +289,7 @@ Deviance deviance_of(const AmplitudeLaw& law, const Fit& fit, double unit, doubl
   };
 }
 
-void bootstrap(const AmplitudeLaw& law, const Fit& fit, const ResonanceData& data, int replicates,
+void bootstrap(const AmplitudeLaw& law, const ExactFit& fit, const ResonanceData& data, int replicates,
                Estimate& estimate) {
   const std::vector<std::vector<std::size_t>> blocks = sweep_blocks(law.pairs());
   const double widen = std::sqrt(static_cast<double>(law.rows()) /
@@ -344,7 +344,7 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
     refuse(estimate, std::move(fault));
     return estimate;
   }
-  const std::optional<Fit> fit = fit_sliding(law, data->unit, constants, estimate);
+  const std::optional<ExactFit> fit = fit_sliding(law, data->unit, constants, estimate);
   if (!fit) {
     std::string fault = fault_of(law, estimate.excluded);
     refuse(estimate, fault.empty() ? "no zeta below 0.95 fits the pairs" : std::move(fault));

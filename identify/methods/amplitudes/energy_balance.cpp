@@ -28,7 +28,7 @@ EnergyTerms energy_of(const Pair& pair, double stiffness) {
 
 namespace {
 
-std::optional<ForceLine> line_through(const std::vector<EnergyTerms>& accounts) {
+std::optional<ForceLine> force_line_of(const std::vector<EnergyTerms>& accounts) {
   std::vector<Datum> points;
   points.reserve(accounts.size());
   for (const EnergyTerms& account : accounts)
@@ -47,7 +47,7 @@ std::vector<EnergyTerms> accounts_of(const std::vector<Pair>& states, double sti
 
 bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& constants, Estimate& estimate,
              std::vector<std::string>& faults, const OwnAccounts& own) {
-  const std::optional<ForceLine> line = line_through(accounts);
+  const std::optional<ForceLine> line = force_line_of(accounts);
   if (!line) {
     refuse(estimate, "two steady states of different speeds are needed");
     return false;
@@ -55,7 +55,7 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
   set_estimate(estimate, *line, constants);
   ForceLine scattered = *line;  // without what the method's own approximation leaves, which is no error of the data
   if (own && estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
-    const std::optional<ForceLine> of_own = line_through(own(estimate.value));
+    const std::optional<ForceLine> of_own = force_line_of(own(estimate.value));
     if (of_own && of_own->residuals.size() == scattered.residuals.size()) {
       scattered.residuals -= of_own->residuals;
       set_estimate(estimate, scattered, constants);
@@ -148,7 +148,7 @@ Estimate of_states(const Record& record, const KnownConstants& constants, Estima
     return estimate;
   if (approximate) {
     const auto read = [&](const std::vector<Pair>& exact) -> std::optional<ParameterSet> {
-      const std::optional<ForceLine> line = line_through(accounts_of(exact, constants.stiffness));
+      const std::optional<ForceLine> line = force_line_of(accounts_of(exact, constants.stiffness));
       if (!line) return std::nullopt;
       return parameters(ForceParameters{constants.mass, line->c(), constants.stiffness, line->F0()});
     };

@@ -92,8 +92,6 @@ ValueAndSlope saturating_fundamental(double a) {
 
 namespace {
 
-constexpr double share = 4.0 / pi;  // of Coulomb friction in its fundamental
-
 using Fundamentals = FundamentalLaw::Fundamentals;
 /// Without the long double that Boost takes to round the last digit.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
@@ -102,24 +100,26 @@ Fundamentals of_power(double V, double /*X*/, double n) {
   const double phi = fundamental_factor(n) * std::pow(V, n);
   const double factor_slope =
       0.5 * (boost::math::digamma(0.5 * n + 1.0, InDouble()) - boost::math::digamma(0.5 * n + 1.5, InDouble()));
-  return {{share, phi}, {0.0, n * phi}, {0.0, phi * (std::log(V) + factor_slope)}};
+  return {{coulomb_share, phi}, {0.0, n * phi}, {0.0, phi * (std::log(V) + factor_slope)}};
 }
 
 Fundamentals of_saturating(double V, double /*X*/, double v0) {
   const double a = V / v0;
   const ValueAndSlope s = saturating_fundamental(a);
-  return {{share, v0 * s.value}, {0.0, V * s.slope}, {0.0, s.value - a * s.slope}};
+  return {{coulomb_share, v0 * s.value}, {0.0, V * s.slope}, {0.0, s.value - a * s.slope}};
 }
 
 Fundamentals of_stribeck(double V, double /*X*/, double vs) {
   const double u = V / vs;
   const double D = dawson(u);
-  const double slope = share * (1.0 - 2.0 * u * D - D / u);  // D' = 1 - 2 u D
-  return {{share, V, share * D / u}, {0.0, V, slope}, {0.0, 0.0, -slope / vs}};
+  const double slope = coulomb_share * (1.0 - 2.0 * u * D - D / u);  // D' = 1 - 2 u D
+  return {{coulomb_share, V, coulomb_share * D / u}, {0.0, V, slope}, {0.0, 0.0, -slope / vs}};
 }
 
 /// Coulomb and viscous friction and one term that grows as X^n or V^n, without a shape.
-Fundamentals with_power(double V, double term, double n) { return {{share, V, term}, {0.0, V, n * term}, {}}; }
+Fundamentals with_power(double V, double term, double n) {
+  return {{coulomb_share, V, term}, {0.0, V, n * term}, {}};
+}
 
 }  // namespace
 
@@ -129,7 +129,7 @@ const std::vector<FundamentalLaw>& fundamental_laws() {
   static const std::vector<FundamentalLaw> laws = {
       {.name = "coulomb_viscous",
        .coefficients = {F0, c},
-       .fundamentals = [](double V, double, double) { return Fundamentals{{share, V}, {0.0, V}, {}}; },
+       .fundamentals = [](double V, double, double) { return Fundamentals{{coulomb_share, V}, {0.0, V}, {}}; },
        .forces = [](double v, double) { return Terms{1.0, v}; }},
       {.name = "quadratic_drag",
        .coefficients = {F0, c, {"drag", "N.s^2/m^2", 2, 0, true}},
@@ -155,12 +155,12 @@ const std::vector<FundamentalLaw>& fundamental_laws() {
        .forces = [](double v, double vs) { return Terms{1.0, v, std::exp(-(v / vs) * (v / vs))}; }},
       {.name = "position_quadratic",
        .coefficients = {F0, c, {"curvature", "N/m^2", 0, 2, true}},
-       .fundamentals = [](double V, double X, double) { return with_power(V, share * X * X / 3.0, 2.0); },
+       .fundamentals = [](double V, double X, double) { return with_power(V, coulomb_share * X * X / 3.0, 2.0); },
        .alias_at_one_frequency = true,
        .one_more = true},
       {.name = "position_linear",
        .coefficients = {F0, c, {"slope", "N/m", 0, 1, true}},
-       .fundamentals = [](double V, double X, double) { return with_power(V, share * 0.5 * X, 1.0); },
+       .fundamentals = [](double V, double X, double) { return with_power(V, coulomb_share * 0.5 * X, 1.0); },
        .alias_at_one_frequency = true,
        .one_more = true},
   };

@@ -8,11 +8,15 @@
 /// and for a law of position (4/(pi X)) int_0^X F(s) ds.
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 namespace dualdamp::identify {
+
+/// Of Coulomb friction in its fundamental.
+inline constexpr double coulomb_share = 4.0 / std::numbers::pi;
 
 /// A coefficient [N . (s/m)^speed_power . m^-length_power] of a law.
 struct LawCoefficient {

@@ -35,8 +35,6 @@ namespace {
 
 constexpr Eigen::Index most_terms = 4;
 
-double fundamental(const Pair& pair) { return std::isnan(pair.fundamental) ? pair.x : pair.fundamental; }
-
 /// Speed amplitude and fundamental of the friction of one state; nothing where spring and inertia take more than
 /// the drive gives.
 std::optional<Datum> friction_point(const Pair& pair, const KnownConstants& constants) {
@@ -60,10 +58,8 @@ std::vector<Datum> friction_points(const std::vector<Pair>& states, const KnownC
   return points;
 }
 
-constexpr double share = 4.0 / pi;  // of Coulomb friction in its fundamental
-
-std::optional<ParameterSet> read(const std::vector<Pair>& states, const KnownConstants& constants) {
-  const std::optional<ForceLine> line = force_line(friction_points(states, constants), share);
+std::optional<ParameterSet> balanced_parameters(const std::vector<Pair>& states, const KnownConstants& constants) {
+  const std::optional<ForceLine> line = force_line(friction_points(states, constants), coulomb_share);
   if (!line) return std::nullopt;
   return parameters(ForceParameters{constants.mass, line->c(), constants.stiffness, line->F0()});
 }
@@ -119,7 +115,8 @@ MonomialFit fit_monomials(const std::vector<Datum>& points, Eigen::Index terms) 
 ParameterSet corrected(const std::vector<Pair>& states, const ParameterSet& value,
                        const KnownConstants& constants) {
   const std::vector<Pair> exact = exact_states(states, value, constants);
-  const std::optional<ParameterSet> own = exact.size() == states.size() ? read(exact, constants) : std::nullopt;
+  const std::optional<ParameterSet> own =
+      exact.size() == states.size() ? balanced_parameters(exact, constants) : std::nullopt;
   return own ? parameters(ForceParameters{constants.mass, 2.0 * value.c - own->c, constants.stiffness,
                                           2.0 * value.F0 - own->F0})
              : value;
@@ -271,7 +268,7 @@ std::optional<ForceLine> fit_sliding(std::vector<Pair>& states, const KnownConst
     return true;
   });
   while (true) {
-    std::optional<ForceLine> line = force_line(friction_points(states, constants), share);
+    std::optional<ForceLine> line = force_line(friction_points(states, constants), coulomb_share);
     if (!line) {
       refuse(estimate, few(states.size(), estimate));
       return std::nullopt;
@@ -320,7 +317,7 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
   list_coefficients(fit, estimate);
   add_curves(line->points, fit, estimate);
   judge_own_reading(
-      *states, constants, [&](const auto& exact) { return read(exact, constants); },
+      *states, constants, [&](const auto& exact) { return balanced_parameters(exact, constants); },
       "because the motion is not harmonic", estimate, faults);
   conclude(estimate, faults,
            "rests on " + std::to_string(line->points.size()) + " of " + std::to_string(record.pairs->pairs.size()) +

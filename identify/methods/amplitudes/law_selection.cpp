@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"
@@ -23,7 +23,7 @@ namespace analytic = sim::analytic;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 /// Differences of x below this fraction of its range are of no weight.
 constexpr double least_effect = 5e-4;

@@ -147,7 +147,7 @@ std::optional<LackOfFit> friction_curvature_test(const std::vector<Datum>& pairs
 namespace {
 
 /// A line with what it was drawn from and what it says.
-struct Fit {
+struct FittedLine {
   Moments moments;
   double lambda = 0.0;
   Line line;
@@ -179,8 +179,9 @@ Eigen::VectorXd residuals_of(const std::vector<Datum>& pairs, const Line& line) 
   return residuals;
 }
 
-std::optional<Fit> fit_line(const LineRule& rule, const ResonanceData& data, const std::vector<Datum>& used) {
-  Fit fit;
+std::optional<FittedLine> fit_line(const LineRule& rule, const ResonanceData& data,
+                                   const std::vector<Datum>& used) {
+  FittedLine fit;
   fit.moments = moments_of(used);
   fit.lambda = rule.lambda(fit.moments);
   const std::optional<Line> line = line_of(fit.moments, fit.lambda);
@@ -192,7 +193,7 @@ std::optional<Fit> fit_line(const LineRule& rule, const ResonanceData& data, con
   return fit;
 }
 
-LineFit line_fit(const Fit& fit, double unit) {
+LineFit line_fit(const FittedLine& fit, double unit) {
   const double deviation = fit.freedom() > 0.0 ? std::sqrt(fit.residuals.squaredNorm() / fit.freedom()) : 0.0;
   LineFit line{fit.line.slope, fit.line.intercept * unit, deviation * unit, fit.friction.G, {}};
   line.residuals.reserve(static_cast<std::size_t>(fit.residuals.size()));
@@ -201,7 +202,7 @@ LineFit line_fit(const Fit& fit, double unit) {
 }
 
 /// Covariance of (zeta, x_f): the height of the line at the mean input and its slope are uncorrelated.
-Eigen::Matrix2d covariance(const Fit& fit, const ResonanceG& G, double scatter) {
+Eigen::Matrix2d covariance(const FittedLine& fit, const ResonanceG& G, double scatter) {
   const LineFriction& friction = fit.friction;
   const double zeta_slope = -2.0 * friction.zeta * friction.zeta;  // d zeta/d b
   const double G_slope = G.derivative(friction.zeta) * zeta_slope;
@@ -213,7 +214,7 @@ Eigen::Matrix2d covariance(const Fit& fit, const ResonanceG& G, double scatter) 
   return jacobian * variance.asDiagonal() * jacobian.transpose();
 }
 
-void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate) {
+void test_line_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate) {
   std::vector<std::size_t> all(used.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   estimate.lack_of_fit = friction_curvature_test(used, exact, {all});
@@ -244,7 +245,7 @@ std::vector<SubsetFit> subset_fits(const LineRule& rule, const ResonanceData& da
 }
 
 /// The weighted sum of squares over its least value, in variances of one datum.
-Deviance deviance_of(const Fit& fit, const ResonanceData& data, double scatter) {
+Deviance deviance_of(const FittedLine& fit, const ResonanceData& data, double scatter) {
   const auto sum = [m = fit.moments, lambda = fit.lambda](double b, double a) {
     const double height = m.mean_x - a - b * m.mean_Y;
     const double squares = m.count * height * height + m.S_xx - 2.0 * b * m.S_xY + b * b * m.S_YY;
@@ -272,7 +273,7 @@ Replicate sweep_replicate(const LineRule& rule, const ResonanceData& data, std::
 }
 
 /// Each pair is taken to the line along the direction of its errors, and another pair's residual added to it there.
-Replicate residual_replicate(const Fit& fit, const ResonanceData& data, const std::vector<Datum>& used) {
+Replicate residual_replicate(const FittedLine& fit, const ResonanceData& data, const std::vector<Datum>& used) {
   const double share = std::isfinite(fit.lambda) ? fit.line.slope / (fit.lambda + fit.line.slope * fit.line.slope)
                                                  : 0.0;  // of a residual that is laid on the input
   const double widen = std::sqrt(fit.moments.count / std::max(fit.freedom(), 1.0));
@@ -290,8 +291,8 @@ Replicate residual_replicate(const Fit& fit, const ResonanceData& data, const st
   };
 }
 
-void bootstrap(const LineRule& rule, const Fit& fit, const ResonanceData& data, const std::vector<Datum>& used,
-               int replicates, Estimate& estimate) {
+void bootstrap(const LineRule& rule, const FittedLine& fit, const ResonanceData& data,
+               const std::vector<Datum>& used, int replicates, Estimate& estimate) {
   std::vector<Moments> sweeps;
   for (const std::vector<std::size_t>& block : sweep_blocks(used)) {
     Moments moments;
@@ -316,7 +317,7 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
     refuse(estimate, std::move(fault));
     return estimate;
   }
-  const std::optional<Fit> fit = fit_line(rule, *data, used);
+  const std::optional<FittedLine> fit = fit_line(rule, *data, used);
   if (!fit) {
     refuse(estimate, "the output amplitude does not grow with the input amplitude");
     return estimate;
@@ -335,7 +336,7 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * fit->moments.mean_Y * data->unit, faults);
   const std::vector<Datum> exact = exact_pairs(*data, used, fit->friction);
-  test_curvature(used, exact, estimate);
+  test_line_curvature(used, exact, estimate);
   const auto line_through = [&](const std::vector<Datum>& pairs) {
     return line_of(moments_of(pairs), fit->lambda);
   };

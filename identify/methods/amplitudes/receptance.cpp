@@ -19,12 +19,10 @@ using std::numbers::pi;
 
 namespace {
 
-double fundamental(const Pair& pair) { return std::isnan(pair.fundamental) ? pair.x : pair.fundamental; }
-
 /// k Y/X, N/m.
 double dynamic_stiffness(const Pair& pair, double stiffness) { return stiffness * pair.Y / fundamental(pair); }
 
-struct Fit {
+struct PartFit {
   Eigen::MatrixXd columns;
   Eigen::VectorXd coefficients;
   Eigen::VectorXd residuals;
@@ -36,8 +34,8 @@ struct Fit {
 using Row = std::function<Eigen::Vector3d(const Pair&)>;
 
 /// Least squares of two columns; `row` gives them and the value of one state.
-Fit fit_states(const std::vector<Pair>& states, const Row& row) {
-  Fit fit;
+PartFit fit_states(const std::vector<Pair>& states, const Row& row) {
+  PartFit fit;
   fit.columns.resize(static_cast<Eigen::Index>(states.size()), 2);
   Eigen::VectorXd values(fit.columns.rows());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -56,7 +54,7 @@ Eigen::Vector3d imaginary_row(const Pair& state, double stiffness) {
 }
 
 /// Coefficients (c, F0).
-Fit imaginary_part(const std::vector<Pair>& states, double stiffness) {
+PartFit imaginary_part(const std::vector<Pair>& states, double stiffness) {
   return fit_states(states, [stiffness](const Pair& state) { return imaginary_row(state, stiffness); });
 }
 
@@ -68,7 +66,8 @@ double error_gain(const Pair& state, double c, double stiffness) {
 }
 
 /// The same fit with states weighted by their errors: what remains are residuals alike.
-Fit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weights, double c, double stiffness) {
+PartFit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weights, double c,
+                      double stiffness) {
   std::size_t i = 0;
   return fit_states(states, [&](const Pair& state) -> Eigen::Vector3d {
     return imaginary_row(state, stiffness) / error_gain(weights[i++], c, stiffness);
@@ -76,15 +75,16 @@ Fit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weig
 }
 
 /// Coefficients (k, m).
-Fit real_part(const std::vector<Pair>& states, double stiffness) {
+PartFit real_part(const std::vector<Pair>& states, double stiffness) {
   return fit_states(states, [stiffness](const Pair& state) {
     return Eigen::Vector3d(1.0, -state.omega * state.omega,
                            dynamic_stiffness(state, stiffness) * std::cos(state.phase));
   });
 }
 
-std::optional<ParameterSet> read(const std::vector<Pair>& states, const KnownConstants& constants) {
-  const Fit fit = imaginary_part(states, constants.stiffness);
+std::optional<ParameterSet> receptance_parameters(const std::vector<Pair>& states,
+                                                  const KnownConstants& constants) {
+  const PartFit fit = imaginary_part(states, constants.stiffness);
   if (!fit.coefficients.allFinite()) return std::nullopt;
   return parameters(ForceParameters{constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1]});
 }
@@ -102,7 +102,7 @@ Eigen::VectorXd weighted_residuals(const std::vector<Pair>& states, const Parame
 }
 
 /// The covariance is that of an unweighted fit to data of unequal errors; their size is told by the weighted one.
-void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownConstants& constants,
+void set_estimate(const std::vector<Pair>& states, const PartFit& fit, const KnownConstants& constants,
                   Estimate& estimate) {
   const double c = fit.coefficients[0];
   const ForceParameters force{constants.mass, c, constants.stiffness, fit.coefficients[1]};
@@ -124,7 +124,7 @@ void set_estimate(const std::vector<Pair>& states, const Fit& fit, const KnownCo
 
 /// Stiffness and mass as the motion shows them; harmonic balance alone puts them off by some percent.
 void list_real_part(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
-  const Fit fit = real_part(states, constants.stiffness);
+  const PartFit fit = real_part(states, constants.stiffness);
   const double k = fit.coefficients[0];
   const double m = fit.coefficients[1];
   if (!(k > 0.0) || !(m > 0.0)) {
@@ -189,7 +189,7 @@ void list_limacon(const std::vector<Pair>& states, const KnownConstants& constan
 /// A friction that grows with the amplitude adds w^2 X to the imaginary part.
 void test_amplitude(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
   const double c = estimate.value.c;
-  const Fit fit = weighted_part(states, states, c, constants.stiffness);
+  const PartFit fit = weighted_part(states, states, c, constants.stiffness);
   const Eigen::VectorXd residuals = weighted_residuals(states, estimate.value, constants);
   Eigen::VectorXd term(residuals.size());
   for (Eigen::Index i = 0; i < term.size(); ++i) {
@@ -240,11 +240,11 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
   }
   std::optional<std::vector<Pair>> states = take_states(record, constants, true, estimate);
   if (!states) return estimate;
-  Fit fit;
+  PartFit fit;
   do {
     if (!enough(*states, estimate)) return estimate;
     fit = imaginary_part(*states, constants.stiffness);
-    estimate.value = read(*states, constants).value_or(ParameterSet{});
+    estimate.value = receptance_parameters(*states, constants).value_or(ParameterSet{});
   } while (drop_sticking(*states, estimate.value, constants, estimate));
   if (!fit.coefficients.allFinite()) {
     refuse(estimate, "the outputs are such that c and F0 cannot be told apart");
@@ -259,7 +259,7 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
                     rounding * constants.stiffness * states->front().x, faults);
   test_amplitude(*states, constants, estimate);
   judge_own_reading(
-      *states, constants, [&](const auto& exact) { return read(exact, constants); },
+      *states, constants, [&](const auto& exact) { return receptance_parameters(exact, constants); },
       "because the motion is not harmonic", estimate, faults);
   list_real_part(*states, constants, estimate);
   list_limacon(*states, constants, estimate);

@@ -134,7 +134,7 @@ void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
                        "): friction may have drifted within sweeps");
 }
 
-void test_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate) {
+void test_sweep_curvature(const std::vector<Datum>& used, const std::vector<Datum>& exact, Estimate& estimate) {
   estimate.lack_of_fit = friction_curvature_test(used, exact, sweep_blocks(used));
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired)
     estimate.findings.emplace_back(
@@ -249,7 +249,7 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
   judge_signs(estimate, 1e-9 * used.front().Y * data->unit, faults);
   // The exact law with one friction for all: its departure from a line is that of each sweep.
   const std::vector<Datum> exact = exact_pairs(*data, used, *friction);
-  test_curvature(used, exact, estimate);
+  test_sweep_curvature(used, exact, estimate);
   judge_slopes(sweeps, *lines, estimate.warnings);
   const auto line_through = [](const std::vector<Datum>& pairs) {
     return line_of(moments_of(pairs), std::numeric_limits<double>::infinity());

@@ -40,6 +40,8 @@ double natural_frequency(const KnownConstants& constants) {
 
 }  // namespace
 
+double fundamental(const Pair& pair) { return std::isnan(pair.fundamental) ? pair.x : pair.fundamental; }
+
 std::optional<std::vector<Pair>> take_states(const Record& record, const KnownConstants& constants, bool phases,
                                              Estimate& estimate) {
   const auto refused = [&estimate](std::string reason) {

@@ -17,6 +17,9 @@ namespace dualdamp::identify {
 /// Two pairs with phases are asked for.
 [[nodiscard]] std::string lacks_phases(const Record& record);
 
+/// Amplitude of the fundamental of x; the amplitude read where no harmonics were measured.
+[[nodiscard]] double fundamental(const Pair& pair);
+
 /// The pairs with positive finite amplitudes in the order of the record, each with its frequency and number; with
 /// `phases` those alone whose phase was measured and says that the base drives the mass. What is left out is named
 /// in `estimate`. Nothing after it has been refused: no pairs, no stiffness, a frequency that is not known.

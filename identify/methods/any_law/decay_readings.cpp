@@ -15,17 +15,17 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Error of steps over the noise of the readings, and its bounds. Errors add up over the swings.
-constexpr double share_of_noise = 1e-4;
-constexpr double finest = 1e-8;
-constexpr double coarsest = 1e-6;
+constexpr double step_error_over_noise = 1e-4;
+constexpr double finest_step_error = 1e-8;
+constexpr double coarsest_step_error = 1e-6;
 /// Of differences, relative to the unknown's unit.
-constexpr double step = 2e-3;
+constexpr double decay_difference_step = 2e-3;
 constexpr double release_deviation = 1.0;
 constexpr double offset_deviation = 0.2;
 
 /// Decays need no neighbours.
 struct NoOrbits final : NearbyOrbits {
-  double accuracy = finest;
+  double accuracy = finest_step_error;
 };
 
 class DecayReadings final : public ReadingModel {
@@ -73,7 +73,8 @@ class DecayReadings final : public ReadingModel {
 
   [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const override {
     auto none = std::make_unique<NoOrbits>();
-    none->accuracy = std::clamp(share_of_noise * relative_noise(deviations), finest, coarsest);
+    none->accuracy =
+        std::clamp(step_error_over_noise * relative_noise(deviations), finest_step_error, coarsest_step_error);
     return none;
   }
 
@@ -97,10 +98,10 @@ class DecayReadings final : public ReadingModel {
     Eigen::MatrixXd jacobian(here.size(), unknowns());
     for (Index j = 0; j < 3; ++j) {
       VectorXd moved = p;
-      moved[j] += step;
+      moved[j] += decay_difference_step;
       const std::optional<VectorXd> there = residuals(law, moved, near);
       if (!there) return std::nullopt;
-      jacobian.col(j) = (here - *there) / step;
+      jacobian.col(j) = (here - *there) / decay_difference_step;
     }
     jacobian.col(3).setConstant(release_);
     return jacobian;

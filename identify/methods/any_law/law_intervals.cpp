@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double level = 0.05;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using core::infinity;
 
 /// One law over its severity, densely.
 struct Profile {

@@ -20,13 +20,13 @@ using Eigen::VectorXd;
 
 /// Tolerance of steps and of the closure of orbits over the noise of the readings, and its bounds: amplitudes and
 /// phases of 95 orbits in 100 err by 20 tolerances or less, and by a fiftieth of the noise.
-constexpr double share_of_noise = 1.0 / 1000.0;
-constexpr double finest = 1e-8;
-constexpr double coarsest = 1e-5;
+constexpr double closure_over_noise = 1.0 / 1000.0;
+constexpr double finest_closure = 1e-8;
+constexpr double coarsest_closure = 1e-5;
 /// A motion that has not settled by then is no steady state that a laboratory waits for.
 constexpr int patience = 300;
 /// Of differences, relative to F0 and c.
-constexpr double step = 4e-3;
+constexpr double difference_step = 4e-3;
 
 constexpr const char* no_plain_motion =
     "plain Coulomb and viscous friction fits with a negative force or damping: there is no motion to begin with";
@@ -39,7 +39,7 @@ constexpr Index stiffness_unknown = 2;
 constexpr int most_corrections = 4;
 
 struct SteadyOrbits final : NearbyOrbits {
-  double accuracy = finest;
+  double accuracy = finest_closure;
   std::vector<std::optional<sim::KnownOrbit>> orbits;
 };
 
@@ -91,7 +91,7 @@ class SteadyReadings final : public ReadingModel {
 
   [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const override {
     auto none = std::make_unique<SteadyOrbits>();
-    none->accuracy = std::clamp(share_of_noise * relative_noise(deviations), finest, coarsest);
+    none->accuracy = std::clamp(closure_over_noise * relative_noise(deviations), finest_closure, coarsest_closure);
     none->orbits.resize(states_.size());
     return none;
   }
@@ -127,7 +127,8 @@ class SteadyReadings final : public ReadingModel {
     const double damping = 2.0 * p[1] * c_unit_ / (2.0 * std::sqrt(constants_.mass * constants_.stiffness));
     for (Index j = 0; j < std::min<Index>(unknowns(), stiffness_unknown + 1); ++j) {
       constexpr double least = 0.25;  // of the unknown's unit
-      const double h = step * (j == stiffness_unknown ? std::clamp(damping, 1e-3, 0.5) : std::max(p[j], least));
+      const double h =
+          difference_step * (j == stiffness_unknown ? std::clamp(damping, 1e-3, 0.5) : std::max(p[j], least));
       VectorXd moved = p;
       moved[j] += h;
       SteadyOrbits neighbours = static_cast<SteadyOrbits&>(near);

@@ -31,7 +31,7 @@ struct Columns {
 };
 
 /// All samples of all histories that are fast enough, as rows.
-struct Rows {
+struct MotionRows {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target, speed, drag;
   std::vector<Eigen::Index> blocks;
@@ -39,11 +39,11 @@ struct Rows {
 };
 
 /// Known forces go to the left of the equation, unknown ones to the right.
-Rows rows_of(const std::vector<NumberedHistory>& histories, const std::vector<Motion>& motions, double least_speed,
-             const Columns& columns, const KnownConstants& constants) {
+MotionRows motion_rows(const std::vector<NumberedHistory>& histories, const std::vector<Motion>& motions,
+                       double least_speed, const Columns& columns, const KnownConstants& constants) {
   std::size_t samples = 0;
   for (const Motion& motion : motions) samples += motion.v.size();
-  Rows rows;
+  MotionRows rows;
   rows.columns.resize(static_cast<Eigen::Index>(samples), columns.count);
   rows.target.resize(static_cast<Eigen::Index>(samples));
   rows.speed.resize(rows.target.size());
@@ -94,8 +94,6 @@ ForceParameters force_parameters(const CorrelatedFit& fit, const Columns& column
           fit.coefficients[columns.friction]};
 }
 
-constexpr Eigen::Index offset_place = 4;
-
 /// (m, c, k, F0, offset) and their standard errors, zero where the constants give the value.
 ParameterReading reading_of(const CorrelatedFit& fit, const Columns& columns, const KnownConstants& constants) {
   const ForceParameters force = force_parameters(fit, columns, constants);
@@ -121,7 +119,7 @@ std::vector<FurtherParameter> further_parameters(const ParameterReading& reading
 }
 
 /// What is left of the forces after inertia, spring and offset, over speed, and the fitted friction.
-EstimateCurve friction_curve(const Rows& rows, const CorrelatedFit& fit, const Columns& columns) {
+EstimateCurve friction_curve(const MotionRows& rows, const CorrelatedFit& fit, const Columns& columns) {
   EstimateCurve curve{"friction_velocity", {{"v", "m/s", {}}, {"F", "N", {}}, {"fitted", "N", {}}}};
   for (Eigen::Index i = 0; i < rows.speed.size(); ++i) {
     const double fitted = fit.coefficients[columns.damping] * rows.columns(i, columns.damping) +
@@ -175,7 +173,7 @@ bool have_force(const std::vector<NumberedHistory>& histories) {
 
 /// The regression with one choice of cut-off.
 struct Regression {
-  Rows rows;
+  MotionRows rows;
   std::optional<CorrelatedFit> fit;
 };
 
@@ -188,7 +186,7 @@ Regression regress(const std::vector<NumberedHistory>& histories, std::size_t ch
     motions.push_back(motion_of(*item.history, cutoffs[std::min(choice, cutoffs.size() - 1)]));
   }
   Regression regression;
-  regression.rows = rows_of(histories, motions, least_speed_for(motions, options), columns, constants);
+  regression.rows = motion_rows(histories, motions, least_speed_for(motions, options), columns, constants);
   regression.fit = fit_correlated(regression.rows.columns, regression.rows.target, regression.rows.blocks);
   return regression;
 }

@@ -18,17 +18,17 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Rows of the regression on {v, sgn v, 1}.
-struct Rows {
+/// SlidingRows of the regression on {v, sgn v, 1}.
+struct SlidingRows {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target, displacement;
   std::vector<Eigen::Index> blocks;
 };
 
-Rows rows_of(const std::vector<FrictionSamples>& histories, double least_speed) {
+SlidingRows sliding_rows(const std::vector<FrictionSamples>& histories, double least_speed) {
   std::size_t count = 0;
   for (const FrictionSamples& samples : histories) count += samples.force.size();
-  Rows rows;
+  SlidingRows rows;
   rows.columns.resize(static_cast<Eigen::Index>(count), 3);
   rows.target.resize(rows.columns.rows());
   rows.displacement.resize(rows.columns.rows());
@@ -189,14 +189,14 @@ void judge_loop(Estimate& estimate) {
 /// The line through the samples that slide.
 struct SlidingLine {
   double least_speed = 0.0;
-  Rows rows;
+  SlidingRows rows;
   std::optional<CorrelatedFit> fit;
   Swings swings;
 };
 
 SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const RegressionOptions& options) {
   const auto line_beyond = [&](double speed) {
-    SlidingLine line{speed, rows_of(histories, speed), {}, {}};
+    SlidingLine line{speed, sliding_rows(histories, speed), {}, {}};
     line.fit = fit_correlated(line.rows.columns, line.rows.target, line.rows.blocks);
     if (line.fit) line.swings = swings_of(histories, *line.fit);
     return line;
@@ -213,8 +213,6 @@ SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const Re
   }
   return line;
 }
-
-constexpr Eigen::Index offset_place = 4;
 
 /// (m, c, k, F0, offset), mass and stiffness being constants.
 ParameterReading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {

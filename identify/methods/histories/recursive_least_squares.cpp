@@ -46,17 +46,17 @@ class Recursion {
 };
 
 /// The samples that count, as rows.
-struct Rows {
+struct TimedRows {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target;
   std::vector<double> time;
   std::vector<Eigen::Index> blocks;
 };
 
-Rows rows_of(const std::vector<FrictionSamples>& histories, double least_speed) {
+TimedRows timed_rows(const std::vector<FrictionSamples>& histories, double least_speed) {
   std::size_t count = 0;
   for (const FrictionSamples& samples : histories) count += samples.force.size();
-  Rows rows;
+  TimedRows rows;
   rows.columns.resize(static_cast<Eigen::Index>(count), 2);
   rows.target.resize(rows.columns.rows());
   double elapsed = 0.0;  // histories one after the other
@@ -78,7 +78,7 @@ Rows rows_of(const std::vector<FrictionSamples>& histories, double least_speed) 
   return rows;
 }
 
-Recursion recursion_over(const Rows& rows, double forgetting, double speed, EstimateCurve& curve) {
+Recursion recursion_over(const TimedRows& rows, double forgetting, double speed, EstimateCurve& curve) {
   constexpr Eigen::Index most_points = 2000;
   const Eigen::Index every = std::max<Eigen::Index>(1, rows.target.size() / most_points);
   Recursion recursion(forgetting, speed);
@@ -102,7 +102,7 @@ Eigen::Matrix2d covariance_of(const CorrelatedFit& fit, double forgetting) {
 }
 
 /// Friction in both halves of the record.
-void compare_halves(const Rows& rows, Estimate& estimate) {
+void compare_halves(const TimedRows& rows, Estimate& estimate) {
   const Eigen::Index half = rows.target.size() / 2;
   const auto first = fit_correlated(rows.columns.topRows(half), rows.target.head(half), {});
   const auto second = fit_correlated(rows.columns.bottomRows(half), rows.target.tail(half), {});
@@ -118,7 +118,7 @@ void compare_halves(const Rows& rows, Estimate& estimate) {
 
 /// What the recursion makes of a record.
 struct RecursiveFit {
-  Rows rows;
+  TimedRows rows;
   std::optional<CorrelatedFit> fit;
   ParameterReading reading;  ///< (m, c, k, F0), mass and stiffness being constants
   EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
@@ -127,7 +127,7 @@ struct RecursiveFit {
 RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, const KnownConstants& constants,
                              const RecursiveOptions& options) {
   RecursiveFit result;
-  result.rows = rows_of(histories, least_speed_for(histories, options));
+  result.rows = timed_rows(histories, least_speed_for(histories, options));
   result.fit = fit_correlated(result.rows.columns, result.rows.target, result.rows.blocks);
   if (!result.fit) return result;
   const double fastest = result.rows.columns.col(0).cwiseAbs().maxCoeff();

@@ -13,8 +13,6 @@ namespace dualdamp::identify {
 
 namespace {
 
-std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
-
 class HeaderReader {
  public:
   HeaderReader(const Layout& layout, const ReadOptions& options, Problems& problems,

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t most_rows = 20'000'000;
 
-std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
-
 /// A field of every row, and where its numbers go.
 struct Target {
   CsvField field;
