@@ -17,7 +17,6 @@
 #include "sim/parallel.hpp"
 
 using namespace dualdamp;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -177,17 +176,17 @@ TEST_CASE("mechanism study: the whole answer, the same on any number of threads"
       paper_estimates);
   const scenarios::RunResult result = scenarios::run(scenario);
   CHECK(result.status == core::ExitStatus::done);
-  const Json json = Json::parse(result.result);
+  const nlohmann::json json = nlohmann::json::parse(result.result);
   const auto of = [&](const std::string& name) {
-    for (const Json& item : json.at("mechanisms"))
+    for (const nlohmann::json& item : json.at("mechanisms"))
       if (item.at("mechanism") == name) return item;
-    return Json();
+    return nlohmann::json();
   };
   CHECK(json.at("mechanisms").at(0).at("mechanism") == "viscous_saturating");
   CHECK(json.at("mechanisms").at(0).at("misfit") < 0.015);
   CHECK(json.at("explained").at("bend") == Approx(0.142 / 0.0987 - 1.0));
   // Without a mechanism the damper is the same in every segment of a decay.
-  const Json plain = of("coulomb_viscous");
+  const nlohmann::json plain = of("coulomb_viscous");
   const double zeta = plain.at("c").get<double>() / (2.0 * std::sqrt(1.042 * 4365.0));
   for (const char* segment : {"high", "low"}) {
     CHECK(plain.at("decay").at(segment).at("zeta") == Approx(zeta).epsilon(1e-9));
@@ -203,16 +202,16 @@ TEST_CASE("mechanism study: the whole answer, the same on any number of threads"
   // Every number is one that the format knows.
   std::vector<std::string> patterns;
   for (const scenarios::ResultField& field : scenario.result_fields) patterns.push_back(field.path);
-  const std::function<void(const Json&, const std::string&)> check_paths = [&](const Json& value,
-                                                                               const std::string& path) {
-    if (value.is_object())
-      for (const auto& [key, item] : value.items()) check_paths(item, path.empty() ? key : path + "." + key);
-    if (value.is_array())
-      for (const Json& item : value) check_paths(item, path + "[]");
-    if (value.is_structured()) return;
-    CAPTURE(path);
-    CHECK(std::ranges::find(patterns, path) != patterns.end());
-  };
+  const std::function<void(const nlohmann::json&, const std::string&)> check_paths =
+      [&](const nlohmann::json& value, const std::string& path) {
+        if (value.is_object())
+          for (const auto& [key, item] : value.items()) check_paths(item, path.empty() ? key : path + "." + key);
+        if (value.is_array())
+          for (const nlohmann::json& item : value) check_paths(item, path + "[]");
+        if (value.is_structured()) return;
+        CAPTURE(path);
+        CHECK(std::ranges::find(patterns, path) != patterns.end());
+      };
   check_paths(json, "");
 }
 
@@ -221,7 +220,7 @@ TEST_CASE("mechanism study: values of one's own take the place of the known ones
       "levels: 5, mechanisms: [contact_compliance], plausible: [{mechanism: contact_compliance, case: soft, "
       "contact_stiffness: 3000 N/m}, {mechanism: contact_compliance, contact_stiffness: 1e4}], " +
       paper_estimates);
-  const Json json = Json::parse(scenarios::run(scenario).result);
+  const nlohmann::json json = nlohmann::json::parse(scenarios::run(scenario).result);
   REQUIRE(json.at("effects").size() == 2);
   CHECK(json.at("effects").at(0).at("case") == "soft");
   // A contact costs Phi = (4 F0/pi) (1 - d/x), d = F0/K, so that lines through larger x are flatter: 2 % at 3000

@@ -9,7 +9,7 @@ using namespace dualdamp::friction;
 
 namespace {
 
-const std::vector<Parameter> table = {
+const std::vector<Parameter> force_levels = {
     {.name = "kinetic", .unit = "N", .range = {.low = 0.0}, .meaning = "level"},
     {.name = "static",
      .unit = "N",
@@ -37,14 +37,14 @@ using Faults = std::vector<std::string>;
 
 TEST_CASE("parameters: defaults are filled in", "[friction][parameters]") {
   ParameterValues values = {{"kinetic", 2.0}};
-  CHECK(complete(table, values).empty());
+  CHECK(complete(force_levels, values).empty());
   CHECK(values.number("static") == 2.0);
   CHECK(values.number("exponent") == 2.0);
 }
 
 TEST_CASE("parameters: every fault is reported", "[friction][parameters]") {
   ParameterValues values = {{"static", -1.0}, {"exponent", 0.0}, {"colour", 1.0}};
-  const std::vector<ParameterFault> faults = complete(table, values);
+  const std::vector<ParameterFault> faults = complete(force_levels, values);
   REQUIRE(faults.size() == 4);
   CHECK(faults[0].name == "colour");
   CHECK(faults[1].message == "'kinetic' is missing");
@@ -55,11 +55,11 @@ TEST_CASE("parameters: every fault is reported", "[friction][parameters]") {
 
 TEST_CASE("parameters: bounds between parameters, and what is not finite", "[friction][parameters]") {
   ParameterValues below = {{"kinetic", 2.0}, {"static", 1.0}};
-  REQUIRE(complete(table, below).size() == 1);
-  CHECK(complete(table, below)[0].allowed == ">= 2 N");
+  REQUIRE(complete(force_levels, below).size() == 1);
+  CHECK(complete(force_levels, below)[0].allowed == ">= 2 N");
   ParameterValues broken = {{"kinetic", std::numeric_limits<double>::quiet_NaN()}};
-  REQUIRE_FALSE(complete(table, broken).empty());
-  CHECK(complete(table, broken)[0].message == "'kinetic' is not finite");
+  REQUIRE_FALSE(complete(force_levels, broken).empty());
+  CHECK(complete(force_levels, broken)[0].message == "'kinetic' is not finite");
 }
 
 TEST_CASE("parameters: ranges in words", "[friction][parameters]") {

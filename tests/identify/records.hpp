@@ -27,6 +27,10 @@ inline const KnownConstants table_1_constants{1.0, 100.0, 10.0};
 inline const KnownConstants soft_spring{1.042, 1568.0, 38.79};
 inline const KnownConstants stiff_spring{1.042, 4365.0, 64.72};
 
+/// About what the paper finds on the soft spring.
+inline constexpr double bearing_c = 11.0;  // N.s/m
+inline constexpr double bearing_F0 = 3.7;  // N
+
 /// Table 1 as printed.
 inline const std::vector<std::pair<double, double>> table_1 = {
     {0.1, 0.186078}, {0.2, 0.436118}, {0.5, 1.186141}, {0.6, 1.436144}};

@@ -11,26 +11,26 @@ using namespace dualdamp;
 
 namespace {
 
-const std::vector<friction::Parameter> table = test::parameters_of_two_forms();
+const std::vector<friction::Parameter> both_forms = test::parameters_of_two_forms();
 
-scenarios::Reading read(const std::string& text) {
+scenarios::Reading reading_of(const std::string& text) {
   const scenarios::Document document("test.yaml", text);
-  return scenarios::read(document, {scenarios::fields_of(table)});
+  return scenarios::read(document, {scenarios::fields_of(both_forms)});
 }
 
 /// What a law would be made of; the text must be valid.
 friction::ParameterValues values_of(const std::string& text) {
-  const scenarios::Reading reading = read(text);
+  const scenarios::Reading reading = reading_of(text);
   REQUIRE(reading.problems.empty());
-  friction::ParameterValues values = scenarios::law_values(table, reading.values);
-  REQUIRE(friction::complete(table, values).empty());
+  friction::ParameterValues values = scenarios::law_values(both_forms, reading.values);
+  REQUIRE(friction::complete(both_forms, values).empty());
   return values;
 }
 
 /// "line:column: message" of each problem.
-std::vector<std::string> problems_of(const std::string& text) {
+std::vector<std::string> messages_of(const std::string& text) {
   std::vector<std::string> list;
-  for (const core::Diagnostic& problem : read(text).problems)
+  for (const core::Diagnostic& problem : reading_of(text).problems)
     list.push_back(std::to_string(problem.place.line) + ":" + std::to_string(problem.place.column) + ": " +
                    problem.message);
   return list;
@@ -62,27 +62,27 @@ TEST_CASE("law parameters: the resolved form means the same, in the order of the
           "[scenarios][parameters]") {
   const auto values =
       values_of("fluctuation: {ratio: 0.1, correlation_time: 2 s, seed: 3}\ntotal: 3 N\ncount: 2\n");
-  const scenarios::Json json = scenarios::law_json(table, values);
+  const scenarios::Json json = scenarios::law_json(both_forms, values);
   CHECK(json.dump() == R"({"total":3.0,"count":2,"form":"uniform","symmetric":true,)"
                        R"("fluctuation":{"ratio":0.1,"correlation_time":2.0,"seed":3}})");
-  CHECK(scenarios::law_json(table, scenarios::law_values(table, json)) == json);
+  CHECK(scenarios::law_json(both_forms, scenarios::law_values(both_forms, json)) == json);
 }
 
 TEST_CASE("law parameters: one form or the other", "[scenarios][parameters]") {
-  CHECK(problems_of("symmetric: true\n") == Problems{"1:1: 'elements' is missing"});
-  CHECK(problems_of("form: linear\ntotal: 1 N\n") ==
+  CHECK(messages_of("symmetric: true\n") == Problems{"1:1: 'elements' is missing"});
+  CHECK(messages_of("form: linear\ntotal: 1 N\n") ==
         Problems{"1:1: 'count' is missing: it is needed without 'elements'"});
-  CHECK(problems_of("elements: [{stiffness: 1, limit: 1}]\nform: linear\ncount: x\n") ==
+  CHECK(messages_of("elements: [{stiffness: 1, limit: 1}]\nform: linear\ncount: x\n") ==
         Problems{"3:1: 'count' stands beside 'elements', which it replaces",
                  "2:1: 'form' stands beside 'elements', which it replaces"});
-  CHECK(read("symmetric: true\n").problems[0].allowed == "a list of maps; or total, count, form instead");
+  CHECK(reading_of("symmetric: true\n").problems[0].allowed == "a list of maps; or total, count, form instead");
   // A value that cannot be read is not missing.
-  CHECK(problems_of("elements: 7\n") == Problems{"1:11: 'elements' is of the wrong kind"});
-  CHECK(problems_of("total: 1 N\ncount: 1.5\n") == Problems{"2:8: 'count' is of the wrong kind"});
+  CHECK(messages_of("elements: 7\n") == Problems{"1:11: 'elements' is of the wrong kind"});
+  CHECK(messages_of("total: 1 N\ncount: 1.5\n") == Problems{"2:8: 'count' is of the wrong kind"});
 }
 
 TEST_CASE("law parameters: faults are told at the item and by its number", "[scenarios][parameters]") {
-  CHECK(problems_of("elements:\n"
+  CHECK(messages_of("elements:\n"
                     "  - {stiffness: 1000 N/m, limit: 2 N}\n"
                     "  - {stiffness: 0 N/m, limit: 2 kg}\n"
                     "  - {stifness: 10 N/m, limit: 2 N}\n"
@@ -92,7 +92,7 @@ TEST_CASE("law parameters: faults are told at the item and by its number", "[sce
                  "3:31: 'elements[1].limit': 'kg' is not a unit of a force",
                  "4:6: unknown key 'stifness' in 'elements[2]'", "4:5: 'elements[2].stiffness' is missing",
                  "5:5: 'elements[3]' is of the wrong kind", "6:32: 'elements[4].limit' is out of range"});
-  CHECK(problems_of(
+  CHECK(messages_of(
             "total: 1 N\ncount: 2\nform: linaer\nfluctuation: {ratio: 2, correlation_time: 0 s, seed: -1}\n") ==
         Problems{"3:7: 'form' cannot be 'linaer'", "4:22: 'fluctuation.ratio' is out of range",
                  "4:43: 'fluctuation.correlation_time' is out of range",
@@ -102,14 +102,14 @@ TEST_CASE("law parameters: faults are told at the item and by its number", "[sce
 TEST_CASE("law parameters: a list has a largest length", "[scenarios][parameters]") {
   std::string text = "elements:\n";
   for (int i = 0; i < 10'001; ++i) text += "  - {stiffness: 1, limit: 1}\n";
-  CHECK(problems_of(text) == Problems{"2:3: 'elements' has the wrong number of items"});
-  CHECK(problems_of("elements: []\n") == Problems{"1:11: 'elements' has the wrong number of items"});
+  CHECK(messages_of(text) == Problems{"2:3: 'elements' has the wrong number of items"});
+  CHECK(messages_of("elements: []\n") == Problems{"1:11: 'elements' has the wrong number of items"});
 }
 
 TEST_CASE("law parameters: --set reaches into a list", "[scenarios][parameters]") {
   scenarios::Document document("test.yaml", "elements: [{stiffness: 1, limit: 1}, {stiffness: 2, limit: 2}]\n");
   document.set("elements[1].limit=3", "--set");
-  const scenarios::Reading reading = scenarios::read(document, {scenarios::fields_of(table)});
+  const scenarios::Reading reading = scenarios::read(document, {scenarios::fields_of(both_forms)});
   REQUIRE(reading.problems.empty());
-  CHECK(scenarios::law_values(table, reading.values).list("elements")[1].number("limit") == 3.0);
+  CHECK(scenarios::law_values(both_forms, reading.values).list("elements")[1].number("limit") == 3.0);
 }

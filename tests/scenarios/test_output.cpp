@@ -17,14 +17,14 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::string document_of(const scenarios::RunResult& result) {
+std::string document_text(const scenarios::RunResult& result) {
   std::ostringstream text;
   scenarios::json_document(std::make_shared<scenarios::Scenario>(scenarios::Scenario{.resolved = "{}"}),
                            std::make_shared<scenarios::RunResult>(result))(text);
   return text.str();
 }
 
-scenarios::Table curve() {
+scenarios::Table table_of_kinds() {
   return {.name = "curve",
           .columns = {{.name = "Y", .unit = "m", .numbers = {0.1, 1.0 / 3.0, 5e-324, 1.0}},
                       {.name = "stops", .numbers = {2.0, none, 0.0, 1e15}, .kind = CellKind::count},
@@ -41,8 +41,8 @@ scenarios::Table curve() {
 TEST_CASE("output: a table is written as the tree of its rows would be", "[scenarios][output]") {
   scenarios::RunResult result;
   result.result = R"({"before":{"list":[1,[]],"none":{}},"points":null,"empty":null,"after":[]})";
-  result.tables = {curve(), {.name = "empty", .columns = {{.name = "t", .unit = "s"}}, .key = "empty"}};
-  const std::string text = document_of(result);
+  result.tables = {table_of_kinds(), {.name = "empty", .columns = {{.name = "t", .unit = "s"}}, .key = "empty"}};
+  const std::string text = document_text(result);
   const Tree document = Tree::parse(text);
   CHECK(text == document.dump(2) + "\n");
   const Tree points = {
@@ -61,7 +61,7 @@ TEST_CASE("output: a table that is no list of the result is a file only", "[scen
   scenarios::RunResult result;
   result.result = R"({"points":null})";
   result.tables = {{.name = "points", .columns = {{.name = "t"}}}};
-  CHECK(Tree::parse(document_of(result)).at("result").at("points").is_null());
+  CHECK(Tree::parse(document_text(result)).at("result").at("points").is_null());
 }
 
 TEST_CASE("output: a file that fails half way leaves the old one and no part of itself", "[scenarios][output]") {

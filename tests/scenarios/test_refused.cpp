@@ -4,6 +4,7 @@
 
 #include "files.hpp"
 #include "scenarios/scenario.hpp"
+#include "tests/support/problems.hpp"
 
 using namespace dualdamp;
 
@@ -30,13 +31,8 @@ std::vector<Expected> expected_of(const std::string& text) {
   return result;
 }
 
-std::vector<core::Diagnostic> problems_of(const std::string& path) {
-  try {
-    (void)testing::load(path);
-  } catch (const core::InputError& error) {
-    return error.diagnostics();
-  }
-  return {};
+std::vector<core::Diagnostic> problems_of_file(const std::string& path) {
+  return test::problems_of([&] { return testing::load(path); });
 }
 
 }  // namespace
@@ -47,7 +43,7 @@ TEST_CASE("refused: each invalid file, at its place and for its reason", "[scena
       CAPTURE(path.string());
       const std::string text = testing::text_of(path);
       const std::vector<Expected> all_expected = expected_of(text);
-      const std::vector<core::Diagnostic> problems = problems_of(path.string());
+      const std::vector<core::Diagnostic> problems = problems_of_file(path.string());
       REQUIRE_FALSE(all_expected.empty());
       // Nothing but what is announced: one fault must not drag others along.
       CHECK(problems.size() == all_expected.size());
@@ -66,14 +62,14 @@ TEST_CASE("refused: each invalid file, at its place and for its reason", "[scena
 }
 
 TEST_CASE("refused: problems come in the order of the file", "[scenarios][refused]") {
-  const auto problems = problems_of((testing::root / "tests/invalid_text/everything_at_once.yaml").string());
+  const auto problems = problems_of_file((testing::root / "tests/invalid_text/everything_at_once.yaml").string());
   REQUIRE(problems.size() >= 5);
   CHECK(std::ranges::is_sorted(problems, {}, [](const core::Diagnostic& problem) { return problem.place.line; }));
 }
 
 TEST_CASE("refused: suggestions", "[scenarios][refused]") {
   const auto suggestion = [](const char* file) {
-    const auto problems = problems_of((testing::root / "tests/invalid" / file).string());
+    const auto problems = problems_of_file((testing::root / "tests/invalid" / file).string());
     for (const core::Diagnostic& problem : problems)
       if (!problem.suggestion.empty()) return problem.suggestion;
     return std::string();

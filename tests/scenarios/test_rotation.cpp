@@ -8,22 +8,18 @@
 #include "files.hpp"
 #include "scenarios/format/si_units.hpp"
 #include "scenarios/scenario_format.hpp"
+#include "tests/support/problems.hpp"
 
 using namespace dualdamp;
 
 namespace {
 
-scenarios::Scenario read(const std::string& body) {
+scenarios::Scenario scenario_from(const std::string& body) {
   return scenarios::parse_scenario("schema: dualdamp/1\n" + body, "test.yaml");
 }
 
-std::vector<core::Diagnostic> problems_of(const std::string& body) {
-  try {
-    (void)read(body);
-  } catch (const core::InputError& error) {
-    return error.diagnostics();
-  }
-  return {};
+std::vector<core::Diagnostic> problems_of_body(const std::string& body) {
+  return test::problems_of([&] { return scenario_from(body); });
 }
 
 const std::string system_of_angle =
@@ -49,7 +45,8 @@ TEST_CASE("rotation: the numbers are those of the twin in translation, to the bi
                                "{type: simulate, duration: 3 s, sample_rate: 100 Hz}"}) {
     CAPTURE(analysis);
     const auto twin = scenarios::run(testing::scenario_of(analysis));
-    const auto turned = scenarios::run(read(system_of_angle + turning_base + "analysis: " + analysis + "\n"));
+    const auto turned =
+        scenarios::run(scenario_from(system_of_angle + turning_base + "analysis: " + analysis + "\n"));
     CHECK(testing::result_of(turned) == testing::result_of(twin));
   }
 }
@@ -60,8 +57,8 @@ TEST_CASE("rotation: the SI unit of each number is that of its key", "[scenarios
                                scenarios::scenario_format(scenarios::analyses()));
   };
   const std::string moment = "excitation: {type: force_harmonic, amplitude: 9 N.m, frequency: 10 rad/s}\n";
-  auto units =
-      units_of(read(system_of_angle + moment + "analysis: {type: xy_curve, amplitudes: [8 N.m, 9 N.m]}\n"));
+  auto units = units_of(
+      scenario_from(system_of_angle + moment + "analysis: {type: xy_curve, amplitudes: [8 N.m, 9 N.m]}\n"));
   CHECK(units["system.mass"] == "kg.m^2");
   CHECK(units["system.stiffness"] == "N.m/rad");
   CHECK(units["system.friction.kinetic"] == "N.m");
@@ -76,10 +73,10 @@ TEST_CASE("rotation: the SI unit of each number is that of its key", "[scenarios
 }
 
 TEST_CASE("rotation: degrees are read, results are in rad and N.m", "[scenarios][rotation]") {
-  const auto scenario = read(system_of_angle +
-                             "excitation: {type: force_harmonic, amplitude: 9 N.m, frequency: 10 rad/s}\n"
-                             "initial: {position: 90 deg, velocity: -180 deg/s}\n"
-                             "analysis: {type: simulate, duration: 1 s, sample_rate: 10 Hz}\n");
+  const auto scenario = scenario_from(system_of_angle +
+                                      "excitation: {type: force_harmonic, amplitude: 9 N.m, frequency: 10 rad/s}\n"
+                                      "initial: {position: 90 deg, velocity: -180 deg/s}\n"
+                                      "analysis: {type: simulate, duration: 1 s, sample_rate: 10 Hz}\n");
   CHECK(scenario.model.initial.position == std::numbers::pi / 2.0);
   CHECK(scenario.model.initial.velocity == Approx(-std::numbers::pi).epsilon(1e-15));
   const auto result = scenarios::run(scenario);
@@ -98,7 +95,7 @@ TEST_CASE("rotation: degrees are read, results are in rad and N.m", "[scenarios]
 }
 
 TEST_CASE("rotation: a resolved scenario keeps its coordinate", "[scenarios][rotation]") {
-  const auto scenario = read(system_of_angle + turning_base + "analysis: {type: steady_state}\n");
+  const auto scenario = scenario_from(system_of_angle + turning_base + "analysis: {type: steady_state}\n");
   const auto again = scenarios::parse_scenario(scenario.resolved, "resolved.yaml");
   CHECK(again.resolved == scenario.resolved);
   CHECK(again.model.oscillator.coordinate == core::Coordinate::angle);
@@ -107,7 +104,7 @@ TEST_CASE("rotation: a resolved scenario keeps its coordinate", "[scenarios][rot
 }
 
 TEST_CASE("rotation: a unit of the other kind is refused where it stands", "[scenarios][rotation]") {
-  const auto problems = problems_of(
+  const auto problems = problems_of_body(
       "system:\n  mass: 3 kg\n  stiffness: 12 N.m/rad\n  damping: 0.1 N.s/m\n"
       "initial: {position: 0.1 m}\nanalysis: {type: free_decay, peaks: 4}\n");
   REQUIRE(problems.size() == 1);
@@ -117,7 +114,7 @@ TEST_CASE("rotation: a unit of the other kind is refused where it stands", "[sce
         std::string::npos);
   CHECK(problems[0].found == "12 N.m/rad");
 
-  const auto stated = problems_of(
+  const auto stated = problems_of_body(
       "system: {coordinate: angle, mass: 0.3, stiffness: 12 N/m, damping: 0}\n"
       "initial: {position: 5 deg}\nanalysis: {type: free_decay, peaks: 4}\n");
   REQUIRE(stated.size() == 1);
@@ -126,7 +123,7 @@ TEST_CASE("rotation: a unit of the other kind is refused where it stands", "[sce
 }
 
 TEST_CASE("rotation: messages of laws and of ranges are in units of rotation", "[scenarios][rotation]") {
-  const auto problems = problems_of(
+  const auto problems = problems_of_body(
       "system: {mass: 1 kg.m^2, stiffness: 0 N.m/rad, damping: 0, friction: {law: elasto_plastic, kinetic: 1 N.m, "
       "stribeck_velocity: 1 deg/s, sigma0: 100 N.m/rad, sigma1: 0, elastic_limit: 5 deg}}\nanalysis: {type: "
       "simulate, duration: 1 s}\n");
@@ -137,19 +134,20 @@ TEST_CASE("rotation: messages of laws and of ranges are in units of rotation", "
 
 TEST_CASE("rotation: gravity's stiffness asks for a pendulum", "[scenarios][rotation]") {
   const std::string rest = "analysis: {type: simulate, duration: 1 s}\n";
-  CHECK(problems_of("system: {mass: 1 kg, gravity_stiffness: 3 N.m, damping: 0}\n" + rest)[0].message.find(
+  CHECK(problems_of_body("system: {mass: 1 kg, gravity_stiffness: 3 N.m, damping: 0}\n" + rest)[0].message.find(
             "the coordinate is no angle") != std::string::npos);
-  CHECK(problems_of("system: {mass: 1 kg.m^2, gravity_stiffness: 3 N.m, damping: 0}\n" + turning_base + rest)[0]
-            .message.find("does not work with a base in motion") != std::string::npos);
-  CHECK(problems_of("system: {mass: 1 kg.m^2, gravity_stiffness: 3 N.m, stiffness: 2 N.m/rad, damping: 0}\n" +
-                    rest)[0]
+  CHECK(
+      problems_of_body("system: {mass: 1 kg.m^2, gravity_stiffness: 3 N.m, damping: 0}\n" + turning_base + rest)[0]
+          .message.find("does not work with a base in motion") != std::string::npos);
+  CHECK(problems_of_body("system: {mass: 1 kg.m^2, gravity_stiffness: 3 N.m, stiffness: 2 N.m/rad, damping: 0}\n" +
+                         rest)[0]
             .message.find("below its own part") != std::string::npos);
 }
 
 TEST_CASE("rotation: a pendulum keeps its energy and its elliptic period", "[scenarios][rotation]") {
-  const auto result = testing::result_of(scenarios::run(
-      read("system: {mass: 0.05 kg.m^2, gravity_stiffness: 2.943 N.m, damping: 0}\ninitial: {position: 60 deg}\n"
-           "analysis: {type: free_decay, peaks: 3}\n")));
+  const auto result = testing::result_of(scenarios::run(scenario_from(
+      "system: {mass: 0.05 kg.m^2, gravity_stiffness: 2.943 N.m, damping: 0}\ninitial: {position: 60 deg}\n"
+      "analysis: {type: free_decay, peaks: 3}\n")));
   const double natural = 2.0 * std::numbers::pi * std::sqrt(0.05 / 2.943);
   const double period = natural * 2.0 / std::numbers::pi * std::comp_ellint_1(std::sin(std::numbers::pi / 6.0));
   CHECK(result.at("peaks").at(2).at("t").get<double>() == Approx(period).epsilon(1e-9));
@@ -158,7 +156,7 @@ TEST_CASE("rotation: a pendulum keeps its energy and its elliptic period", "[sce
 
 TEST_CASE("rotation: the decay of a pendulum from 60 deg gives its damping and its friction torque",
           "[scenarios][rotation]") {
-  const auto result = testing::result_of(scenarios::run(read(
+  const auto result = testing::result_of(scenarios::run(scenario_from(
       "system: {mass: 0.05 kg.m^2, gravity_stiffness: 2.943 N.m, damping_ratio: 0.02, friction: {law: coulomb, "
       "kinetic: 0.02 N.m}}\ninitial: {position: 60 deg}\n"
       "analysis: {type: identify, measurement: {type: free_decay, peaks: 16}, methods: [free_decay]}\n")));

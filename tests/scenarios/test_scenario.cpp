@@ -10,6 +10,7 @@
 #include "scenarios/analyses/identify.hpp"
 #include "scenarios/analyses/simulate.hpp"
 #include "scenarios/analyses/xy_curve.hpp"
+#include "tests/support/problems.hpp"
 
 using namespace dualdamp;
 using scenarios::Scenario;
@@ -29,12 +30,7 @@ Scenario with(std::vector<std::string> assignments) {
 }
 
 std::vector<core::Diagnostic> problems_with(std::vector<std::string> assignments) {
-  try {
-    (void)with(std::move(assignments));
-  } catch (const core::InputError& error) {
-    return error.diagnostics();
-  }
-  return {};
+  return test::problems_of([&] { return with(std::move(assignments)); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "bench/analyses.hpp"
 #include "tests/scenarios/answers.hpp"
+#include "tests/support/problems.hpp"
 
 using namespace dualdamp;
 using testing::answer_to;
@@ -15,23 +16,18 @@ namespace {
 const std::string question = "{type: steady_state}";
 
 /// The problems of a sweep of the usual system.
-std::vector<core::Diagnostic> problems_of(const std::string& sweep, const std::string& analysis = question) {
-  try {
-    (void)scenario_of(analysis, sweep);
-  } catch (const core::InputError& error) {
-    return error.diagnostics();
-  }
-  return {};
+std::vector<core::Diagnostic> problems_of_sweep(const std::string& sweep, const std::string& analysis = question) {
+  return test::problems_of([&] { return scenario_of(analysis, sweep); });
 }
 
 /// Those of a sweep with one problem only.
 core::Diagnostic problem_of(const std::string& sweep, const std::string& analysis = question) {
-  const std::vector<core::Diagnostic> problems = problems_of(sweep, analysis);
+  const std::vector<core::Diagnostic> problems = problems_of_sweep(sweep, analysis);
   REQUIRE(problems.size() == 1);
   return problems.front();
 }
 
-const scenarios::Table& table(const scenarios::RunResult& result, const std::string& name) {
+const scenarios::Table& file_table(const scenarios::RunResult& result, const std::string& name) {
   const auto found =
       std::ranges::find_if(result.tables, [&](const auto& t) { return t.name == name && t.is_file; });
   REQUIRE(found != result.tables.end());
@@ -69,7 +65,7 @@ TEST_CASE("sweep: two keys, each point bit for bit that of the scenario with its
 TEST_CASE("sweep: the table has the units the user wrote, and the telling numbers first", "[scenarios][sweep]") {
   const scenarios::RunResult result =
       scenarios::run(scenario_of(question, "sweep: {excitation.frequency: {from: 1 Hz, to: 2 Hz, count: 3}}"));
-  const scenarios::Table& rows = table(result, "sweep");
+  const scenarios::Table& rows = file_table(result, "sweep");
   REQUIRE(rows.size() == 3);
   CHECK(rows.columns[0].name == "excitation.frequency");
   CHECK(rows.columns[0].unit == "Hz");
@@ -85,7 +81,7 @@ TEST_CASE("sweep: the table has the units the user wrote, and the telling number
 TEST_CASE("sweep: curves stand below each other with their point and value", "[scenarios][sweep]") {
   const scenarios::RunResult result = scenarios::run(
       scenario_of("{type: xy_curve, amplitudes: [0.1 m, 0.6 m]}", "sweep: {system.friction.kinetic: [1 N, 2 N]}"));
-  const scenarios::Table& rows = table(result, "sweep_points");
+  const scenarios::Table& rows = file_table(result, "sweep_points");
   REQUIRE(rows.size() == 4);
   CHECK(rows.columns[0].numbers == std::vector{0.0, 0.0, 1.0, 1.0});
   CHECK(rows.columns[1].numbers == std::vector{1.0, 1.0, 2.0, 2.0});
@@ -165,7 +161,7 @@ TEST_CASE("sweep: failed points are rows with a reason", "[scenarios][sweep]") {
   CHECK(points[0].at("result").is_null());
   CHECK_FALSE(points[0].at("reason").get<std::string>().empty());
   CHECK(points[1].at("status") == 0);
-  CHECK(table(some, "sweep").columns.back().name == "reason");
+  CHECK(file_table(some, "sweep").columns.back().name == "reason");
   const scenarios::RunResult all =
       scenarios::run(scenario_of(question, "sweep: {system.damping: [0 N.s/m], system.friction.kinetic: [0 N]}"));
   CHECK(all.status == core::ExitStatus::numerical_failure);

@@ -16,7 +16,7 @@ using scenarios::Verification;
 
 namespace {
 
-scenarios::Scenario scenario_of(
+scenarios::Scenario verified_scenario(
     const std::string& friction, const std::string& analysis,
     const std::string& excitation = "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
     const std::string& more = "numerics: {verify: true}") {
@@ -36,7 +36,7 @@ Answer answer(double peak, double phase) {
   return result;
 }
 
-Answer curve(double x) {
+Answer curve_answer(double x) {
   Answer result;
   result.result["points"] = nullptr;
   result.tables.push_back(
@@ -79,12 +79,12 @@ TEST_CASE("verification: counts are equal, and a missing number is a difference"
 
 TEST_CASE("verification: each point of a curve is measured by its own amplitude", "[scenarios][verification]") {
   // Beside an amplitude of 1 m an error of 1e-12 m would be nothing.
-  const Verification off = scenarios::compare_answers(curve(1e-6), curve(1e-6 + 1e-12), {});
+  const Verification off = scenarios::compare_answers(curve_answer(1e-6), curve_answer(1e-6 + 1e-12), {});
   CHECK_FALSE(off.agrees);
   CHECK(off.quantity == "points[0].x");
-  Answer other = curve(1e-6);
+  Answer other = curve_answer(1e-6);
   other.tables[0].columns[1].numbers[1] = 4.0;
-  CHECK(scenarios::compare_answers(curve(1e-6), other, {}).quantity == "points[1].stops");
+  CHECK(scenarios::compare_answers(curve_answer(1e-6), other, {}).quantity == "points[1].stops");
 }
 
 TEST_CASE("verification: Floquet multipliers are a set", "[scenarios][verification]") {
@@ -164,9 +164,10 @@ TEST_CASE("verification: an orbit of any period has as many samples in each of i
 
 TEST_CASE("verification: of a mass that never moves rounding is no number", "[scenarios][verification]") {
   const std::string held = "{type: simulate, cycles: 5, sample_rate: 50}";
-  CHECK(scenarios::run(scenario_of("{law: coulomb, kinetic: 200}", held)).verification->agrees);
+  CHECK(scenarios::run(verified_scenario("{law: coulomb, kinetic: 200}", held)).verification->agrees);
   // One multiplier is 1, as any place can be held, the other 0: a push of the mass comes to nothing.
-  CHECK(scenarios::run(scenario_of("{law: coulomb, kinetic: 200}", "{type: steady_state}")).verification->agrees);
+  CHECK(scenarios::run(verified_scenario("{law: coulomb, kinetic: 200}", "{type: steady_state}"))
+            .verification->agrees);
   const auto work = [](double joule) {
     Answer result;
     result.result = {{"energy", joule}};
@@ -182,14 +183,14 @@ TEST_CASE("verification: the results of every kind of motion are computed again 
           "[scenarios][verification]") {
   const std::string lugre = "{law: lugre, kinetic: 2, static: 3, stribeck_velocity: 0.05, sigma0: 1e4, sigma1: 20}";
   const std::vector<scenarios::Scenario> list = {
-      scenario_of(coulomb, "{type: steady_state}"),
-      scenario_of(coulomb, "{type: simulate, cycles: 5, sample_rate: 50}"),
-      scenario_of(coulomb, "{type: xy_curve, amplitudes: [0.03, 0.1]}"),
-      scenario_of(coulomb, "{type: frequency_response, frequencies: [8 rad/s, 12 rad/s]}"),
-      scenario_of(coulomb, "{type: free_decay, peaks: 3}", "none"),
-      scenario_of(lugre, "{type: steady_state}"),
-      scenario_of(coulomb, "{type: steady_state}", "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
-                  "numerics: {verify: true, solver: implicit}")};
+      verified_scenario(coulomb, "{type: steady_state}"),
+      verified_scenario(coulomb, "{type: simulate, cycles: 5, sample_rate: 50}"),
+      verified_scenario(coulomb, "{type: xy_curve, amplitudes: [0.03, 0.1]}"),
+      verified_scenario(coulomb, "{type: frequency_response, frequencies: [8 rad/s, 12 rad/s]}"),
+      verified_scenario(coulomb, "{type: free_decay, peaks: 3}", "none"),
+      verified_scenario(lugre, "{type: steady_state}"),
+      verified_scenario(coulomb, "{type: steady_state}", "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
+                        "numerics: {verify: true, solver: implicit}")};
   for (const scenarios::Scenario& scenario : list) {
     INFO(scenario.resolved);
     const scenarios::RunResult result = scenarios::run(scenario);
@@ -259,15 +260,15 @@ TEST_CASE("verification: a mass a million times lighter than its damper needs is
 TEST_CASE("verification: without it nothing is said, and where it is impossible the file is refused",
           "[scenarios][verification]") {
   const scenarios::Scenario plain =
-      scenario_of(coulomb, "{type: steady_state}", "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
-                  "numerics: {verify: false}");
+      verified_scenario(coulomb, "{type: steady_state}", "base_harmonic, amplitude: 0.1, frequency: 10 rad/s",
+                        "numerics: {verify: false}");
   CHECK_FALSE(scenarios::run(plain).verification.has_value());
   for (const std::string analysis :
        {"{type: xy_branch, amplitudes: {from: 0.05, to: 0.1}}",
         "{type: identify, measurement: {type: xy_curve, amplitudes: [0.08, 0.1, 0.12], sweeps: 1}}"}) {
     INFO(analysis);
     try {
-      static_cast<void>(scenario_of(coulomb, analysis));
+      static_cast<void>(verified_scenario(coulomb, analysis));
       FAIL("accepted");
     } catch (const core::InputError& error) {
       CHECK_THAT(error.diagnostics().front().message, Catch::Contains("numerics.verify"));

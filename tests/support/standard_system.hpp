@@ -9,10 +9,12 @@
 
 namespace dualdamp::test {
 
+inline constexpr double standard_stiffness = 100.0;  ///< N/m
+
 /// m = 1 kg, k = 100 N/m, c = 4 N.s/m on a base that moves by 0.1 m at 10 rad/s.
 inline sim::Model standard_system(const friction::Law& law) {
   sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
+  model.oscillator = {.mass = 1.0, .stiffness = standard_stiffness, .damping = 4.0};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
   model.friction = {law};
   return model;

@@ -3,22 +3,22 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/crossing/first_crossing.hpp"
 #include "core/crossing/interval_start.hpp"
 #include "tests/support/exponential_sum.hpp"
+#include "tests/support/numbers.hpp"
 
 namespace dualdamp::core::guard_problems {
 
 using oracle::ExponentialSum;
 using oracle::LongComplex;
 
-inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
-inline constexpr double pi = std::numbers::pi;
+using test::epsilon;
+using test::pi;
+
 /// One element with its coefficient.
 struct Term {
   Complex exponent;

@@ -21,18 +21,18 @@ using test::GuardCase;
 
 /// Levels count roundings as the header of the search defines them: 16 eps of the amplitudes' sum there and what
 /// the phases lose. A minimum within one rounding of zero is a grazing, a deeper one a crossing. The search itself
-/// knows a value to half a rounding, and joins contacts between which the guard hardly rises: between `sure` and
-/// `clear` it may decide either way, though not in contradiction to itself.
-constexpr Real sure = 0.5L;
-constexpr Real clear = 3;
+/// knows a value to half a rounding, and joins contacts between which the guard hardly rises: between `sure_level`
+/// and `clear_level` it may decide either way, though not in contradiction to itself.
+constexpr Real sure_level = 0.5L;
+constexpr Real clear_level = 3;
 
-/// A stretch where the guard is within `clear` of zero, or crosses.
+/// A stretch where the guard is within `clear_level` of zero, or crosses.
 struct Contact {
   std::size_t before = 0;      ///< the last knot above it
   std::size_t after = 0;       ///< the first knot beyond it
   bool crosses = false;        ///< ends below
   bool open = false;           ///< reaches the horizon
-  std::vector<Knot> minima{};  ///< within `clear` of zero
+  std::vector<Knot> minima{};  ///< within `clear_level` of zero
 };
 
 std::vector<Contact> contacts(const std::vector<Knot>& knots) {
@@ -41,7 +41,7 @@ std::vector<Contact> contacts(const std::vector<Knot>& knots) {
   std::optional<Contact> contact;
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const Real level = knots[i].level;
-    if (std::abs(level) <= clear) {
+    if (std::abs(level) <= clear_level) {
       if (!contact) contact = Contact{.before = above};
       const bool last = i + 1 == knots.size();
       if (!last && level <= knots[i - 1].level && level <= knots[i + 1].level) contact->minima.push_back(knots[i]);
@@ -178,7 +178,7 @@ class Comparison {
 
 std::string Comparison::run() {
   tally_.cells += account_.cells;
-  if (!account_.complete || account_.knots.front().level < clear) {
+  if (!account_.complete || account_.knots.front().level < clear_level) {
     ++tally_.undecided;
     return "the oracle cannot decide";
   }
@@ -193,7 +193,7 @@ std::string Comparison::run() {
     if (explained_) break;
   }
   for (const Real s : grazings_) {
-    if (std::abs(f_.level(s)) > clear) return invented("a grazing", s);
+    if (std::abs(f_.level(s)) > clear_level) return invented("a grazing", s);
   }
   if (claimed < grazings_.size()) return invented("a grazing", grazings_.back());
   if (own_ && !explained_) return invented("a crossing", end_);
@@ -202,10 +202,10 @@ std::string Comparison::run() {
 
 /// Touches first; then the crossing, when there is one.
 std::string Comparison::inspect(const Contact& contact) {
-  Real deepest = clear;
+  Real deepest = clear_level;
   for (const Knot& minimum : contact.minima) {
     deepest = std::min(deepest, minimum.level);
-    const bool certain = std::abs(minimum.level) < sure && !contact.open && !contact.crosses;
+    const bool certain = std::abs(minimum.level) < sure_level && !contact.open && !contact.crosses;
     const bool here = own_ && end_ > s_of(contact.before) && end_ <= s_of(contact.after);
     if (!certain || !passed(s_of(contact.after)) || here) continue;
     ++tally_.contacts_decided;
@@ -214,7 +214,7 @@ std::string Comparison::inspect(const Contact& contact) {
     if (!reported) return missed("a tangency", minimum.s);
   }
   if (contact.open) deepest = std::min(deepest, account_.knots.back().level);
-  if (contact.crosses || deepest < -sure) return inspect_crossing(contact, !contact.crosses);
+  if (contact.crosses || deepest < -sure_level) return inspect_crossing(contact, !contact.crosses);
   return {};
 }
 
@@ -224,7 +224,7 @@ std::string Comparison::inspect_crossing(const Contact& contact, bool uncertain)
   while (account_.knots[first + 1].level > 0) ++first;
   const Real root = f_.root(account_.knots[first], account_.knots[first + 1]);
   if (!own_ || end_ <= s_of(contact.before) || (uncertain && end_ > s_of(contact.after))) {
-    const bool behind = passed(s_of(contact.after)) || (passed(root) && f_.level(end_) < -clear);
+    const bool behind = passed(s_of(contact.after)) || (passed(root) && f_.level(end_) < -clear_level);
     if (!uncertain) return behind ? missed("a crossing", root) : "";
     const bool grazed = std::any_of(grazings_.begin(), grazings_.end(),
                                     [&](Real s) { return s > s_of(contact.before) && s < s_of(contact.after); });

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "tests/support/numbers.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/random.hpp"
 
 namespace {
 
 using namespace dualdamp::core;
+using dualdamp::test::epsilon;
 using dualdamp::test::Random;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 using Nodes = std::vector<Complex>;
 

@@ -12,19 +12,21 @@
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
 using friction::AsymmetricCoulomb;
 using friction::Direction;
 using friction::Law;
+using test::standard_stiffness;
 
 namespace {
 
 constexpr double mass = 1.0;
-constexpr double stiffness = 100.0;
 
 sim::Model model_with(std::vector<Law> laws, double damping = 0.0) {
-  return {.oscillator = {.mass = mass, .stiffness = stiffness, .damping = damping}, .friction = std::move(laws)};
+  return {.oscillator = {.mass = mass, .stiffness = standard_stiffness, .damping = damping},
+          .friction = std::move(laws)};
 }
 
 /// The ends of the swings of a free motion and where it rests.
@@ -81,9 +83,9 @@ TEST_CASE("asymmetric_coulomb: a free swing loses twice the level of its directi
     std::vector<double> expected;
     double x = from;
     while (true) {
-      const double pull = -stiffness * x;
+      const double pull = -standard_stiffness * x;
       if (pull <= 5.5 && pull >= -2.0) break;
-      x = pull > 0.0 ? -x - 2.0 * forward / stiffness : -x + 2.0 * backward / stiffness;
+      x = pull > 0.0 ? -x - 2.0 * forward / standard_stiffness : -x + 2.0 * backward / standard_stiffness;
       expected.push_back(x);
     }
     const std::vector<double> found = turning_points(model_with(laws), from);
@@ -99,14 +101,14 @@ TEST_CASE("asymmetric_coulomb: damping of its own in each direction", "[asymmetr
   const Law law(AsymmetricCoulomb({0.5, 0.5, c_forward}, {0.8, 0.8, c_backward}));
   const auto factor = [](double c) {
     const double decay = c / (2.0 * mass);
-    return std::exp(-std::numbers::pi * decay / std::sqrt(stiffness / mass - decay * decay));
+    return std::exp(-std::numbers::pi * decay / std::sqrt(standard_stiffness / mass - decay * decay));
   };
   const std::vector<double> found = turning_points(model_with({law}), 0.4);
   REQUIRE(found.size() >= 4);
   double x = 0.4;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const bool forward = x < 0.0;
-    const double middle = forward ? -0.5 / stiffness : 0.8 / stiffness;
+    const double middle = forward ? -0.5 / standard_stiffness : 0.8 / standard_stiffness;
     x = middle - factor(forward ? c_forward : c_backward) * (x - middle);
     CHECK(std::abs(found[i] - x) < 1e-13);
   }
@@ -136,7 +138,7 @@ TEST_CASE("asymmetric_coulomb: a difference of the levels is a constant force", 
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.06, .frequency = 2.0};
   sim::Model symmetric = model;
   symmetric.friction = {Law(friction::Coulomb(2.0, 3.0))};
-  const double shift = -difference / 2.0 / stiffness;
+  const double shift = -difference / 2.0 / standard_stiffness;
   model.initial = {.position = 0.05 + shift};
   symmetric.initial = {.position = 0.05};
   const sim::SteadyState one = sim::steady_state(model);

@@ -10,11 +10,10 @@
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
 #include "tests/support/forced_mass.hpp"
+#include "tests/support/sliding.hpp"
 
 using namespace dualdamp;
-using friction::Direction;
 using friction::ElastoPlastic;
-using friction::Instant;
 using friction::Law;
 using friction::Lugre;
 using friction::StribeckCurve;
@@ -23,20 +22,21 @@ namespace {
 
 const Lugre::Bristles bristles{1e5, 316.0, 0.4};
 
-friction::ParameterValues values(double static_level, const Lugre::Bristles& b, double elastic_limit) {
+friction::ParameterValues elasto_plastic_values(double static_level, const Lugre::Bristles& b,
+                                                double elastic_limit) {
   return {{"kinetic", 1.0},     {"static", static_level}, {"stribeck_velocity", 0.001},    {"sigma0", b.sigma0},
           {"sigma1", b.sigma1}, {"sigma2", b.sigma2},     {"elastic_limit", elastic_limit}};
 }
 
-Law law_of(double static_level, const Lugre::Bristles& b, double elastic_limit, double factor = 1.0) {
+Law elasto_plastic_law(double static_level, const Lugre::Bristles& b, double elastic_limit, double factor = 1.0) {
   return Law(ElastoPlastic(StribeckCurve(factor, factor * static_level, 0.001), b, factor * elastic_limit));
 }
 
 sim::LawCase elasto_plastic(double static_level, const Lugre::Bristles& b, double elastic_limit) {
-  sim::LawCase c = sim::law_case("elasto_plastic", values(static_level, b, elastic_limit));
+  sim::LawCase c = sim::law_case("elasto_plastic", elasto_plastic_values(static_level, b, elastic_limit));
   c.stroke = 30.0 * static_level / b.sigma0;
   c.passive = b.sigma2 >= b.sigma1 * (static_level - 1.0);
-  c.scaled = [=](double factor) { return law_of(static_level, b, elastic_limit, factor); };
+  c.scaled = [=](double factor) { return elasto_plastic_law(static_level, b, elastic_limit, factor); };
   return c;
 }
 
@@ -52,18 +52,15 @@ TEST_CASE("elasto_plastic conforms to the law contract", "[friction][elasto_plas
 
 TEST_CASE("elasto_plastic: a spring below its elastic limit, lugre's level in a long slip",
           "[friction][elasto_plastic]") {
-  sim::LawHost host(law_of(1.5, {1e5, 0.0, 0.4}, 0.7e-5), {});
+  sim::LawHost host(elasto_plastic_law(1.5, {1e5, 0.0, 0.4}, 0.7e-5), {});
   for (const double x : {0.69e-5, -0.5e-5, 0.0, -0.69e-5, 0.3e-5}) {
     host.move_to(x);
     CHECK(host.force() == Approx(1e5 * x + 0.4 * host.now().v).margin(1e-10));
   }
   for (const double v : {1e-5, 1e-3, 0.3}) {
     INFO(v);
-    const Instant from = host.now();
-    host.change_direction(Direction::forward);
     // z comes to g/sigma0 as exp(-sigma0 x/g).
-    host.move_along(from.t + 1e-3 / v,
-                    [=](double t) { return Instant{.t = t, .x = from.x + v * (t - from.t), .v = v}; });
+    test::slide(host, v, 1e-3 / v);
     const double r = v / 0.001;
     CHECK(host.force() == Approx(1.0 + 0.5 * std::exp(-r * r) + 0.4 * v).epsilon(1e-9));
   }
@@ -86,7 +83,7 @@ TEST_CASE("elasto_plastic: first yield in closed form", "[friction][elasto_plast
     const double from = least + 2.0 * i * h;
     x += h / 3.0 * (slope(from) + 4.0 * slope(from + h) + slope(from + 2.0 * h));
   }
-  sim::LawHost host(law_of(1.0, {1e5, 0.0, 0.0}, least), {});
+  sim::LawHost host(elasto_plastic_law(1.0, {1e5, 0.0, 0.0}, least), {});
   host.move_to(x);
   CHECK(host.events() == 1);
   CHECK(host.last_event().x == Approx(least).epsilon(1e-9));
@@ -105,16 +102,16 @@ TEST_CASE("elasto_plastic: no drift under a load below its elastic limit, where 
     for (int i = 0; i < 10'000; ++i) mass.step(1e-4);
     return mass.x() - before;  // over ten periods
   };
-  CHECK(std::abs(drift(law_of(1.5, bristles, 0.7e-5))) < 1e-16);
+  CHECK(std::abs(drift(elasto_plastic_law(1.5, bristles, 0.7e-5))) < 1e-16);
   CHECK(drift(Law(Lugre(StribeckCurve(1.0, 1.5, 0.001), bristles))) > 1e-5);
   // Beyond the elastic limit it creeps as well.
-  CHECK(drift(law_of(1.5, bristles, 0.3e-5)) > 1e-7);
+  CHECK(drift(elasto_plastic_law(1.5, bristles, 0.3e-5)) > 1e-7);
 }
 
 TEST_CASE("elasto_plastic: an elastic limit beyond the kinetic level is refused", "[friction][elasto_plastic]") {
   const friction::LawEntry& entry = *friction::find_law("elasto_plastic");
   const auto faults = [&](double limit) {
-    friction::ParameterValues given = values(1.5, bristles, limit);
+    friction::ParameterValues given = elasto_plastic_values(1.5, bristles, limit);
     return friction::complete(entry, given);
   };
   CHECK(faults(0.99e-5).empty());

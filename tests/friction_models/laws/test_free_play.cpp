@@ -15,14 +15,13 @@
 using namespace dualdamp;
 using friction::FreePlay;
 using friction::Law;
+using test::standard_stiffness;
 
 namespace {
 
-constexpr double stiffness = 100.0;
-
 sim::Model slow_drive(const Law& law) {
   sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = stiffness, .damping = 4.0};
+  model.oscillator = {.mass = 1.0, .stiffness = standard_stiffness, .damping = 4.0};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.06, .frequency = 2.0};
   model.friction = {law};
   return model;
@@ -60,7 +59,7 @@ TEST_CASE("free_play: half swings of a free motion, which ends in a swing within
   const double F = 1.5;
   const double play = 0.05;
   sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = stiffness};
+  model.oscillator = {.mass = 1.0, .stiffness = standard_stiffness};
   model.friction = {Law(FreePlay(F, 4.0, play))};
   model.initial = {.position = 0.4};
   const sim::History history = sim::simulate(model, {.duration = 8.0});
@@ -70,8 +69,8 @@ TEST_CASE("free_play: half swings of a free motion, which ends in a swing within
   int reversals = 0;
   for (const sim::Event& event : history.events) {
     if (event.kind != sim::EventKind::reversal) continue;
-    const double rest = 0.5 * stiffness * a * a - F * (a - free_way);
-    double b = (-F + std::sqrt(F * F + 2.0 * stiffness * rest)) / stiffness;
+    const double rest = 0.5 * standard_stiffness * a * a - F * (a - free_way);
+    double b = (-F + std::sqrt(F * F + 2.0 * standard_stiffness * rest)) / standard_stiffness;
     if (a + b < free_way) b = a;
     CHECK(std::abs(event.x) == Approx(b).margin(1e-12));
     a = b;

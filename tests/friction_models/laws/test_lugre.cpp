@@ -10,10 +10,10 @@
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
 #include "tests/support/forced_mass.hpp"
+#include "tests/support/sliding.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
-using friction::Instant;
 using friction::Law;
 using friction::Lugre;
 using friction::StribeckCurve;
@@ -48,10 +48,7 @@ sim::LawCase lugre(const Values& values) {
 
 /// Drags the law by `distance` at this speed.
 void drag(sim::LawHost& host, double speed, double distance) {
-  const Instant from = host.now();
-  const auto path = [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; };
-  host.change_direction(speed < 0.0 ? Direction::backward : Direction::forward);
-  host.move_along(from.t + distance / std::abs(speed), path);
+  test::slide(host, speed, distance / std::abs(speed));
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
+#include "tests/support/sliding.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
-using friction::Instant;
 using friction::Law;
 using friction::NormalVibration;
 
@@ -56,14 +56,6 @@ NormalVibration::Rider jumping() {
   return r;
 }
 
-/// Goes on at this speed for this time; 0: at rest.
-void slide(sim::LawHost& host, double speed, double duration) {
-  const Instant from = host.now();
-  host.change_direction(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::none);
-  host.move_along(from.t + duration,
-                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
-}
-
 }  // namespace
 
 TEST_CASE("normal_vibration conforms to the law contract", "[friction][normal_vibration]") {
@@ -77,7 +69,7 @@ TEST_CASE("normal_vibration: without lift it is coulomb exactly", "[friction][no
   r.lift = 0.0;
   sim::LawHost host(Law(NormalVibration(r)), {});
   for (const double speed : {0.3, -2.0, 1e-6, 0.0}) {
-    slide(host, speed, 0.1);
+    test::slide(host, speed, 0.1);
     CHECK(host.force() == (speed > 0.0 ? 2.0 : speed < 0.0 ? -2.0 : 0.0));
     CHECK(host.law().static_limit(host.memory(), host.now()) == Approx(3.0).epsilon(1e-15));
   }
@@ -89,7 +81,7 @@ TEST_CASE("normal_vibration: friction falls with the speed of steady slip", "[fr
   for (const double speed : {0.05, -0.5, 1.0}) {
     INFO(speed);
     sim::LawHost host(Law(NormalVibration(rider)), {});
-    slide(host, speed, 0.2);
+    test::slide(host, speed, 0.2);
     const double lift = 20.0 * std::abs(speed) / (1.0 + std::abs(speed) / 0.5);
     CHECK(host.force() == Approx(std::copysign(0.1 * (20.0 - lift), speed)).epsilon(1e-8));
   }
@@ -110,7 +102,7 @@ TEST_CASE("normal_vibration: the contact opens and closes", "[friction][normal_v
   // Undamped, lifted for 1.5 ms by 33 N, then thrown: y'^2 m/2 + weight (y + h0/3 (1 - y/h0)^3) stays, without the
   // last term while open.
   sim::LawHost host(Law(NormalVibration(jumping())), {});
-  slide(host, 1.0, 1.5e-3);
+  test::slide(host, 1.0, 1.5e-3);
   REQUIRE(host.memory().mode == 1);
   CHECK(host.force() == 0.0);
   const auto energy = [&] {
@@ -123,7 +115,7 @@ TEST_CASE("normal_vibration: the contact opens and closes", "[friction][normal_v
   int landings = 0;
   for (int i = 0; i < 200; ++i) {
     const int before = host.memory().mode;
-    slide(host, 0.0, 1e-4);
+    test::slide(host, 0.0, 1e-4);
     CHECK(energy() == Approx(thrown).epsilon(1e-8));
     const double limit = host.law().static_limit(host.memory(), host.now());
     CHECK((limit > 0.0) == (host.memory().mode == 0));

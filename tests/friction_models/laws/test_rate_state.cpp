@@ -8,10 +8,10 @@
 
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
+#include "tests/support/sliding.hpp"
 
 using namespace dualdamp;
 using friction::Direction;
-using friction::Instant;
 using friction::Law;
 using friction::Memory;
 using friction::RateState;
@@ -50,13 +50,6 @@ sim::LawCase rate_state(const RateState::Contact& contact) {
   return c;
 }
 
-/// Slides at this speed for this time.
-void slide(sim::LawHost& host, double speed, double duration) {
-  const Instant from = host.now();
-  host.move_along(from.t + duration,
-                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
-}
-
 }  // namespace
 
 TEST_CASE("rate_state conforms to the law contract", "[friction][rate_state]") {
@@ -78,7 +71,7 @@ TEST_CASE("rate_state: steady sliding", "[friction][rate_state]") {
       const double v = ratio * 1e-6;
       sim::LawHost host(Law(RateState(granite(evolution))), {});
       host.change_direction(v < 0.0 ? Direction::backward : Direction::forward);
-      slide(host, v, 60.0 * 1e-5 / std::abs(v));
+      test::go_on(host, v, 60.0 * 1e-5 / std::abs(v));
       const double known = 10.0 * (0.6 - 0.005 * std::log(std::abs(ratio)));
       CHECK(host.force() == Approx(std::copysign(known, v)).epsilon(1e-9));
     }
@@ -93,7 +86,7 @@ TEST_CASE("rate_state: a step of the speed", "[friction][rate_state]") {
       INFO(r);
       sim::LawHost host(Law(RateState(granite(evolution))), {});
       host.change_direction(Direction::forward);
-      slide(host, 1e-6, 1.0);
+      test::go_on(host, 1e-6, 1.0);
       const double before = host.force();
       CHECK(before == Approx(6.0).epsilon(1e-12));
       for (const double d : {0.0, 0.5, 1.0, 3.0}) {
@@ -101,7 +94,7 @@ TEST_CASE("rate_state: a step of the speed", "[friction][rate_state]") {
         const double psi =
             evolution == Evolution::slip ? -std::log(r) * (1.0 - s) : std::log(1.0 / r + (1.0 - 1.0 / r) * s);
         sim::LawHost stepped = host;
-        slide(stepped, r * 1e-6, d * 1e-5 / (r * 1e-6) + 1e-12);
+        test::go_on(stepped, r * 1e-6, d * 1e-5 / (r * 1e-6) + 1e-12);
         CHECK(stepped.force() - before ==
               Approx(10.0 * (0.01 * std::log(r) + 0.015 * psi)).epsilon(1e-7).margin(1e-9));
       }
@@ -113,7 +106,7 @@ TEST_CASE("rate_state: contacts age at rest", "[friction][rate_state]") {
   // exp(psi) = 1 + V0 t/Dc by aging; by slip nothing changes.
   for (const Evolution evolution : {Evolution::aging, Evolution::slip}) {
     sim::LawHost host(Law(RateState(granite(evolution))), {});
-    slide(host, 0.0, 1e3);
+    test::go_on(host, 0.0, 1e3);
     CHECK(host.memory().state[0] == Approx(evolution == Evolution::aging ? std::log(101.0) : 0.0).epsilon(1e-9));
     CHECK(host.force() == 0.0);
   }

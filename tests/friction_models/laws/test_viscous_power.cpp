@@ -17,7 +17,7 @@ using friction::ViscousPower;
 
 namespace {
 
-sim::LawCase viscous(double coefficient, double velocity, double exponent) {
+sim::LawCase viscous_power(double coefficient, double velocity, double exponent) {
   sim::LawCase c = sim::law_case(
       "viscous_power", {{"coefficient", coefficient}, {"reference_velocity", velocity}, {"exponent", exponent}});
   c.scaled = [=](double factor) { return Law(ViscousPower(factor * coefficient, velocity, exponent)); };
@@ -30,7 +30,7 @@ TEST_CASE("viscous_power conforms to the law contract", "[friction][viscous_powe
   const std::vector<std::string> none;
   for (const double exponent : {0.3, 1.0, 1.7, 2.0, 3.0}) {
     INFO(exponent);
-    CHECK(sim::nonconformities(viscous(2.0, 0.1, exponent)) == none);
+    CHECK(sim::nonconformities(viscous_power(2.0, 0.1, exponent)) == none);
   }
 }
 

@@ -14,7 +14,7 @@ using friction::ViscousSaturating;
 
 namespace {
 
-sim::LawCase viscous(double coefficient, double velocity) {
+sim::LawCase viscous_saturating(double coefficient, double velocity) {
   sim::LawCase c =
       sim::law_case("viscous_saturating", {{"coefficient", coefficient}, {"saturation_velocity", velocity}});
   c.scaled = [=](double factor) { return Law(ViscousSaturating(factor * coefficient, velocity)); };
@@ -25,9 +25,9 @@ sim::LawCase viscous(double coefficient, double velocity) {
 
 TEST_CASE("viscous_saturating conforms to the law contract", "[friction][viscous_saturating]") {
   const std::vector<std::string> none;
-  CHECK(sim::nonconformities(viscous(4.0, 0.5)) == none);
-  CHECK(sim::nonconformities(viscous(2000.0, 1e-3)) == none);
-  CHECK(sim::nonconformities(viscous(0.0, 1.0)) == none);
+  CHECK(sim::nonconformities(viscous_saturating(4.0, 0.5)) == none);
+  CHECK(sim::nonconformities(viscous_saturating(2000.0, 1e-3)) == none);
+  CHECK(sim::nonconformities(viscous_saturating(0.0, 1.0)) == none);
 }
 
 TEST_CASE("viscous_saturating: dashpot at low speed, constant at high speed", "[friction][viscous_saturating]") {

@@ -22,8 +22,8 @@ using friction::ParameterValues;
 
 namespace {
 
-constexpr double kinetic = 2.0;  // N
-constexpr double length = 0.02;  // m
+constexpr double mean_kinetic = 2.0;  // N
+constexpr double length = 0.02;       // m
 constexpr double cell = length / 10.0;
 
 ParameterValues over_position(double ratio, double seed) {
@@ -31,8 +31,9 @@ ParameterValues over_position(double ratio, double seed) {
   return {{"fluctuation", std::vector<ParameterValues>{record}}};
 }
 
-Law coulomb() {
-  return friction::modified(Law(friction::Coulomb(kinetic, kinetic)), over_position(0.3, 7.0), {kinetic});
+Law rough_coulomb() {
+  return friction::modified(Law(friction::Coulomb(mean_kinetic, mean_kinetic)), over_position(0.3, 7.0),
+                            {mean_kinetic});
 }
 
 /// Work of one way from a to b under a level that a law started there has: the sum over cells, i about i times the
@@ -110,7 +111,7 @@ TEST_CASE("laws under a fluctuation over position conform to the law contract", 
 
 TEST_CASE("fluctuation over position: a place has one level, whichever way the mass comes",
           "[friction][fluctuation]") {
-  const Law law = coulomb();
+  const Law law = rough_coulomb();
   CHECK(law.aperiodic().empty());
   sim::LawHost host(law, {});
   const double A = 0.0713;
@@ -125,7 +126,7 @@ TEST_CASE("fluctuation over position: a place has one level, whichever way the m
 
 TEST_CASE("fluctuation over position: a motion is periodic, its friction work that of its way",
           "[friction][fluctuation]") {
-  const Law law = coulomb();
+  const Law law = rough_coulomb();
   const sim::SteadyState orbit = sim::steady_state(test::standard_system(law));
   REQUIRE(orbit.outcome.ok());
   CHECK(orbit.stops_per_cycle == 0);

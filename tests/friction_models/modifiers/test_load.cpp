@@ -13,33 +13,21 @@
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/friction_models/modifiers/modified_laws.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
 using friction::Coulomb;
 using friction::Law;
 using friction::ParameterValues;
+using test::coulomb_with;
+using test::loop_work;
 
 namespace {
 
 ParameterValues modulation(double ratio, double order, double phase) {
   const ParameterValues record{{"ratio", ratio}, {"order", order}, {"phase", phase}};
   return {{"load_modulation", std::vector<ParameterValues>{record}}};
-}
-
-Law coulomb(double kinetic, double static_level, const ParameterValues& modifiers) {
-  return friction::modified(Law(Coulomb(kinetic, static_level)), modifiers, {kinetic, static_level});
-}
-
-double loop_work(const Law& law, double low, double high) {
-  sim::LawHost host(law, {});
-  host.move_to(low);
-  host.move_to(high);
-  const double before = host.work();
-  host.move_to(low);
-  host.move_to(high);
-  REQUIRE_FALSE(host.broken());
-  return host.work() - before;
 }
 
 }  // namespace
@@ -65,7 +53,7 @@ TEST_CASE("load_gradient: the work of a loop is that of the load along the way",
   // Twice the integral of F (1 + g x) from low to high; below x = -1/g there is no load.
   const double F = 2.0;
   const double g = 4.0;
-  const Law law = coulomb(F, F, {{"load_gradient", g}});
+  const Law law = coulomb_with(F, F, {{"load_gradient", g}});
   const auto integral = [&](double low, double high) {
     return F * (high - low + 0.5 * g * (high * high - low * low));
   };
@@ -82,7 +70,7 @@ TEST_CASE("load_gradient: free half swings about a middle of their own, on a spr
   const double k = 100.0;
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = k};
-  model.friction = {coulomb(F, F, {{"load_gradient", g}})};
+  model.friction = {coulomb_with(F, F, {{"load_gradient", g}})};
   model.initial = {.position = 0.25};
   const sim::History history = sim::simulate(model, {.duration = 20.0});
   REQUIRE(history.outcome.ok());
@@ -105,7 +93,7 @@ TEST_CASE("load_gradient: free half swings about a middle of their own, on a spr
 }
 
 TEST_CASE("load_gradient: both engines agree where the load is lost in each period", "[load]") {
-  sim::Model model = test::standard_system(coulomb(3.0, 4.5, {{"load_gradient", 12.0}}));
+  sim::Model model = test::standard_system(coulomb_with(3.0, 4.5, {{"load_gradient", 12.0}}));
   model.friction.push_back(friction::modified(Law(friction::ContactCompliance(2.0, 2.0, 800.0, 0.0)),
                                               {{"load_gradient", -14.0}}, {2.0}));
   const sim::SteadyState exact = sim::steady_state(model);
@@ -132,7 +120,7 @@ TEST_CASE("load_modulation: within a slip it is a harmonic force, which the exac
       model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 5.0, .frequency = 7.0};
       model.initial = {.velocity = 4.0 * s};
       sim::Model equivalent = model;
-      model.friction = {coulomb(F, F, modulation(ratio, order, phase))};
+      model.friction = {coulomb_with(F, F, modulation(ratio, order, phase))};
       equivalent.friction = {Law(Coulomb(F, F))};
       // Orders count from 2: the fundamental becomes one of half the frequency without amplitude.
       equivalent.excitation.amplitude = 0.0;
@@ -155,7 +143,7 @@ TEST_CASE("load_modulation: within a slip it is a harmonic force, which the exac
 
 TEST_CASE("load_modulation follows the phase of the drive over many periods", "[load]") {
   // A motion shifted by whole periods is the same motion; and a drive of another phase with the load shifted alike.
-  sim::Model model = test::standard_system(coulomb(2.0, 3.0, modulation(0.8, 2, 0.4)));
+  sim::Model model = test::standard_system(coulomb_with(2.0, 3.0, modulation(0.8, 2, 0.4)));
   const sim::SteadyState state = sim::steady_state(model);
   REQUIRE(state.outcome.ok());
   CHECK(std::abs(state.energy.defect) < 1e-9);
@@ -176,7 +164,7 @@ TEST_CASE("load_modulation: the mass sticks up to the limit of the moment", "[lo
   model.oscillator = {.mass = 1.0, .stiffness = 100.0};
   model.excitation = {
       .type = sim::ExcitationType::force_harmonic, .amplitude = 0.0, .frequency = 5.0, .offset = 2.0};
-  model.friction = {coulomb(3.0, 3.0, modulation(0.5, 1, 0.0))};
+  model.friction = {coulomb_with(3.0, 3.0, modulation(0.5, 1, 0.0))};
   const sim::History history = sim::simulate(model, {.duration = 1.0});
   REQUIRE(history.outcome.ok());
   const auto release = std::ranges::find(history.events, sim::EventKind::release, &sim::Event::kind);

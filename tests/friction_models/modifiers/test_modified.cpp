@@ -15,6 +15,7 @@
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
 #include "sim/motion/simulate.hpp"
+#include "tests/friction_models/modifiers/modified_laws.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
@@ -25,6 +26,8 @@ using friction::Instant;
 using friction::Law;
 using friction::Memory;
 using friction::ParameterValues;
+using test::coulomb_with;
+using test::loop_work;
 
 namespace {
 
@@ -38,10 +41,6 @@ ParameterValues fluctuation(double ratio, double correlation_time, double seed) 
 ParameterValues plus(ParameterValues values, const ParameterValues& more) {
   for (const auto& [name, value] : more.values()) values.set(name, value);
   return values;
-}
-
-Law coulomb(double kinetic, double static_level, const ParameterValues& modifiers) {
-  return friction::modified(Law(Coulomb(kinetic, static_level)), modifiers, {kinetic, static_level});
 }
 
 Law contact(double kinetic, double stiffness, const ParameterValues& modifiers) {
@@ -65,18 +64,6 @@ double bisect(double low, double high, const std::function<double(double)>& f) {
     ((f(low) < 0.0) == (f(middle) < 0.0) ? low : high) = middle;
   }
   return high;
-}
-
-/// Work of the loop between +-amplitude, after one round.
-double loop_work(const Law& law, double amplitude) {
-  sim::LawHost host(law, {});
-  host.move_to(-amplitude);
-  host.move_to(amplitude);
-  const double before = host.work();
-  host.move_to(-amplitude);
-  host.move_to(amplitude);
-  REQUIRE_FALSE(host.broken());
-  return host.work() - before;
 }
 
 }  // namespace
@@ -123,12 +110,12 @@ TEST_CASE("modifiers that do nothing leave the law as it is", "[friction][modifi
   ParameterValues zero = fluctuation(0.0, 1.0, 1.0);
   zero.set("drift", 0.0);
   zero.set("position_slope", 0.0);
-  const Law law = coulomb(2.0, 3.0, zero);
+  const Law law = coulomb_with(2.0, 3.0, zero);
   CHECK_FALSE(law.is_modal());
   CHECK(law.aperiodic().empty());
-  CHECK(coulomb(2.0, 3.0, {{"position_slope", 1.0}}).aperiodic().empty());
-  CHECK(coulomb(2.0, 3.0, {{"drift", 1.0}}).aperiodic() == "its force limits drift");
-  CHECK(coulomb(2.0, 3.0, fluctuation(0.1, 1.0, 1.0)).aperiodic() == "its force limits fluctuate at random");
+  CHECK(coulomb_with(2.0, 3.0, {{"position_slope", 1.0}}).aperiodic().empty());
+  CHECK(coulomb_with(2.0, 3.0, {{"drift", 1.0}}).aperiodic() == "its force limits drift");
+  CHECK(coulomb_with(2.0, 3.0, fluctuation(0.1, 1.0, 1.0)).aperiodic() == "its force limits fluctuate at random");
 }
 
 TEST_CASE("fluctuation: mean, variance and correlation of a stationary process", "[friction][modified]") {
@@ -136,7 +123,7 @@ TEST_CASE("fluctuation: mean, variance and correlation of a stationary process",
   // 0.04 standard deviations, and of the variance 0.04 sqrt(2) with half the correlation time, 0.04.
   const double ratio = 0.1;
   const int count = 200'000;
-  const std::vector<double> list = factors(coulomb(1.0, 1.0, fluctuation(ratio, 2.0, 5.0)), count);
+  const std::vector<double> list = factors(coulomb_with(1.0, 1.0, fluctuation(ratio, 2.0, 5.0)), count);
   double mean = 0.0;
   for (const double factor : list) mean += (factor - 1.0) / ratio / count;
   CHECK(std::abs(mean) < 0.04);
@@ -146,12 +133,12 @@ TEST_CASE("fluctuation: mean, variance and correlation of a stationary process",
       sum += (list[static_cast<std::size_t>(i)] - 1.0) * (list[static_cast<std::size_t>(i + lag)] - 1.0);
     CHECK(std::abs(sum / (count - lag) / (ratio * ratio) - std::exp(-lag / 10.0)) < 0.05);
   }
-  CHECK(list == factors(coulomb(1.0, 1.0, fluctuation(ratio, 2.0, 5.0)), count));
-  CHECK(list[7] != factors(coulomb(1.0, 1.0, fluctuation(ratio, 2.0, 6.0)), 8)[7]);
+  CHECK(list == factors(coulomb_with(1.0, 1.0, fluctuation(ratio, 2.0, 5.0)), count));
+  CHECK(list[7] != factors(coulomb_with(1.0, 1.0, fluctuation(ratio, 2.0, 6.0)), 8)[7]);
 }
 
 TEST_CASE("fluctuation: levels below zero are zero", "[friction][modified]") {
-  const std::vector<double> list = factors(coulomb(1.0, 1.0, fluctuation(1.0, 2.0, 5.0)), 5000);
+  const std::vector<double> list = factors(coulomb_with(1.0, 1.0, fluctuation(1.0, 2.0, 5.0)), 5000);
   CHECK(*std::ranges::min_element(list) == 0.0);
   // A normal variable is below -1 in 15.87 percent of the time; 250 independent cells.
   const auto zeros = static_cast<double>(std::ranges::count(list, 0.0));
@@ -163,7 +150,7 @@ TEST_CASE("fluctuation: the exact engine takes each cell's level", "[friction][m
   const double w = 10.0;
   const double cell = 0.06;
   const ParameterValues noise = fluctuation(0.5, 10.0 * cell, 8.0);
-  const std::vector<double> levels = factors(coulomb(2.0, 2.0, noise), 8);
+  const std::vector<double> levels = factors(coulomb_with(2.0, 2.0, noise), 8);
   double x = 1.0;
   double v = 0.0;
   double turn = 0.0;
@@ -184,7 +171,7 @@ TEST_CASE("fluctuation: the exact engine takes each cell's level", "[friction][m
   }
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = w * w, .damping = 0.0};
-  model.friction = {coulomb(2.0, 2.0, noise)};
+  model.friction = {coulomb_with(2.0, 2.0, noise)};
   model.initial.position = 1.0;
   const sim::FreeDecay decay = sim::free_decay(model, 2);
   REQUIRE(decay.peaks.size() == 2);
@@ -205,13 +192,13 @@ TEST_CASE("drift: the first half swing has a closed form, and friction ends", "[
     const auto v = [&](double t) { return f * d - (x0 - f) * w * std::sin(w * t) - f * d * std::cos(w * t); };
     const double turn = bisect(0.3, 0.33, v);
     const double x = f * (1.0 + d * turn) + (x0 - f) * std::cos(w * turn) - f * d / w * std::sin(w * turn);
-    model.friction = {coulomb(2.0, 2.0, {{"drift", d}})};
+    model.friction = {coulomb_with(2.0, 2.0, {{"drift", d}})};
     const sim::FreeDecay decay = sim::free_decay(model, 2);
     REQUIRE(decay.peaks.size() == 2);
     CHECK(decay.peaks[1].t == Approx(turn).epsilon(1e-13));
     CHECK(decay.peaks[1].x == Approx(x).epsilon(1e-13));
   }
-  model.friction = {coulomb(2.0, 2.0, {{"drift", -2.0}})};
+  model.friction = {coulomb_with(2.0, 2.0, {{"drift", -2.0}})};
   const sim::History free = sim::simulate(model, {.duration = 0.5});
   const sim::History later = sim::simulate(model, {.duration = 30.0});
   REQUIRE(later.outcome.ok());
@@ -280,8 +267,8 @@ TEST_CASE("a contact whose limit vanishes begins anew, unstretched, where it ret
 
 TEST_CASE("fluctuation: a step that leaves a sloping limit below zero leaves none", "[friction][modified]") {
   // f 2 N - 200 N/m 5 mm and f 3 N - 1 N: by the factor f none, one or both of them are gone.
-  const Law law = coulomb(2.0, 3.0, plus(fluctuation(0.8, 1.0, 3.0), {{"position_slope", -200.0}}));
-  const std::vector<double> factor = factors(coulomb(1.0, 1.0, fluctuation(0.8, 1.0, 3.0)), 400);
+  const Law law = coulomb_with(2.0, 3.0, plus(fluctuation(0.8, 1.0, 3.0), {{"position_slope", -200.0}}));
+  const std::vector<double> factor = factors(coulomb_with(1.0, 1.0, fluctuation(0.8, 1.0, 3.0)), 400);
   Instant now{.x = 0.005};
   Memory memory = law.start({});
   int steps[3] = {};
@@ -305,10 +292,11 @@ TEST_CASE("position_slope: loops of a rigid and of a compliant contact", "[frict
   const double c = 30.0;
   const double A = 0.05;
   // Rigid: F + c |x| over 4 A.
-  CHECK(loop_work(coulomb(F, F, {{"position_slope", c}}), A) ==
+  CHECK(loop_work(coulomb_with(F, F, {{"position_slope", c}}), -A, A) ==
         Approx(4.0 * F * A + 2.0 * c * A * A).epsilon(1e-12));
   // Limits that fall to zero at |x| = F/200 = 10 mm.
-  CHECK(loop_work(coulomb(F, F, {{"position_slope", -200.0}}), A) == Approx(4.0 * F * 0.01 / 2.0).epsilon(1e-12));
+  CHECK(loop_work(coulomb_with(F, F, {{"position_slope", -200.0}}), -A, A) ==
+        Approx(4.0 * F * 0.01 / 2.0).epsilon(1e-12));
   // Compliant: from the turn the force falls by k (A - x) until it is -(F + c x1), if that is before x = 0; then it
   // slides. The stuck part gives back c (A - x1)^2/2 a half loop.
   const double k = 1000.0;
@@ -316,18 +304,18 @@ TEST_CASE("position_slope: loops of a rigid and of a compliant contact", "[frict
   REQUIRE(x1 > 0.0);
   const double slides = F * (x1 + A) + c * (x1 * x1 + A * A) / 2.0;
   const double stuck = -c * (A - x1) * (A - x1) / 2.0;
-  CHECK(loop_work(contact(F, k, {{"position_slope", c}}), A) == Approx(2.0 * (slides + stuck)).epsilon(1e-12));
+  CHECK(loop_work(contact(F, k, {{"position_slope", c}}), -A, A) == Approx(2.0 * (slides + stuck)).epsilon(1e-12));
 }
 
 TEST_CASE("position_slope: friction work of a steady motion", "[friction][modified]") {
-  const test::SettledMotion motion = test::settled_motion(coulomb(2.0, 2.0, {{"position_slope", 5.0}}));
+  const test::SettledMotion motion = test::settled_motion(coulomb_with(2.0, 2.0, {{"position_slope", 5.0}}));
   const double A = motion.peak;
   CHECK(A == Approx(-motion.trough).epsilon(1e-13));
   CHECK(motion.friction_work == Approx(8.0 * A + 10.0 * A * A).epsilon(1e-11));
 }
 
 TEST_CASE("factor first, slope after", "[friction][modified]") {
-  const Law law = coulomb(2.0, 3.0, {{"drift", 0.5}, {"position_slope", 10.0}});
+  const Law law = coulomb_with(2.0, 3.0, {{"drift", 0.5}, {"position_slope", 10.0}});
   const Memory memory = law.start({});
   const Instant now{.t = 1.0, .x = 0.1};
   CHECK(law.force(memory, now, Direction::forward) == Approx(2.0 * 1.5 + 1.0).epsilon(1e-15));
@@ -350,7 +338,7 @@ TEST_CASE("iwan under modifiers is its elements with one common factor", "[frict
     host.move_along(0.09, [](double t) { return Instant{t, t, 1.0}; });
     sliding += host.force();
   }
-  const double factor = factors(coulomb(1.0, 1.0, noise), 1)[0];
+  const double factor = factors(coulomb_with(1.0, 1.0, noise), 1)[0];
   CHECK(sliding == Approx(2.0 * (1.0 + 0.5 * 0.09) * factor).epsilon(1e-12));
 }
 

@@ -14,6 +14,7 @@
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/sliding.hpp"
 #include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
@@ -24,7 +25,7 @@ using friction::ParameterValues;
 
 namespace {
 
-constexpr double kinetic = 2.0;  // N
+constexpr double cold_kinetic = 2.0;  // N
 
 ParameterValues warming(double power, double time_constant) {
   const ParameterValues record{{"power", power}, {"time_constant", time_constant}};
@@ -32,15 +33,14 @@ ParameterValues warming(double power, double time_constant) {
 }
 
 Law warm_coulomb(double power, double time_constant) {
-  return friction::modified(Law(friction::Coulomb(kinetic, kinetic)), warming(power, time_constant), {kinetic});
+  return friction::modified(Law(friction::Coulomb(cold_kinetic, cold_kinetic)), warming(power, time_constant),
+                            {cold_kinetic});
 }
 
-/// Slides forward at this speed for this time.
-void slide(sim::LawHost& host, double speed, double duration) {
+/// Slides forward at this speed for this time, without a stop.
+void slide_forward(sim::LawHost& host, double speed, double duration) {
   if (host.direction() != Direction::forward) host.change_direction(Direction::forward);
-  const Instant from = host.now();
-  host.move_along(from.t + duration,
-                  [=](double t) { return Instant{.t = t, .x = from.x + speed * (t - from.t), .v = speed}; });
+  test::go_on(host, speed, duration);
 }
 
 }  // namespace
@@ -81,31 +81,33 @@ TEST_CASE("warming: a law of the smooth engine, whose motions may be periodic", 
 }
 
 TEST_CASE("warming: steady sliding", "[friction][warming]") {
-  // F = kinetic exp(-F v/power): F v/power = W(kinetic v/power), here by bisection of an increasing function.
+  // F = cold_kinetic exp(-F v/power): F v/power = W(cold_kinetic v/power), here by bisection of an increasing
+  // function.
   const double power = 0.7;
   for (const double v : {0.05, 0.5, 3.0}) {
     double low = 0.0;
-    double high = kinetic;
+    double high = cold_kinetic;
     for (int i = 0; i < 100; ++i) {
       const double middle = 0.5 * (low + high);
-      (middle * std::exp(middle * v / power) < kinetic ? low : high) = middle;
+      (middle * std::exp(middle * v / power) < cold_kinetic ? low : high) = middle;
     }
     sim::LawHost host(warm_coulomb(power, 0.1), {.v = v});
     // The slowest approach is exp(-t/0.1).
-    slide(host, v, 4.0);
+    slide_forward(host, v, 4.0);
     CHECK(host.force() == Approx(low).epsilon(1e-9));
   }
 }
 
 TEST_CASE("warming: no heat is lost in a time short against the time constant", "[friction][warming]") {
-  // p' = kinetic v exp(-p/power)/tau: F = kinetic/(1 + kinetic v t/(tau power)). What cools away is t/tau of it.
+  // p' = cold_kinetic v exp(-p/power)/tau: F = cold_kinetic/(1 + cold_kinetic v t/(tau power)). What cools away is
+  // t/tau of it.
   const double tau = 1e8;
   const double capacity = 3.0;  // J: tau power
   const double v = 0.5;
   sim::LawHost host(warm_coulomb(capacity / tau, tau), {.v = v});
   for (const double t : {1.0, 4.0, 9.0}) {
-    slide(host, v, t - host.now().t);
-    CHECK(host.force() == Approx(kinetic / (1.0 + kinetic * v * t / capacity)).epsilon(1e-7));
+    slide_forward(host, v, t - host.now().t);
+    CHECK(host.force() == Approx(cold_kinetic / (1.0 + cold_kinetic * v * t / capacity)).epsilon(1e-7));
   }
 }
 
@@ -113,45 +115,46 @@ TEST_CASE("warming: at rest the contact cools", "[friction][warming]") {
   const double power = 0.7;
   const double tau = 0.4;
   sim::LawHost host(warm_coulomb(power, tau), {.v = 0.5});
-  slide(host, 0.5, 1.0);
-  const double warm = power * std::log(kinetic / host.force());
+  slide_forward(host, 0.5, 1.0);
+  const double warm = power * std::log(cold_kinetic / host.force());
   REQUIRE(warm > 0.1);
   host.change_direction(Direction::none);
   const Instant from = host.now();
   const double wait = 0.9;
   host.move_along(from.t + wait, [=](double t) { return Instant{.t = t, .x = from.x}; });
-  const double limit = kinetic * std::exp(-warm * std::exp(-wait / tau) / power);
+  const double limit = cold_kinetic * std::exp(-warm * std::exp(-wait / tau) / power);
   CHECK(host.law().static_limit(host.memory(), host.now()) == Approx(limit).epsilon(1e-9));
 }
 
 TEST_CASE("warming: a compliant contact is heated by its slider only", "[friction][warming]") {
-  // The loop 4 kinetic (A - kinetic/kt), whatever the spring holds; a power so large does not change the limit.
+  // The loop 4 cold_kinetic (A - cold_kinetic/kt), whatever the spring holds; a power so large does not change the
+  // limit.
   const double tau = 1e8;
   const double power = 1e9;
   const double A = 0.05;
-  const Law contact(friction::ContactCompliance(kinetic, kinetic, 1e3, 0.0));
-  sim::LawHost host(friction::modified(contact, warming(power, tau), {kinetic}), {});
+  const Law contact(friction::ContactCompliance(cold_kinetic, cold_kinetic, 1e3, 0.0));
+  sim::LawHost host(friction::modified(contact, warming(power, tau), {cold_kinetic}), {});
   host.move_to(A);
   const double before = host.memory().state.back();
   host.move_to(-A);
   host.move_to(A);
   REQUIRE_FALSE(host.broken());
   const double heat = tau * (host.memory().state.back() - before);
-  CHECK(heat == Approx(4.0 * kinetic * (A - kinetic / 1e3)).epsilon(1e-7));
+  CHECK(heat == Approx(4.0 * cold_kinetic * (A - cold_kinetic / 1e3)).epsilon(1e-7));
 }
 
 TEST_CASE("warming: a slow contact in steady vibration is coulomb at the mean power", "[friction][warming]") {
   // Over a period p' adds up to nothing, so the mean of p is the friction work over the period, W/T. With tau >> T
-  // it hardly varies: the motion is that under F = kinetic exp(-W/(T power)), W = 4 F x, up to T/tau.
+  // it hardly varies: the motion is that under F = cold_kinetic exp(-W/(T power)), W = 4 F x, up to T/tau.
   const double T = std::numbers::pi / 5.0;
   const double power = 3.0;
-  double F = kinetic;
+  double F = cold_kinetic;
   double x = 0.0;
   for (int i = 0; i < 60; ++i) {
     x = sim::steady_state(test::standard_system(Law(friction::Coulomb(F, F)))).amplitude;
-    F = kinetic * std::exp(-4.0 * F * x / (T * power));
+    F = cold_kinetic * std::exp(-4.0 * F * x / (T * power));
   }
-  REQUIRE(F < 0.6 * kinetic);
+  REQUIRE(F < 0.6 * cold_kinetic);
   const auto error = [&](double tau) {
     const sim::SteadyState orbit = sim::steady_state(test::standard_system(warm_coulomb(power, tau)));
     REQUIRE(orbit.outcome.ok());

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "identify/assumption.hpp"
 #include "identify/record.hpp"
 #include "tests/identify/ledger/rig.hpp"
 
@@ -47,5 +48,11 @@ struct Measured {
 
 /// `alter` makes the rig depart. The same seed gives the same rig and noise.
 [[nodiscard]] Measured measured(Kind kind, std::uint64_t seed, void (*alter)(Rig&) = nullptr, const Off& off = {});
+
+/// Whether an assumption is one about the law of friction.
+inline bool is_of_friction(Assumption assumption) {
+  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
+         assumption == Assumption::symmetry;
+}
 
 }  // namespace dualdamp::identify::testing

@@ -18,7 +18,7 @@ using namespace dualdamp::identify::testing;
 
 namespace {
 
-constexpr std::uint64_t first_seed = 100;
+constexpr std::uint64_t ledger_seed = 100;
 
 struct Found {
   int any = 0;
@@ -29,7 +29,7 @@ struct Found {
 Found ledgers(Kind kind, int records, Assumption assumption, void (*alter)(Rig&) = nullptr, const Off& off = {}) {
   Found found;
   for (int i = 0; i < records; ++i) {
-    const Measured m = measured(kind, first_seed + static_cast<std::uint64_t>(i), alter, off);
+    const Measured m = measured(kind, ledger_seed + static_cast<std::uint64_t>(i), alter, off);
     const Ledger ledger = ledger_of(m.record, m.constants);
     REQUIRE_FALSE(ledger.data.empty());
     REQUIRE(ledger.entries.size() == assumption_count);
@@ -72,7 +72,7 @@ TEST_CASE("Quadratic drag is charged to friction over speed") {
 }
 
 TEST_CASE("What a record cannot tell is untested, with what would tell") {
-  const Measured m = measured(Kind::xy, first_seed);
+  const Measured m = measured(Kind::xy, ledger_seed);
   const Ledger ledger = ledger_of(m.record, m.constants);
   const LedgerEntry& symmetry = ledger.entry(Assumption::symmetry);
   CHECK(symmetry.standing == Standing::untested);
@@ -82,11 +82,6 @@ TEST_CASE("What a record cannot tell is untested, with what would tell") {
 }
 
 namespace {
-
-bool is_of_friction(Assumption assumption) {
-  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
-         assumption == Assumption::symmetry;
-}
 
 /// Is friction charged, and nothing beside it?
 bool blames_friction_alone(const Ledger& ledger) {
@@ -110,7 +105,7 @@ TEST_CASE("A stiffness 2 % off is charged to the constants alone, and the fit th
   for (const Kind kind : {Kind::forced, Kind::decay, Kind::xy_phase}) {
     CAPTURE(name_of(kind));
     int held = 0;
-    for (std::uint64_t seed = first_seed; seed < first_seed + 2; ++seed) {
+    for (std::uint64_t seed = ledger_seed; seed < ledger_seed + 2; ++seed) {
       const Measured m = measured(kind, seed, nullptr, {.stiffness = 0.02});
       const Ledger ledger = ledger_of(m.record, m.constants);
       CHECK(ledger.is_violated(Assumption::constants));
@@ -129,7 +124,7 @@ TEST_CASE("Constants and gains that are off by less than their stated uncertaint
     int too_sure = 0;
     constexpr int records = 6;
     for (int i = 0; i < records; ++i) {
-      const Measured m = measured(kind, first_seed + static_cast<std::uint64_t>(i), nullptr,
+      const Measured m = measured(kind, ledger_seed + static_cast<std::uint64_t>(i), nullptr,
                                   {.stiffness = 0.02, .gain = 0.01, .drive_gain = -0.01});
       const auto violated = [&](const ConstantUncertainties& uncertainties) {
         const Ledger ledger = ledger_of(m.record, m.constants, {.uncertainties = uncertainties});
@@ -162,7 +157,7 @@ TEST_CASE("A spring that hardens is charged to the spring where the fit can set 
   const auto alter = [](Rig& rig) { rig.cubic = 0.03; };
   for (const Kind kind : {Kind::forced, Kind::extremes, Kind::xy_phase}) {
     CAPTURE(name_of(kind));
-    const Measured m = measured(kind, first_seed, alter);
+    const Measured m = measured(kind, ledger_seed, alter);
     const Ledger ledger = ledger_of(m.record, m.constants);
     CHECK(ledger.is_violated(Assumption::spring));
     CHECK_FALSE(ledger.is_violated(Assumption::friction_velocity));
@@ -173,7 +168,7 @@ TEST_CASE("A spring that hardens is charged to the spring where the fit can set 
 TEST_CASE("Where amplitudes alone show a departure, a spring that they cannot test is named beside friction") {
   const auto alter = [](Rig& rig) { rig.cubic = 0.03; };
   int rejected = 0;
-  for (std::uint64_t seed = first_seed; seed < first_seed + 10; ++seed) {
+  for (std::uint64_t seed = ledger_seed; seed < ledger_seed + 10; ++seed) {
     const Measured m = measured(Kind::xy, seed, alter);
     const Ledger ledger = ledger_of(m.record, m.constants);
     rejected += ledger.departures.empty() ? 0 : 1;
@@ -240,7 +235,7 @@ TEST_CASE("Where a term of friction is nearly seen the intervals reach over the 
   const auto alter = [](Rig& rig) { rig.saturation = 0.3; };
   int near = 0;
   int answered = 0;
-  for (std::uint64_t seed = first_seed; seed < first_seed + 24; ++seed) {
+  for (std::uint64_t seed = ledger_seed; seed < ledger_seed + 24; ++seed) {
     const Measured m = measured(Kind::extremes, seed, alter);
     const Ledger ledger = ledger_of(m.record, m.constants);
     if (!ledger.joint || !ledger.joint->interval95) continue;
@@ -282,7 +277,7 @@ TEST_CASE("Damping of its own in each direction is charged to symmetry, and the 
   int named = 0;
   int held = 0;
   constexpr int records = 8;
-  for (std::uint64_t seed = first_seed; seed < first_seed + records; ++seed) {
+  for (std::uint64_t seed = ledger_seed; seed < ledger_seed + records; ++seed) {
     const Measured m = measured(Kind::extremes, seed, alter);
     const Ledger ledger = ledger_of(m.record, m.constants);
     named += ledger.is_violated(Assumption::symmetry) ? 1 : 0;
@@ -308,7 +303,7 @@ TEST_CASE("Where friction drifts from sweep to sweep the answer is the mean over
   int named = 0;
   int held = 0;
   constexpr int records = 6;
-  for (std::uint64_t seed = first_seed; seed < first_seed + records; ++seed) {
+  for (std::uint64_t seed = ledger_seed; seed < ledger_seed + records; ++seed) {
     const Measured m = measured(Kind::xy_phase, seed, nullptr, {.sweep_drift = 0.3});
     const Ledger ledger = ledger_of(m.record, m.constants);
     named += ledger.is_violated(Assumption::stationarity) ? 1 : 0;
@@ -349,7 +344,7 @@ TEST_CASE("A zero of x that is off is named beside friction's symmetry, and the 
   int held = 0;
   int named = 0;
   constexpr int records = 6;
-  for (std::uint64_t seed = first_seed; seed < first_seed + records; ++seed) {
+  for (std::uint64_t seed = ledger_seed; seed < ledger_seed + records; ++seed) {
     Measured m = measured(Kind::decay, seed);
     for (double& x : m.record.histories[0].x) x += 3.0 * m.rig.x_f();
     const Ledger ledger = ledger_of(m.record, m.constants);
@@ -370,7 +365,7 @@ TEST_CASE("Noise of the drive, which columns and residuals share, rejects no con
   constexpr int records = 8;
   for (int i = 0; i < records; ++i) {
     Measured m =
-        measured(Kind::forced, first_seed + static_cast<std::uint64_t>(i), [](Rig& rig) { rig.zeta = 0.08; });
+        measured(Kind::forced, ledger_seed + static_cast<std::uint64_t>(i), [](Rig& rig) { rig.zeta = 0.08; });
     History& history = m.record.histories.front();
     const auto settled = static_cast<std::ptrdiff_t>(history.x.size() / 2);
     history.x.erase(history.x.begin(), history.x.begin() + settled);

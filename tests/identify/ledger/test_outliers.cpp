@@ -13,14 +13,14 @@ using namespace dualdamp::identify::testing;
 
 namespace {
 
-constexpr std::uint64_t first_seed = 300;
+constexpr std::uint64_t outlier_seed = 300;
 
 /// Root mean square of the relative errors of F0 over some records.
 double error_of_F0(bool spoilt, bool robust) {
   constexpr int records = 20;
   double squares = 0.0;
   for (int i = 0; i < records; ++i) {
-    Measured m = measured(Kind::extremes, first_seed + static_cast<std::uint64_t>(i));
+    Measured m = measured(Kind::extremes, outlier_seed + static_cast<std::uint64_t>(i));
     if (spoilt) m.record.decay->extremes[2] *= 1.2;
     const Record record = robust ? bounded_influence(m.record, m.constants).record : m.record;
     const Estimate estimate = free_decay(record, m.constants, {});
@@ -35,7 +35,7 @@ double error_of_F0(bool spoilt, bool robust) {
 TEST_CASE("A reading that does not belong to the others is named and hardly counts") {
   for (const Kind kind : {Kind::xy, Kind::xy_phase, Kind::response}) {
     CAPTURE(name_of(kind));
-    Measured m = measured(kind, first_seed);
+    Measured m = measured(kind, outlier_seed);
     Pair& spoilt = m.record.pairs->pairs[5];
     spoilt.x *= 1.3;
     const BoundedInfluence bounded = bounded_influence(m.record, m.constants);
@@ -52,7 +52,7 @@ TEST_CASE("A reading that does not belong to the others is named and hardly coun
 
 TEST_CASE("Readings that belong to each other are no outliers but by chance") {
   int outliers = 0;
-  for (std::uint64_t seed = first_seed; seed < first_seed + 20; ++seed)
+  for (std::uint64_t seed = outlier_seed; seed < outlier_seed + 20; ++seed)
     for (const Kind kind : {Kind::xy, Kind::response, Kind::extremes}) {
       const Measured m = measured(kind, seed);
       outliers += static_cast<int>(bounded_influence(m.record, m.constants).outliers.size());

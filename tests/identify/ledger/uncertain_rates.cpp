@@ -23,7 +23,7 @@ namespace {
 /// What a method was asked and said.
 struct Coverage {
   int records = 0, outcomes = 0, usable = 0, intervals = 0, zeta = 0, c = 0, F0 = 0;
-  X
+  std::array<int, 2> zeta_sides{}, F0_sides{};  ///< intervals below and above the truth
 };
 
 /// A record with constants and gains that are off by chance, and what is stated of them.
@@ -67,7 +67,7 @@ Reader joint_reader(const LedgerOptions& options) {
   };
 }
 
-void count(const Estimate& found, const Rig& rig, Coverage& coverage) {
+void count_interval(const Estimate& found, const Rig& rig, Coverage& coverage) {
   ++coverage.records;
   if (!found.outcome.ok()) return;
   ++coverage.outcomes;
@@ -110,8 +110,8 @@ void identify(const Drawn& drawn, Rates& rates) {
   Ledger ledger = ledger_of(measured.record, measured.constants, options);
   if (ledger.joint) ledger.joint = with(joint_reader(options));
   const Identification all = concluded(std::move(estimates), std::move(ledger));
-  for (const Estimate& estimate : all.estimates) count(estimate, measured.rig, rates.of[estimate.method]);
-  if (all.answer) count(all.estimates[*all.answer], measured.rig, rates.of["the answer"]);
+  for (const Estimate& estimate : all.estimates) count_interval(estimate, measured.rig, rates.of[estimate.method]);
+  if (all.answer) count_interval(all.estimates[*all.answer], measured.rig, rates.of["the answer"]);
   const auto violated = [&](Assumption assumption) { return all.ledger.is_violated(assumption); };
   for (const Assumption assumption : assumptions())
     if (violated(assumption)) ++rates.named[std::string(name_of(assumption))];

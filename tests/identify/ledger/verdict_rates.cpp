@@ -91,11 +91,6 @@ bool covers(const std::array<double, 2>& interval, double value) {
   return interval[0] <= value && value <= interval[1];
 }
 
-bool is_of_friction(Assumption assumption) {
-  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
-         assumption == Assumption::symmetry;
-}
-
 /// The joint model of a record; nothing where there is none.
 std::optional<JointModel> model_of(const Measured& measured) {
   const Record& record = measured.record;
@@ -140,7 +135,7 @@ struct Counts {
   double seconds = 0.0;
 };
 
-void count(const Row& row, std::uint64_t seed, Counts& counts) {
+void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
   Measured record = measured(row.kind, seed, row.alter, row.off);
   const auto start = std::chrono::steady_clock::now();
   const Identification found = identified(record);
@@ -224,7 +219,7 @@ int main(int argc, char** argv) {
   for (const Row& row : rows()) {
     if (!wanted(row.name)) continue;
     Counts counts;
-    for (int i = 0; i < records; ++i) count(row, first + static_cast<std::uint64_t>(i), counts);
+    for (int i = 0; i < records; ++i) count_verdict(row, first + static_cast<std::uint64_t>(i), counts);
     print(row, counts);
   }
   for (const Kind kind : all)

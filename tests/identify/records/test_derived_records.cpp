@@ -19,18 +19,17 @@ using namespace dualdamp::identify::testing;
 namespace {
 
 /// The paper's bearing with the soft spring.
-constexpr double zeta = 0.12;
-constexpr double F0 = 3.7;
-constexpr double x_f = F0 / stiffness;
+constexpr double soft_zeta = 0.12;
+constexpr double soft_x_f = bearing_F0 / stiffness;
 
 sim::Model bearing() {
   sim::Model model;
-  model.oscillator = {mass, stiffness, 2.0 * zeta * std::sqrt(mass * stiffness), sim::DamperTo::ground};
-  model.friction.emplace_back(friction::Coulomb(F0, F0));
+  model.oscillator = {mass, stiffness, 2.0 * soft_zeta * std::sqrt(mass * stiffness), sim::DamperTo::ground};
+  model.friction.emplace_back(friction::Coulomb(bearing_F0, bearing_F0));
   return model;
 }
 
-History sampled(const sim::Model& model, double duration, double rate) {
+History sampled_displacements(const sim::Model& model, double duration, double rate) {
   const sim::History motion = sim::simulate(model, {.duration = duration, .sample_rate = rate});
   REQUIRE(motion.outcome.ok());
   History history;
@@ -42,19 +41,19 @@ History sampled(const sim::Model& model, double duration, double rate) {
   return history;
 }
 
-History driven(double Y, double omega, double duration = 12.0) {
+History driven_bearing_at(double Y, double omega, double duration = 12.0) {
   sim::Model model = bearing();
   model.excitation.type = sim::ExcitationType::base_harmonic;
   model.excitation.frequency = omega;
   model.excitation.amplitude = Y;
   model.excitation.phase = 0.3;
-  return sampled(model, duration, 1000.0);
+  return sampled_displacements(model, duration, 1000.0);
 }
 
 History released(double X, double duration, double rate) {
   sim::Model model = bearing();
   model.initial = {X, 0.0};
-  History history = sampled(model, duration, rate);
+  History history = sampled_displacements(model, duration, rate);
   history.y.clear();
   return history;
 }
@@ -78,11 +77,12 @@ TEST_CASE("A driven history gives the pair of Den Hartog's closed form") {
   std::vector<double> frequencies;
   for (const double r : {0.85, 1.0, 1.15})
     for (const double level : {2.2, 3.2}) {
-      histories.push_back(driven(level * x_f, r * natural));
+      histories.push_back(driven_bearing_at(level * soft_x_f, r * natural));
       histories.back().sweep = "up/" + std::to_string(histories.size());
       frequencies.push_back(r * natural);
       truth.push_back(
-          sim::analytic::non_sticking_state(sim::analytic::den_hartog(zeta, r), level * x_f, x_f).value());
+          sim::analytic::non_sticking_state(sim::analytic::den_hartog(soft_zeta, r), level * soft_x_f, soft_x_f)
+              .value());
     }
   const DerivedPairs derived = pairs_of(histories);
   REQUIRE(derived.record.pairs.size() == 6);
@@ -93,7 +93,7 @@ TEST_CASE("A driven history gives the pair of Den Hartog's closed form") {
     CHECK(pair.sweep == "up");
     // The base is a sine, so that its fit is exact; x is read after a transient that has come down to rounding.
     CHECK(pair.omega == Approx(frequencies[i]).epsilon(1e-10));
-    CHECK(pair.Y == Approx((i % 2 == 0 ? 2.2 : 3.2) * x_f).epsilon(1e-10));
+    CHECK(pair.Y == Approx((i % 2 == 0 ? 2.2 : 3.2) * soft_x_f).epsilon(1e-10));
     CHECK(pair.phase == Approx(truth[i].phase).margin(1e-5));
     CHECK(pair.fundamental == Approx(truth[i].fundamental).epsilon(1e-5));
     // Harmonics of x fall as 1/k^3: those above the ninth add up to less than 1e-3 of the amplitude.
@@ -118,11 +118,13 @@ TEST_CASE("The x of a pair is the turning point, which is not the fundamental") 
   int i = 0;
   for (const double level : {1.5, 2.0, 3.0}) {
     CAPTURE(level);
-    const sim::analytic::NonStickingState exact = sim::analytic::non_sticking_state(law, level * x_f, x_f).value();
-    sim::Model model = testing::driven_bearing(0.2 * std::sqrt(mass * stiffness), F0, level * x_f, natural);
+    const sim::analytic::NonStickingState exact =
+        sim::analytic::non_sticking_state(law, level * soft_x_f, soft_x_f).value();
+    sim::Model model =
+        testing::driven_bearing(0.2 * std::sqrt(mass * stiffness), bearing_F0, level * soft_x_f, natural);
     const History clean = testing::sampled(model, 10.0, 1000.0, 20.0);
     const Pair pair = pairs_of({clean}, natural).record.pairs.at(0);
-    const double ratio = exact.amplitude / x_f;
+    const double ratio = exact.amplitude / soft_x_f;
     CHECK(pair.x == Approx(exact.amplitude).epsilon(0.0025 / (ratio * ratio)));
     CHECK(pair.fundamental / pair.x - 1.0 == Approx(more[i++]).epsilon(0.06));
 
@@ -148,7 +150,7 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
   // The level is at most 2 in 10,000 histories, so that 4000 give 0.8 or less: more than 4, which is what 1 in 1000
   // would give, is a case of 1 in 700.
   testing::Normal normal(41);
-  const double c = 2.0 * zeta * std::sqrt(mass * stiffness);
+  const double c = 2.0 * soft_zeta * std::sqrt(mass * stiffness);
   const auto left_out = [](const History& history) {
     for (const std::string& warning : pairs_of({history}, natural).warnings)
       if (warning.find("periods are left out") != std::string::npos) return true;
@@ -156,7 +158,7 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
   };
   for (const double duration : {0.8, 2.0}) {
     CAPTURE(duration);
-    sim::Model model = testing::driven_bearing(c, F0, 6e-3, natural);
+    sim::Model model = testing::driven_bearing(c, bearing_F0, 6e-3, natural);
     const History steady = testing::sampled(model, duration, 500.0, 20.0);
     int alarms = 0;
     for (int i = 0; i < 4000; ++i) alarms += left_out(testing::displacement_only(steady, 30e-6, normal));
@@ -176,7 +178,7 @@ TEST_CASE("Noise makes no transient, a start from rest does") {
 TEST_CASE("A pair of a motion that settles slowly is that of its end, and there is none where it does not settle") {
   // 25 periods from rest at zeta = 0.045: half of the way the motion is 3 % short of its end.
   const double c = 2.0 * 0.045 * std::sqrt(mass * stiffness);
-  sim::Model model = testing::driven_bearing(c, F0, 6e-3, natural);
+  sim::Model model = testing::driven_bearing(c, bearing_F0, 6e-3, natural);
   const double period = 2.0 * std::numbers::pi / natural;
   const Pair steady = pairs_of({testing::sampled(model, 10.0 * period, 500.0, 60.0)}, natural).record.pairs.at(0);
   model.initial = {0.0, 0.0};
@@ -218,7 +220,7 @@ TEST_CASE("A history of any length from one period on gives a pair") {
 }
 
 TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gives none") {
-  History history = driven(3.0 * x_f, natural);
+  History history = driven_bearing_at(3.0 * soft_x_f, natural);
   const auto warnings = [](const History& h, double frequency = unknown) {
     std::string text;
     for (const std::string& warning : pairs_of({h}, frequency).warnings) text += warning + "\n";
@@ -230,7 +232,8 @@ TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gi
 
   History distorted = history;
   for (std::size_t i = 0; i < distorted.y.size(); ++i)
-    distorted.y[i] += 0.05 * 3.0 * x_f * std::cos(3.0 * natural * static_cast<double>(i) / distorted.sample_rate);
+    distorted.y[i] +=
+        0.05 * 3.0 * soft_x_f * std::cos(3.0 * natural * static_cast<double>(i) / distorted.sample_rate);
   CHECK(warnings(distorted).find("its harmonic 3 has 5 % of the fundamental") != std::string::npos);
 
   CHECK(warnings(history, 1.3 * natural).find("no steady state at the frequency") != std::string::npos);
@@ -245,7 +248,7 @@ TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gi
 
 TEST_CASE("The turning points of a free decay, against the closed form") {
   for (const double X : {15e-3, 60e-3}) {
-    const std::vector<double> exact = sim::analytic::free_decay_extremes(zeta, x_f, X, 20);
+    const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
     const DerivedDecay decay = decay_of(released(X, 1.5, 2000.0));
     CAPTURE(X);
     // Released from rest at the first sample, and at rest at the end: these are extremes too.
@@ -257,7 +260,7 @@ TEST_CASE("The turning points of a free decay, against the closed form") {
       CHECK(decay.record.extremes[i] == Approx(exact[i]).margin(1e-4 * X));
     }
     CHECK(decay.record.times[1] - decay.record.times[0] ==
-          Approx(M_PI / (natural * std::sqrt(1.0 - zeta * zeta))).epsilon(2e-3));
+          Approx(M_PI / (natural * std::sqrt(1.0 - soft_zeta * soft_zeta))).epsilon(2e-3));
   }
 }
 
@@ -269,7 +272,7 @@ TEST_CASE("Held, released, at rest, in noise") {
     testing::Normal normal(11);
     for (double& x : history.x) x += sigma * normal();
     const DerivedDecay decay = decay_of(history);
-    const std::vector<double> exact = sim::analytic::free_decay_extremes(zeta, x_f, X, 20);
+    const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
     CAPTURE(X);
     REQUIRE(decay.record.extremes.size() == exact.size());
     for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -288,7 +291,7 @@ TEST_CASE("Held, released, at rest, in noise") {
 
 TEST_CASE("A long rest read by a coarse converter adds no extremes and does not outweigh the motion") {
   constexpr double X = 60e-3;
-  const std::vector<double> exact = sim::analytic::free_decay_extremes(zeta, x_f, X, 20);
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
   for (const double step : {0.1e-3, 0.5e-3}) {
     Record record;
     record.histories = {released(X, 8.0, 1000.0)};
@@ -312,7 +315,7 @@ TEST_CASE("A long rest read by a coarse converter adds no extremes and does not 
 
 TEST_CASE("A record of histories is completed with what it holds") {
   Record record;
-  record.histories = {driven(2.2 * x_f, natural), driven(3.2 * x_f, natural)};
+  record.histories = {driven_bearing_at(2.2 * soft_x_f, natural), driven_bearing_at(3.2 * soft_x_f, natural)};
   CHECK(complete(record, natural).size() == 2);
   CHECK(record.pairs.value().pairs.size() == 2);
   CHECK_FALSE(record.decay.has_value());

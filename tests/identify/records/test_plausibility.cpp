@@ -12,10 +12,9 @@
 using namespace dualdamp;
 using namespace dualdamp::identify;
 using identify::testing::mentions;
+using std::numbers::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Rig {
   KnownConstants constants;

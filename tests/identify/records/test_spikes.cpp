@@ -10,14 +10,14 @@ using namespace dualdamp::identify;
 
 namespace {
 
-constexpr double rate = 200.0;
+constexpr double decay_sample_rate = 200.0;
 
 /// A decay that ends in noise, with that share of its first amplitude as noise.
 std::vector<double> decay(double noise, std::uint64_t seed) {
   const core::RandomStream stream{seed, 0};
   std::vector<double> signal;
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    const double t = static_cast<double>(i) / rate;
+    const double t = static_cast<double>(i) / decay_sample_rate;
     signal.push_back(std::exp(-t) * std::cos(30.0 * t) + noise * stream.normal(i));
   }
   return signal;
@@ -28,7 +28,7 @@ std::vector<double> decay(double noise, std::uint64_t seed) {
 TEST_CASE("A spike of one sample is found and replaced") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     History history;
-    history.sample_rate = rate;
+    history.sample_rate = decay_sample_rate;
     history.x = decay(0.001, seed);
     const std::vector<double> clean = history.x;
     history.x[3] += 0.3;

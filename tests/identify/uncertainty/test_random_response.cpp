@@ -12,7 +12,7 @@ using namespace dualdamp::identify::testing;
 namespace {
 
 constexpr double D = 0.7;
-const ForceParameters law{1.042, 5.0, 1568.0, 1.0};
+const ForceParameters random_law{1.042, 5.0, 1568.0, 1.0};
 
 double mean_square(const std::vector<double>& signal) {
   double sum = 0.0;
@@ -23,8 +23,8 @@ double mean_square(const std::vector<double>& signal) {
 }  // namespace
 
 TEST_CASE("Synthetic records under white acceleration lose m D/2 to friction and are no longer than they need be") {
-  const History measured = random_response(law.c, law.F0, D, 400.0, 1);
-  const RandomResponse response{measured, law, D};
+  const History measured = random_response(random_law.c, random_law.F0, D, 400.0, 1);
+  const RandomResponse response{measured, random_law, D};
   // 2,000 periods of 6.17 Hz are 324 s.
   CHECK(response.share() == Approx(324.0 / 400.0).epsilon(0.01));
   double power = 0.0;
@@ -35,21 +35,22 @@ TEST_CASE("Synthetic records under white acceleration lose m D/2 to friction and
     const History& history = record.histories.front();
     CHECK(history.force.empty());
     for (const double v : history.v)
-      power += (law.c * v * v + law.F0 * std::abs(v)) / static_cast<double>(history.v.size()) / records;
+      power +=
+          (random_law.c * v * v + random_law.F0 * std::abs(v)) / static_cast<double>(history.v.size()) / records;
   }
   // Ito's formula for the energy; mean squares over 1,300 s have a deviation of sqrt(2/(zeta W T)), 4 %, and half
   // of it is in the power.
-  CHECK(power == Approx(0.5 * law.m * D).epsilon(0.08));
+  CHECK(power == Approx(0.5 * random_law.m * D).epsilon(0.08));
 }
 
 TEST_CASE("Synthetic records under a recorded drive have its power, and move by their own") {
-  sim::Model model = driven_bearing(law.c, law.F0, 0.0);
+  sim::Model model = driven_bearing(random_law.c, random_law.F0, 0.0);
   model.excitation = {};
   model.excitation.type = sim::ExcitationType::force_noise;
   model.excitation.noise = {.intensity = 2.0, .bandwidth = 380.0, .seed = 1};
   History measured = sampled(model, 100.0, 200.0);
   measured.v.clear();
-  const RandomResponse response{measured, law, 2.0};
+  const RandomResponse response{measured, random_law, 2.0};
   CHECK(response.share() == 1.0);
   const History first = response.record(0).histories.front();
   const History second = response.record(1).histories.front();

@@ -12,7 +12,7 @@ using namespace dualdamp::identify::testing;
 
 namespace {
 
-const ForceParameters law{1.042, 11.0, 1568.0, 3.7};
+const ForceParameters bearing_law{1.042, 11.0, 1568.0, 3.7};
 
 double root_mean_square(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
@@ -56,9 +56,9 @@ SyntheticRecords synthetic_of(const History& history, ForceParameters truth, dou
 TEST_CASE("A synthetic record obeys the law and lies within the noise of the measured one") {
   const double noise = 5e-5;
   const History measured = bearing(noise);
-  const SyntheticRecords synthetic = synthetic_of(measured, law);
+  const SyntheticRecords synthetic = synthetic_of(measured, bearing_law);
   const History& exact = synthetic.exact.histories.front();
-  CHECK(imbalance(exact, law, 0.0) < 1e-11);  // rounding of forces of 10 N
+  CHECK(imbalance(exact, bearing_law, 0.0) < 1e-11);  // rounding of forces of 10 N
   // 1,500 samples leave the deviation of their noise with 2 %; that of y moves the mass by less.
   CHECK(root_mean_square(measured.x, exact.x) == Approx(noise).epsilon(0.1));
   CHECK(exact.y == measured.y);
@@ -66,7 +66,7 @@ TEST_CASE("A synthetic record obeys the law and lies within the noise of the mea
 
 TEST_CASE("The noise of each signal is read beside the synthetic motion, jumps of the acceleration or not") {
   const double noise = 5e-5;
-  const SyntheticRecords synthetic = synthetic_of(bearing(noise), law);
+  const SyntheticRecords synthetic = synthetic_of(bearing(noise), bearing_law);
   // Fourth differences of 1,500 samples: 3 %; three of these.
   CHECK(synthetic.sensors.x.noise == Approx(noise).epsilon(0.1));
   CHECK(synthetic.sensors.v.noise == Approx(40.0 * noise).epsilon(0.1));
@@ -80,7 +80,7 @@ TEST_CASE("The noise of each signal is read beside the synthetic motion, jumps o
   History bare = bearing(noise);
   bare.v.clear();
   bare.a.clear();
-  const History as_bare = synthetic_of(bare, law).record(0).histories.front();
+  const History as_bare = synthetic_of(bare, bearing_law).record(0).histories.front();
   CHECK(as_bare.v.empty());
   CHECK(as_bare.a.empty());
 }
@@ -95,7 +95,7 @@ TEST_CASE("A drive that is rough is not taken for a noisy one") {
   history.v.clear();
   history.a.clear();
   // What is left is the kinks of the drive, which the polynomials between its samples miss.
-  CHECK(synthetic_of(history, law).sensors.force.noise < 0.3 * noise_level(history.force));
+  CHECK(synthetic_of(history, bearing_law).sensors.force.noise < 0.3 * noise_level(history.force));
 }
 
 TEST_CASE("A mass without spring is held to its record by a force that the synthetic record knows") {
@@ -133,12 +133,12 @@ TEST_CASE("A mass without spring is held to its record by a force that the synth
 TEST_CASE("Friction that drives counts as none, and a law that cannot move so gives no synthetic record") {
   const History measured = bearing(0.0);
   // 44 N.s/m alone take as much energy from this motion: k Y = c w X + 4 F0/pi at resonance.
-  ForceParameters driving = law;
+  ForceParameters driving = bearing_law;
   driving.c = 44.0;
   driving.F0 = -0.1;
   CHECK(synthetic_records({{1, &measured}}, driving, 0.0));
   CHECK(driving.F0 == 0.0);
-  ForceParameters stuck = law;
+  ForceParameters stuck = bearing_law;
   stuck.F0 = 1e4;
   CHECK_FALSE(synthetic_records({{1, &measured}}, stuck, 0.0));
 }

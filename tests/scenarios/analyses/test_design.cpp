@@ -15,7 +15,7 @@ using namespace dualdamp;
 namespace {
 
 /// Six levels of a rig with a compliant contact.
-constexpr const char* scenario = R"(
+constexpr const char* compliant_rig = R"(
 schema: dualdamp/1
 system: {mass: 1.042 kg, stiffness: 1568 N/m, damping_ratio: 0.08, friction: {law: contact_compliance, kinetic: 3 N, contact_stiffness: 2000 N/m}}
 excitation: {type: base_harmonic, frequency: natural}
@@ -25,7 +25,7 @@ analysis: {type: design, measurement: {type: xy_curve, amplitudes: {from: 4 mm, 
 }  // namespace
 
 TEST_CASE("design: candidates with their widths and power, the best first", "[scenarios][design]") {
-  const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(scenario, "test.yaml"));
+  const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(compliant_rig, "test.yaml"));
   const auto answer = testing::result_of(run);
   const auto& candidates = answer.at("candidates");
   // The simulated states have phases: recording them is no candidate.
@@ -50,7 +50,7 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
 }
 
 TEST_CASE("design: of the record that another scenario identifies", "[scenarios][design]") {
-  const std::string all = scenario;
+  const std::string all = compliant_rig;
   const std::string head = all.substr(0, all.find("analysis:"));
   const std::string record =
       "measurement: {type: xy_curve, amplitudes: {from: 4 mm, to: 7.5 mm, count: 6}}, sigma_x: 0.03 mm";
@@ -62,7 +62,7 @@ TEST_CASE("design: of the record that another scenario identifies", "[scenarios]
   CHECK(asked.analysis_name == "design");
   REQUIRE(asked.warnings.size() == 1);
   CHECK(asked.warnings[0] == "'design' does not use analysis.methods, analysis.bootstrap, expect: left out");
-  CHECK(scenarios::parse_scenario(scenario, "test.yaml", options).warnings.empty());
+  CHECK(scenarios::parse_scenario(compliant_rig, "test.yaml", options).warnings.empty());
   CHECK(asked.resolved == scenarios::parse_scenario(all, "test.yaml").resolved);
   CHECK_THROWS_WITH(scenarios::parse_scenario(head + "analysis: {type: steady_state}\n", "test.yaml", options),
                     Catch::Contains("no record to ask 'design' of"));
@@ -70,7 +70,7 @@ TEST_CASE("design: of the record that another scenario identifies", "[scenarios]
 
 TEST_CASE("design: laws that are left out take no part", "[scenarios][design]") {
   const auto answer_with = [](const std::string& keys) {
-    std::string text = scenario;
+    std::string text = compliant_rig;
     text.replace(text.find("sigma_x"), 0, keys);
     return testing::result_of(scenarios::run(scenarios::parse_scenario(text, "test.yaml")));
   };
@@ -82,7 +82,7 @@ TEST_CASE("design: laws that are left out take no part", "[scenarios][design]") 
 TEST_CASE("design: uncertain constants are in the ranges now and after, as in those of identify",
           "[scenarios][design]") {
   const auto answer_to = [](const std::string& mass, const std::string& analysis) {
-    std::string text = scenario;
+    std::string text = compliant_rig;
     text.replace(text.find("1.042 kg"), 8, mass);
     text.replace(text.find("type: design"), 12, analysis);
     return testing::result_of(scenarios::run(scenarios::parse_scenario(text, "test.yaml")));

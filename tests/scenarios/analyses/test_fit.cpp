@@ -40,7 +40,7 @@ nlohmann::json result_of_text(const std::string& text) {
   return testing::result_of(result);
 }
 
-std::string scenario(const std::string& system, const std::string& analysis, const std::string& more = {}) {
+std::string fit_scenario(const std::string& system, const std::string& analysis, const std::string& more = {}) {
   return "schema: dualdamp/1\nsystem: {" + system + "}\n" + more + "analysis: {type: fit, " + analysis + "}\n";
 }
 
@@ -89,7 +89,7 @@ const std::string released = "initial: {position: 30 mm}";
 TEST_CASE("fit: the scenario of a fit runs and gives the fitted curve", "[scenarios][fit]") {
   const File data("fit_history.csv", history_text(with_coulomb, released, 1e-5, 1));
   const scenarios::RunResult fit = scenarios::run(parse_scenario(
-      scenario(std::string(rig) + ", friction: {law: coulomb}", "data: fit_history.csv"), "test.yaml"));
+      fit_scenario(std::string(rig) + ", friction: {law: coulomb}", "data: fit_history.csv"), "test.yaml"));
   REQUIRE(fit.failure.empty());
   const nlohmann::json result = testing::result_of(fit);
   CHECK(result.at("parameters").at(0).at("name") == "damping");
@@ -112,7 +112,7 @@ TEST_CASE("fit: the scenario of steady states gives their points", "[scenarios][
     text += "0.1," + point.at("x").dump() + "," + point.at("omega").dump() + "," + point.at("phase").dump() + "\n";
   const File data("fit_response.csv", text);
   const nlohmann::json result =
-      result_of_text(scenario("mass: 1 kg, friction: {law: coulomb}", "data: fit_response.csv"));
+      result_of_text(fit_scenario("mass: 1 kg, friction: {law: coulomb}", "data: fit_response.csv"));
   for (const auto& [i, truth] : {std::pair{0, 100.0}, {1, 4.0}, {2, 2.0}})
     CHECK(result.at("parameters").at(i).at("value").get<double>() == Approx(truth).epsilon(1e-5));
   const nlohmann::json again =
@@ -129,7 +129,7 @@ TEST_CASE("fit: the scenario of steady states gives their points", "[scenarios][
 TEST_CASE("fit: laws are compared, and the right one predicts", "[scenarios][fit]") {
   const File data("fit_first.csv", history_text(with_coulomb, released, 1e-5, 2));
   const File other("fit_second.csv", history_text(with_coulomb, "initial: {position: 12 mm}", 1e-5, 3));
-  const nlohmann::json result = result_of_text(scenario(
+  const nlohmann::json result = result_of_text(fit_scenario(
       rig, "data: [{file: fit_first.csv}], validate: fit_second.csv, laws: [viscous_saturating, coulomb]"));
   CHECK(result.at("law") == "coulomb");
   // Saturation at low speed is Coulomb friction too, with a parameter more.
@@ -165,7 +165,7 @@ TEST_CASE("fit: the page's example gives the printed numbers", "[scenarios][fit]
 TEST_CASE("fit: a stated initial state is known", "[scenarios][fit]") {
   const File data("fit_known.csv", history_text(with_coulomb, released, 1e-5, 4));
   const nlohmann::json result = result_of_text(
-      scenario(std::string(rig) + ", friction: {law: coulomb}", "data: fit_known.csv", released + "\n"));
+      fit_scenario(std::string(rig) + ", friction: {law: coulomb}", "data: fit_known.csv", released + "\n"));
   CHECK(result.at("parameters").size() == 2);
 }
 
@@ -173,24 +173,24 @@ TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][f
   const File data("fit_faults.csv", "t [s],x [m]\n0,0.03\n0.1,-0.02\n0.2,0.015\n0.3,-0.01\n0.4,0.006\n");
   const std::string known = std::string(rig) + ", friction: {law: coulomb}";
   using Catch::Contains;
-  CHECK_THAT(fault_of(scenario(known, "data: missing.csv")), Contains("cannot be opened"));
-  CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, free: kinetik")),
+  CHECK_THAT(fault_of(fit_scenario(known, "data: missing.csv")), Contains("cannot be opened"));
+  CHECK_THAT(fault_of(fit_scenario(known, "data: fit_faults.csv, free: kinetik")),
              Contains("there is no number 'kinetik' to fit; there are mass, stiffness"));
-  CHECK_THAT(fault_of(scenario("friction: {law: coulomb}", "data: fit_faults.csv")),
+  CHECK_THAT(fault_of(fit_scenario("friction: {law: coulomb}", "data: fit_faults.csv")),
              Contains("neither the mass nor the stiffness is known"));
-  CHECK_THAT(fault_of(scenario(known, "data: {file: fit_faults.csv, loop: true}")),
+  CHECK_THAT(fault_of(fit_scenario(known, "data: {file: fit_faults.csv, loop: true}")),
              Contains("a loop needs the columns"));
-  CHECK_THAT(fault_of(scenario(known, "data: {file: fit_faults.csv, sigma_v: 1 mm/s}")),
+  CHECK_THAT(fault_of(fit_scenario(known, "data: {file: fit_faults.csv, sigma_v: 1 mm/s}")),
              Contains("'sigma_v' states the noise of v, which no record of the fit compares"));
-  CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, laws: [dahl]")),
+  CHECK_THAT(fault_of(fit_scenario(known, "data: fit_faults.csv, laws: [dahl]")),
              Contains("stands beside 'system.friction'"));
-  CHECK_THAT(fault_of(scenario(known, "data: fit_faults.csv, bounds: [{name: kinetic, low: 3 kg}]")),
+  CHECK_THAT(fault_of(fit_scenario(known, "data: fit_faults.csv, bounds: [{name: kinetic, low: 3 kg}]")),
              Contains("the bound '3 kg' of kinetic"));
-  CHECK_THAT(
-      fault_of(scenario(std::string(rig) + ", friction: {law: generalized_maxwell_slip}", "data: fit_faults.csv")),
-      Contains("'elements' of generalized_maxwell_slip is missing"));
-  CHECK_THAT(fault_of(scenario(std::string(rig) + ", friction: {law: reset_integrator}",
-                               "data: fit_faults.csv, free: stiffness")),
+  CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: generalized_maxwell_slip}",
+                                   "data: fit_faults.csv")),
+             Contains("'elements' of generalized_maxwell_slip is missing"));
+  CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: reset_integrator}",
+                                   "data: fit_faults.csv, free: stiffness")),
              Contains("'stiffness' may be system.stiffness or friction.stiffness"));
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("fit: a zero of the sensor that is far off is subtracted and told, its
   const File data("fit_zero.csv", shifted);
   const std::string known = std::string(rig) + ", friction: {law: coulomb}";
   const auto fit_with = [&](const std::string& more, const std::string& initial) {
-    return scenarios::run(parse_scenario(scenario(known, "data: fit_zero.csv" + more, initial), "test.yaml"));
+    return scenarios::run(parse_scenario(fit_scenario(known, "data: fit_zero.csv" + more, initial), "test.yaml"));
   };
   const auto is_told = [](const scenarios::RunResult& result) {
     return std::ranges::any_of(result.warnings, [](const std::string& warning) {
@@ -236,9 +236,9 @@ TEST_CASE("fit: a copy of a record is refused whatever its name and its last dig
   const std::string text = history_text(with_coulomb, released, 1e-5, 8);
   const File data("fit_once.csv", text);
   const File copy("fit_twice.csv", "# a copy\n" + text);
-  CHECK_THAT(
-      fault_of(scenario(std::string(rig) + ", friction: {law: coulomb}", "data: [fit_once.csv, fit_twice.csv]")),
-      Catch::Contains("holds the same data as fit_once.csv"));
+  CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: coulomb}",
+                                   "data: [fit_once.csv, fit_twice.csv]")),
+             Catch::Contains("holds the same data as fit_once.csv"));
 }
 
 TEST_CASE("fit: a mass that nobody stated is found from afar", "[scenarios][fit]") {
@@ -247,8 +247,8 @@ TEST_CASE("fit: a mass that nobody stated is found from afar", "[scenarios][fit]
   std::stringstream text;
   text << in.rdbuf();
   const File data("fit_mass.csv", text.str());
-  const nlohmann::json result = result_of_text(
-      scenario("stiffness: 1000 N/m, friction: {law: coulomb}", "data: fit_mass.csv, free: mass, profile: false"));
+  const nlohmann::json result = result_of_text(fit_scenario("stiffness: 1000 N/m, friction: {law: coulomb}",
+                                                            "data: fit_mass.csv, free: mass, profile: false"));
   CHECK(result.at("residual").at("noise_units").get<double>() == Approx(1.0).margin(0.05));
   CHECK(result.at("parameters").at(0).at("value").get<double>() == Approx(1.0).epsilon(1e-4));
 }

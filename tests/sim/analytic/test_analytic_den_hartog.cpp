@@ -3,41 +3,40 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "tests/support/numbers.hpp"
+
 using namespace dualdamp::sim::analytic;
-using std::numbers::pi;
+using dualdamp::test::epsilon;
+using dualdamp::test::pi;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-struct State {
+struct PhasePoint {
   double x = 0.0;
   double v = 0.0;
 };
 
 /// x'' + 2 zeta x' + x - x_f = Y cos(r t + phi), time in units of 1/wn: the half period with x' < 0, whatever the
 /// sign x' really takes. Runge-Kutta of order four with step pi/(r steps); an independent way to the same motion.
-std::vector<State> integrate_half_cycle(double zeta, double r, double Y, double x_f, double phi, State s,
-                                        int steps) {
-  const auto acceleration = [=](double t, const State& u) {
+std::vector<PhasePoint> integrate_half_cycle(double zeta, double r, double Y, double x_f, double phi, PhasePoint s,
+                                             int steps) {
+  const auto acceleration = [=](double t, const PhasePoint& u) {
     return x_f + Y * std::cos(r * t + phi) - u.x - 2.0 * zeta * u.v;
   };
   const double h = pi / r / steps;
-  std::vector<State> states{s};
+  std::vector<PhasePoint> states{s};
   for (int i = 0; i < steps; ++i) {
     const double t = i * h;
-    const State k1{s.v, acceleration(t, s)};
-    const State a{s.x + 0.5 * h * k1.x, s.v + 0.5 * h * k1.v};
-    const State k2{a.v, acceleration(t + 0.5 * h, a)};
-    const State b{s.x + 0.5 * h * k2.x, s.v + 0.5 * h * k2.v};
-    const State k3{b.v, acceleration(t + 0.5 * h, b)};
-    const State c{s.x + h * k3.x, s.v + h * k3.v};
-    const State k4{c.v, acceleration(t + h, c)};
+    const PhasePoint k1{s.v, acceleration(t, s)};
+    const PhasePoint a{s.x + 0.5 * h * k1.x, s.v + 0.5 * h * k1.v};
+    const PhasePoint k2{a.v, acceleration(t + 0.5 * h, a)};
+    const PhasePoint b{s.x + 0.5 * h * k2.x, s.v + 0.5 * h * k2.v};
+    const PhasePoint k3{b.v, acceleration(t + 0.5 * h, b)};
+    const PhasePoint c{s.x + h * k3.x, s.v + h * k3.v};
+    const PhasePoint k4{c.v, acceleration(t + h, c)};
     s.x += h / 6.0 * (k1.x + 2.0 * (k2.x + k3.x) + k4.x);
     s.v += h / 6.0 * (k1.v + 2.0 * (k2.v + k3.v) + k4.v);
     states.push_back(s);
@@ -48,7 +47,7 @@ std::vector<State> integrate_half_cycle(double zeta, double r, double Y, double 
 /// Amplitude and lag behind cos(theta) of the fundamental of a half-wave antisymmetric motion sampled over its half
 /// period: the trapezoidal rule on half a period of an even function is the full periodic rule, whose error here is
 /// that of the jump in x''' at the turning points, of order steps^-4.
-std::array<double, 2> fundamental(const std::vector<State>& half_cycle) {
+std::array<double, 2> fundamental(const std::vector<PhasePoint>& half_cycle) {
   double cosine = 0.0;
   double sine = 0.0;
   const auto steps = static_cast<double>(half_cycle.size() - 1);
@@ -204,7 +203,7 @@ TEST_CASE("The boundary of sticking is sharp in the integrated motion") {
       const double x_o = amplitude(d, 1.0, x_f).value();
       const double phi = std::atan2(2.0 * zeta * r, 1.0 - r * r) + std::atan2(-d.H * x_f, x_o + d.G * x_f);
       double greatest = -1.0;
-      for (const State& s : integrate_half_cycle(zeta, r, 1.0, x_f, phi, {x_o, 0.0}, 20000)) {
+      for (const PhasePoint& s : integrate_half_cycle(zeta, r, 1.0, x_f, phi, {x_o, 0.0}, 20000)) {
         greatest = std::max(greatest, s.v);
       }
       return greatest;

@@ -4,32 +4,29 @@
 
 #include <complex>
 #include <cstddef>
-#include <limits>
-#include <numbers>
 #include <vector>
 
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/exact_engine.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/oracle.hpp"
 
 namespace dualdamp::test {
-
-inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
-inline constexpr double pi = std::numbers::pi;
 
 inline friction::Law coulomb(double kinetic, double static_level) {
   return friction::Law(friction::Coulomb(kinetic, static_level));
 }
 
-struct Event {
+struct EngineEvent {
   double t = 0.0;
   sim::EventKind kind = sim::EventKind::reversal;
   double x = 0.0;
 };
 
 /// Events until `duration`, at most `count` of them.
-inline std::vector<Event> events_of(sim::ExactEngine& engine, double duration, std::size_t count = 1'000'000) {
-  std::vector<Event> events;
+inline std::vector<EngineEvent> events_of(sim::ExactEngine& engine, double duration,
+                                          std::size_t count = 1'000'000) {
+  std::vector<EngineEvent> events;
   while (events.size() < count) {
     const sim::Interval* interval = engine.next(duration);
     if (interval == nullptr) break;
@@ -38,7 +35,7 @@ inline std::vector<Event> events_of(sim::ExactEngine& engine, double duration, s
   return events;
 }
 
-inline std::vector<Event> events_of(const sim::Model& model, double duration, std::size_t count = 1'000'000) {
+inline std::vector<EngineEvent> events_of(const sim::Model& model, double duration, std::size_t count = 1'000'000) {
   sim::ExactEngine engine(model);
   return events_of(engine, duration, count);
 }

@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "core/random.hpp"
@@ -11,6 +10,7 @@
 #include "sim/motion/simulate.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/make_law.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;
@@ -18,10 +18,9 @@ using sim::ExcitationType;
 using sim::Interpolation;
 using sim::Model;
 using sim::SampledSignal;
+using test::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Evenly spaced samples of A cos(w t + phase).
 std::shared_ptr<const SampledSignal> sampled_cosine(double amplitude, double omega, double phase, double h,
@@ -72,12 +71,13 @@ TEST_CASE("a sampled drive gives the motion of the standard case to the interpol
   constexpr int periods = 6;
   const sim::SimulateOptions options{.duration = periods * 0.2 * pi * (1.0 - 1e-12), .sample_rate = 200.0};
   const sim::History exact = sim::simulate(standard_case(), options);
-  struct Row {
+  struct Accuracy {
     Interpolation interpolation;
     double order;
     double largest;
   };
-  for (const Row& row : {Row{Interpolation::linear, 2.0, 3e-4}, Row{Interpolation::cubic, 4.0, 3e-7}}) {
+  for (const Accuracy& row :
+       {Accuracy{Interpolation::linear, 2.0, 3e-4}, Accuracy{Interpolation::cubic, 4.0, 3e-7}}) {
     double before = 0.0;
     for (const int per_period : {32, 64, 128, 256}) {
       const double error =

@@ -96,9 +96,9 @@ TEST_CASE("Amplitudes of 1e-200 move like those of 1", "[exact]") {
       model.friction.push_back(coulomb(2.0 * unit, static_level * unit));
       return events_of(model, 5.0);
     };
-    const std::vector<test::Event> here = events(1.0);
+    const std::vector<test::EngineEvent> here = events(1.0);
     for (const int power : {-1000, -665, -500, -100, 100, 500}) {
-      const std::vector<test::Event> there = events(std::ldexp(1.0, power));
+      const std::vector<test::EngineEvent> there = events(std::ldexp(1.0, power));
       CAPTURE(static_level, power);
       REQUIRE(there.size() == here.size());
       for (std::size_t i = 0; i < here.size(); ++i) {
@@ -114,7 +114,7 @@ TEST_CASE("A growing own motion disturbs no release of a sticking mass", "[exact
   // The base moves at 1e-5 m/s until 100 N/m reach 2 N; the own motion would have grown by e^12000.
   Model model = ramped(1.0, 100.0, -12.0, ExcitationType::base_ramp, 1e-5);
   model.friction.push_back(coulomb(2.0, 2.0));
-  const std::vector<test::Event> events = events_of(model, 2100.0, 1);
+  const std::vector<test::EngineEvent> events = events_of(model, 2100.0, 1);
   REQUIRE(events.size() == 1);
   CHECK(events[0].kind == EventKind::release);
   CHECK(events[0].t == Approx(2000.0).epsilon(1e-14));

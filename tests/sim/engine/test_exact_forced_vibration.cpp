@@ -145,7 +145,7 @@ TEST_CASE("Two Coulomb laws are one with the sums", "[exact]") {
 TEST_CASE("A strong drive reverses the mass without stick, twice a period", "[exact]") {
   const Model model = standard();
   const auto events = events_of(model, 40.0 * 2.0 * pi / 10.0);
-  std::vector<Event> late(events.end() - 20, events.end());
+  std::vector<EngineEvent> late(events.end() - 20, events.end());
   for (std::size_t i = 0; i < late.size(); ++i) {
     CHECK(late[i].kind == EventKind::reversal);
     // Peaks of the closed form; 20 half periods have contracted by exp(-pi zeta/...) each below rounding.
@@ -165,8 +165,8 @@ TEST_CASE("A periodic motion keeps its phase over a thousand periods", "[exact]"
   REQUIRE(late.size() % 1000 == 0);
   const std::size_t each = late.size() / 1000;
   for (std::size_t i = 0; i < each; ++i) {
-    const Event& a = late[i];
-    const Event& b = late[late.size() - each + i];
+    const EngineEvent& a = late[i];
+    const EngineEvent& b = late[late.size() - each + i];
     CHECK(a.kind == b.kind);
     CHECK(a.x == Approx(b.x).epsilon(1e-13));
     // Times themselves round at eps t.
@@ -214,9 +214,9 @@ TEST_CASE("Walking in small steps gives the events of walking in large ones", "[
   const Model model = standard(4.0, 6.0);
   const auto expected = events_of(model, 6.0);
   ExactEngine engine(model);
-  std::vector<Event> found;
+  std::vector<EngineEvent> found;
   for (int i = 1; i <= 600; ++i) {
-    for (const Event& event : events_of(engine, 0.01 * i)) found.push_back(event);
+    for (const EngineEvent& event : events_of(engine, 0.01 * i)) found.push_back(event);
   }
   REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -231,7 +231,7 @@ TEST_CASE("Walking by periods gives the events of walking by time", "[exact]") {
   const double period = 2.0 * pi / 10.0;
   const auto expected = events_of(model, 10.0 * period);
   ExactEngine engine(model);
-  std::vector<Event> found;
+  std::vector<EngineEvent> found;
   while (engine.periods_passed() < 10) {
     const Interval* interval = engine.next_in_period();
     REQUIRE(interval != nullptr);
@@ -299,7 +299,7 @@ TEST_CASE("The sensitivity is the derivative of the end state by the start", "[e
     engine.track_sensitivity(true);
     const auto events = events_of(engine, duration);
     const Eigen::Matrix2d found = engine.sensitivity();
-    const auto end_of = [&](double dx, double dv, std::vector<Event>& seen) {
+    const auto end_of = [&](double dx, double dv, std::vector<EngineEvent>& seen) {
       Model moved = model;
       moved.initial.position += dx;
       moved.initial.velocity += dv;
@@ -311,8 +311,8 @@ TEST_CASE("The sensitivity is the derivative of the end state by the start", "[e
     Eigen::Matrix2d expected;
     for (int column = 0; column < 2; ++column) {
       const double step = column == 0 ? 1e-7 : 1e-6;
-      std::vector<Event> above;
-      std::vector<Event> below;
+      std::vector<EngineEvent> above;
+      std::vector<EngineEvent> below;
       const Eigen::Vector2d difference = end_of(column == 0 ? step : 0.0, column == 1 ? step : 0.0, above) -
                                          end_of(column == 0 ? -step : 0.0, column == 1 ? -step : 0.0, below);
       expected.col(column) = difference / (2.0 * step);
@@ -324,7 +324,7 @@ TEST_CASE("The sensitivity is the derivative of the end state by the start", "[e
     const double scale = expected.cwiseAbs().maxCoeff();
     CHECK((found - expected).cwiseAbs().maxCoeff() <= 1e-6 * scale + 1e-8);
     const bool stops =
-        std::any_of(events.begin(), events.end(), [](const Event& e) { return e.kind == EventKind::stop; });
+        std::any_of(events.begin(), events.end(), [](const EngineEvent& e) { return e.kind == EventKind::stop; });
     stopped += stops ? 1 : 0;
     if (stops) CHECK(std::abs(found.determinant()) <= 1e-12 * scale * scale);
   }

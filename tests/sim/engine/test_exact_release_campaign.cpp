@@ -85,7 +85,7 @@ std::optional<long double> slip_duration(const Candidate& candidate, const Relea
   return velocity.first_crossing(3.0L * static_cast<long double>(period));
 }
 
-struct Tally {
+struct CampaignTally {
   long releases = 0;
   long double_roots = 0;
   long short_slips = 0;
@@ -95,7 +95,7 @@ struct Tally {
 
 /// The slip from the release at t = `from`: its end against the closed form.
 void check_slip(ExactEngine& engine, const Candidate& candidate, const ReleaseAngle& release, double from,
-                Tally& tally) {
+                CampaignTally& tally) {
   const double period = engine.period();
   const std::optional<long double> expected = slip_duration(candidate, release, period);
   const auto next = events_of(engine, from + 2.9 * period, 1);
@@ -126,7 +126,7 @@ TEST_CASE("After every release from exact stick the next event is found, and non
   // DUALDAMP_RELEASE_CASES for a longer run.
   const long cases = test::case_count("DUALDAMP_RELEASE_CASES", 2000);
   Random random(24);
-  Tally tally;
+  CampaignTally tally;
   while (tally.releases < cases) {
     const std::optional<Candidate> candidate = random_candidate(random);
     if (!candidate) continue;

@@ -58,7 +58,7 @@ TEST_CASE("Beside a mass at rest a contact at its limit neither breaks away nor 
     model.initial = {random.uniform(-0.01, 0.01), random.sign() * random.uniform(0.5, 2.0)};
     const auto events = events_of(model, 1e3);
     const auto stop = std::find_if(events.begin(), events.end(),
-                                   [](const Event& event) { return event.kind == EventKind::stop; });
+                                   [](const EngineEvent& event) { return event.kind == EventKind::stop; });
     CAPTURE(i);
     REQUIRE(stop != events.end());
     CHECK(stop + 1 == events.end());
@@ -149,7 +149,7 @@ TEST_CASE("Release under a ramp with static = kinetic: a double root at the star
   model.friction.push_back(coulomb(1.5, 1.5));
   const double w = 5.0;
   ExactEngine engine(model);
-  std::vector<Event> events;
+  std::vector<EngineEvent> events;
   long grazings = 0;
   while (const Interval* interval = engine.next(10.0)) {
     grazings += static_cast<long>(engine.grazings().size());
@@ -207,8 +207,8 @@ TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and st
       REQUIRE(events.size() >= 40);
       for (int n = 0; n < 20; ++n) {
         const double begin = first + n * (slip + stick);
-        const Event& release = events[static_cast<std::size_t>(2 * n)];
-        const Event& stop = events[static_cast<std::size_t>(2 * n + 1)];
+        const EngineEvent& release = events[static_cast<std::size_t>(2 * n)];
+        const EngineEvent& stop = events[static_cast<std::size_t>(2 * n + 1)];
         CHECK(release.kind == EventKind::release);
         CHECK(stop.kind == EventKind::stop);
         // Pull and speed are known to a few eps of static and of static/(m w): as times, over their rates k V and
@@ -236,7 +236,7 @@ TEST_CASE("A mass that no law holds moves on where a slow drive turns beside a f
     ExactEngine engine(model);
     const auto events = events_of(engine, 60.0);
     // Twice in a period of 5.24 s.
-    const auto late = std::count_if(events.begin(), events.end(), [](const Event& event) {
+    const auto late = std::count_if(events.begin(), events.end(), [](const EngineEvent& event) {
       return event.t > 8.0 && event.kind == EventKind::reversal;
     });
     CHECK(late >= 18);

@@ -25,7 +25,7 @@ struct Timed {
 
 /// Reversals, stops and releases, or else switchings: where both fall within rounding their order is left open.
 template <class Events>
-std::vector<Timed> chosen(const Events& events, bool switching) {
+std::vector<Timed> timed(const Events& events, bool switching) {
   std::vector<Timed> result;
   for (const auto& event : events) {
     if ((event.kind == EventKind::switching) == switching) result.push_back({event.t, event.kind});
@@ -33,7 +33,7 @@ std::vector<Timed> chosen(const Events& events, bool switching) {
   return result;
 }
 
-struct Tally {
+struct MotionTally {
   long motions = 0;
   long events = 0;
   long cut_short = 0;
@@ -48,7 +48,7 @@ bool is_blinded(const std::vector<Timed>& events, double blind) {
          events.end();
 }
 
-bool agree(const std::vector<Timed>& found, const std::vector<Timed>& expected, double period, Tally& tally) {
+bool agree(const std::vector<Timed>& found, const std::vector<Timed>& expected, double period, MotionTally& tally) {
   if (found.size() != expected.size()) return false;
   double worst = 0.0;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -60,7 +60,7 @@ bool agree(const std::vector<Timed>& found, const std::vector<Timed>& expected, 
   return true;
 }
 
-void compare(const test::Oscillation& o, Tally& tally) {
+void compare(const test::Oscillation& o, MotionTally& tally) {
   const double w = o.model.excitation.frequency;
   const double period = 2.0 * std::numbers::pi / w;
   const sim::History history = sim::simulate(o.model, {.duration = 5.0 * period});
@@ -77,8 +77,8 @@ void compare(const test::Oscillation& o, Tally& tally) {
   bool same = true;
   bool blinded = false;
   for (const bool switching : {false, true}) {
-    const std::vector<Timed> found = chosen(history.events, switching);
-    same = agree(found, chosen(expected.events, switching), period, tally) && same;
+    const std::vector<Timed> found = timed(history.events, switching);
+    same = agree(found, timed(expected.events, switching), period, tally) && same;
     blinded = blinded || is_blinded(found, blind);
   }
   ++tally.motions;
@@ -100,7 +100,7 @@ void check_mixtures(const std::vector<std::vector<LawKind>>& mixtures, std::uint
   const long cases = test::case_count("DUALDAMP_WALK_CASES", 150);
   const test::Ranges ranges{.frequency_ratio = {0.3, 3.0}, .damping_ratio = {1e-3, 1.0}, .stiffest = 30.0};
   test::Random random(seed);
-  Tally tally;
+  MotionTally tally;
   for (long i = 0; i < cases; ++i) {
     test::Oscillation oscillation = test::random_oscillator(random, ranges);
     const auto& mixture = mixtures[static_cast<std::size_t>(i) % mixtures.size()];

@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/engine/exact_engine.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/plain_interval.hpp"
 #include "tests/support/random_oscillations.hpp"
 
@@ -24,14 +24,13 @@ namespace {
 
 using namespace dualdamp;
 using sim::EventKind;
+using test::epsilon;
 using test::LawKind;
 using test::MassState;
 using test::NextEvent;
 using test::PlainInterval;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-struct Tally {
+struct ReleaseTally {
   long oscillators = 0;
   long releases = 0;
   long compared = 0;      ///< next events
@@ -58,7 +57,7 @@ std::optional<Found> next_event(sim::ExactEngine& engine, double horizon) {
 /// Follows one motion of the engine from event to event.
 class Walk {
  public:
-  Walk(const test::Oscillation& oscillation, Tally& tally)
+  Walk(const test::Oscillation& oscillation, ReleaseTally& tally)
       : o_(oscillation), plain_(oscillation.plain), engine_(oscillation.model), tally_(tally) {
     mass_ = {0.0, o_.model.initial.position, o_.model.initial.velocity, o_.model.initial.velocity > 0.0 ? 1 : -1};
   }
@@ -77,7 +76,7 @@ class Walk {
   const test::Oscillation& o_;
   test::PlainFriction plain_;
   sim::ExactEngine engine_;
-  Tally& tally_;
+  ReleaseTally& tally_;
   MassState mass_;
   bool released_ = false;
 };
@@ -158,7 +157,7 @@ void check_releases(const std::vector<LawKind>& laws, std::uint64_t seed) {
   const long cases = test::case_count("DUALDAMP_RELEASE_CASES", 2000);
   test::Random random(seed);
   const test::Ranges ranges;
-  Tally tally;
+  ReleaseTally tally;
   std::string what;
   for (const LawKind law : laws) what += fmt::format("{}{}", what.empty() ? "" : " + ", name(law));
   while (tally.releases < cases) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "tests/support/numbers.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/random.hpp"
 
@@ -19,9 +19,8 @@ using core::ModeFunction;
 using oracle::LinearProblem;
 using sim::LinearMode;
 using sim::ModeForcing;
+using test::epsilon;
 using test::Random;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// A mode, its forcing and its start: once for the library, once for the reference.
 struct Case {
@@ -45,9 +44,9 @@ struct Case {
 };
 
 /// x, x', x'' and f of a solved mode.
-class Motion {
+class SolvedMode {
  public:
-  explicit Motion(const Case& c) : mode_(c.mode()) {
+  explicit SolvedMode(const Case& c) : mode_(c.mode()) {
     mode_.solve(c.forcing(), c.problem.x0, c.problem.v0, x_);
     core::differentiate(mode_.basis(), x_, v_);
     core::differentiate(mode_.basis(), v_, a_);
@@ -120,18 +119,18 @@ double deflection(const LinearProblem& p) {
 /// Errors are judged in eps (1 + |z| s) of the largest size of the motion so far and of the deflection. Rounding of
 /// z s turns and scales an element by eps |z| s; exponents as close as one part in 100 are still written apart and
 /// cancel two digits; sums lose a few ulps. Together that stays below 512.
-constexpr double allowed = 512.0;
+constexpr double allowed_units = 512.0;
 
 struct Unit {
   double position = 0.0;
   double force = 0.0;
 };
 
-Unit unit_at(const LinearProblem& p, const Motion& motion, double s) {
+Unit unit_at(const LinearProblem& p, const SolvedMode& motion, double s) {
   const double rate = fastest(p);
   Unit size{deflection(p), 0.0};
   for (int i = 0; i <= 16; ++i) {
-    const Motion::Values u = motion.at(s * i / 16.0);
+    const SolvedMode::Values u = motion.at(s * i / 16.0);
     size.position = std::max({size.position, std::abs(u.x), std::abs(u.v) / rate});
     size.force = std::max(size.force, std::abs(p.mass * u.a) + std::abs(p.damping * u.v) +
                                           std::abs(p.stiffness * u.x) + std::abs(u.f));
@@ -143,18 +142,19 @@ Unit unit_at(const LinearProblem& p, const Motion& motion, double s) {
 /// Start, error against 50 digits and residual m x'' + C x' + K x - f at s.
 void check(const Case& c, double s) {
   const LinearProblem& p = c.problem;
-  const Motion motion(c);
+  const SolvedMode motion(c);
   const double rate = fastest(p);
   const Unit unit = unit_at(p, motion, s);
   INFO(describe(p, s));
-  const Motion::Values start = motion.at(0.0);
-  CHECK(std::abs(start.x - p.x0) <= allowed * unit.position);
-  CHECK(std::abs(start.v - p.v0) <= allowed * unit.position * rate);
-  const Motion::Values found = motion.at(s);
+  const SolvedMode::Values start = motion.at(0.0);
+  CHECK(std::abs(start.x - p.x0) <= allowed_units * unit.position);
+  CHECK(std::abs(start.v - p.v0) <= allowed_units * unit.position * rate);
+  const SolvedMode::Values found = motion.at(s);
   const oracle::State expected = oracle::solve(p, s);
-  CHECK(std::abs(found.x - expected.x) <= allowed * unit.position);
-  CHECK(std::abs(found.v - expected.v) <= allowed * unit.position * rate);
-  CHECK(std::abs(p.mass * found.a + p.damping * found.v + p.stiffness * found.x - found.f) <= allowed * unit.force);
+  CHECK(std::abs(found.x - expected.x) <= allowed_units * unit.position);
+  CHECK(std::abs(found.v - expected.v) <= allowed_units * unit.position * rate);
+  CHECK(std::abs(p.mass * found.a + p.damping * found.v + p.stiffness * found.x - found.f) <=
+        allowed_units * unit.force);
 }
 
 /// A time between a hundredth and 30 units of the oscillator's own; growth stays below exp(20).
@@ -233,10 +233,10 @@ TEST_CASE("A vanishing stiffness under constant force and ramp, with and without
   }
 }
 
-TEST_CASE("Motion without stiffness and damping is the parabola") {
+TEST_CASE("SolvedMode without stiffness and damping is the parabola") {
   // Against the formula itself: x0 + v0 s + F s^2/(2m) + R s^3/(6m).
   const Case c{{.mass = 2.0, .constant = 3.0, .ramp = -1.5, .x0 = 0.25, .v0 = -0.5}};
-  const Motion motion(c);
+  const SolvedMode motion(c);
   for (const double s : {1e-6, 0.1, 1.0, 7.0}) {
     CHECK(motion.at(s).x == Approx(0.25 - 0.5 * s + 0.75 * s * s - 0.125 * s * s * s).epsilon(8 * epsilon));
     CHECK(motion.at(s).v == Approx(-0.5 + 1.5 * s - 0.375 * s * s).epsilon(8 * epsilon));
@@ -247,7 +247,7 @@ TEST_CASE("Resonance without damping grows secularly, and near it nothing cancel
   Random random(14);
   // At resonance: m x'' + k x = cos(w s) from rest gives x = s sin(w s)/(2 m w).
   const Case exact{{.mass = 2.0, .stiffness = 18.0, .harmonics = {{3.0, 1.0}}}};
-  const Motion secular(exact);
+  const SolvedMode secular(exact);
   for (const double s : {1e-3, 0.5, 10.0, 100.0}) {
     CHECK(std::abs(secular.at(s).x - s * std::sin(3.0 * s) / 12.0) <= 16 * epsilon * (1.0 + 3.0 * s) * s / 12.0);
   }
@@ -360,7 +360,7 @@ TEST_CASE("Forces are represented as they are given") {
                 .ramp = -0.25,
                 .harmonics = {{1.5, Complex(0.3, -0.4)}, {2.0, Complex(0.0, 1.0)}},
                 .transients = {{0.7, 2.0}}}};
-  const Motion motion(c);
+  const SolvedMode motion(c);
   for (const double s : {0.0, 0.3, 4.0}) {
     const double expected = 0.5 - 0.25 * s + 0.3 * std::cos(1.5 * s) + 0.4 * std::sin(1.5 * s) - std::sin(2.0 * s) +
                             2.0 * std::exp(-0.7 * s);
@@ -385,7 +385,7 @@ TEST_CASE("The propagator is the derivative of the motion by its start, with the
     const double s = random.logarithmic(1e-2, 5.0) / rate;
     INFO(describe(p, s));
 
-    const Motion motion(c);
+    const SolvedMode motion(c);
     core::ExponentialBasis::Values values;
     motion.mode().basis().evaluate(s, values);
     const Eigen::Matrix2d propagator = motion.mode().propagator(values);
@@ -412,7 +412,7 @@ TEST_CASE("The propagator is the derivative of the motion by its start, with the
     Case moved = c;
     moved.problem.x0 += 0.5;
     moved.problem.v0 -= 0.25 * rate;
-    const Motion other(moved);
+    const SolvedMode other(moved);
     const double scale = size * (1.0 + std::abs(p.x0) + std::abs(p.v0) / rate) + std::abs(motion.at(s).x) +
                          std::abs(motion.at(s).v) / rate;
     const double expected = 0.5 * propagator(0, 0) - 0.25 * rate * propagator(0, 1);

@@ -1,19 +1,18 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "sim/engine/linear_mode.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/oracle.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;
 using oracle::LinearProblem;
+using test::epsilon;
 using test::Random;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// The state at s, by a mode.
 oracle::State solved(const LinearProblem& p, const sim::LinearMode::Layout& layout, double s) {

@@ -17,7 +17,7 @@ namespace {
 using namespace dualdamp;
 using sim::RadauCollocation;
 using sim::Stepper;
-using State = std::vector<double>;
+using StateVector = std::vector<double>;
 constexpr std::size_t stages = RadauCollocation::stages;
 
 /// A field from two functions.
@@ -43,8 +43,8 @@ class Field final : public sim::VectorField {
 
 /// x'' + x^3 = g(t) with g such that x = sin t + cos(2.3 t)/2 is a solution; `copies` of it side by side.
 struct ForcedDuffing {
-  static State exact(double t, std::size_t copies = 1) {
-    State x;
+  static StateVector exact(double t, std::size_t copies = 1) {
+    StateVector x;
     for (std::size_t c = 0; c < copies; ++c) {
       x.push_back(std::sin(t) + 0.5 * std::cos(2.3 * t));
       x.push_back(std::cos(t) - 1.15 * std::sin(2.3 * t));
@@ -94,15 +94,15 @@ const Method methods[] = {{"explicit", sim::make_explicit_stepper, 9, 8, 0.22},
                           {"implicit", sim::make_implicit_stepper, 10, 6, 0.35}};
 
 struct Stepped {
-  State end;
-  State error;
+  StateVector end;
+  StateVector error;
 };
 
 /// One step with next to no error left in the iteration.
-Stepped step(Stepper& stepper, const sim::VectorField& field, const State& x, double t, double h,
+Stepped step(Stepper& stepper, const sim::VectorField& field, const StateVector& x, double t, double h,
              double allowed = 1e-14) {
-  Stepped result{State(x.size()), State(x.size())};
-  const State tolerance(x.size(), allowed);
+  Stepped result{StateVector(x.size()), StateVector(x.size())};
+  const StateVector tolerance(x.size(), allowed);
   REQUIRE(stepper.step(field, x, t, h, tolerance, result.end, result.error));
   return result;
 }
@@ -118,7 +118,7 @@ Errors local_errors(const Method& method, double h) {
   const Field field = ForcedDuffing::field();
   const auto stepper = method.make();
   Errors errors;
-  State inside(2);
+  StateVector inside(2);
   for (double t = 0.0; t < 6.0; t += 0.37) {
     const Stepped s = step(*stepper, field, ForcedDuffing::exact(t), t, h);
     const auto grow = [](double& largest, double value) { largest = std::max(largest, std::abs(value)); };
@@ -135,10 +135,11 @@ Errors local_errors(const Method& method, double h) {
 }
 
 /// A plain controller: every step's estimate below `tolerance` (1 + |x|).
-State integrate(Stepper& stepper, const sim::VectorField& field, State x, double end, double tolerance) {
-  State next(x.size());
-  State error(x.size());
-  State allowed(x.size());
+StateVector integrate(Stepper& stepper, const sim::VectorField& field, StateVector x, double end,
+                      double tolerance) {
+  StateVector next(x.size());
+  StateVector error(x.size());
+  StateVector allowed(x.size());
   double t = 0.0;
   double h = 1e-6 * end;
   for (int steps = 0; t < end; ++steps) {
@@ -248,7 +249,7 @@ TEST_CASE("the implicit stepper loses order on stiff components as the theory sa
     const Field field = prothero_robinson(lambda);
     const auto stepper = sim::make_implicit_stepper();
     double worst = 0.0;
-    State x{std::sin(0.3)};
+    StateVector x{std::sin(0.3)};
     for (int k = 0; k < 12; ++k) {
       x = step(*stepper, field, x, 0.3 + k * h, h).end;
       worst = std::max(worst, std::abs(x[0] - std::sin(0.3 + (k + 1) * h)));
@@ -268,11 +269,11 @@ TEST_CASE("dense output is exact at both ends") {
     CAPTURE(method.name);
     const auto stepper = method.make();
     const Field field = ForcedDuffing::field();
-    State x = ForcedDuffing::exact(0.0);
-    State at(2);
+    StateVector x = ForcedDuffing::exact(0.0);
+    StateVector at(2);
     for (int k = 0; k < 20; ++k) {
       const double h = 0.01 * (k + 1);
-      const State end = step(*stepper, field, x, 0.1 * k, h).end;
+      const StateVector end = step(*stepper, field, x, 0.1 * k, h).end;
       stepper->at(0.0, at);
       CHECK(at == x);
       stepper->at(1.0, at);
@@ -286,10 +287,10 @@ TEST_CASE("dense output is exact at both ends") {
 TEST_CASE("a step does not depend on how many equations are beside it") {
   for (const Method& method : methods) {
     const auto stepper = method.make();
-    const State alone = step(*stepper, ForcedDuffing::field(), ForcedDuffing::exact(0.7), 0.7, method.h).end;
+    const StateVector alone = step(*stepper, ForcedDuffing::field(), ForcedDuffing::exact(0.7), 0.7, method.h).end;
     for (const std::size_t copies : {2U, 3U, 20U}) {
-      const State x = ForcedDuffing::exact(0.7, copies);
-      const State end = step(*stepper, ForcedDuffing::field(copies), x, 0.7, method.h).end;
+      const StateVector x = ForcedDuffing::exact(0.7, copies);
+      const StateVector end = step(*stepper, ForcedDuffing::field(copies), x, 0.7, method.h).end;
       CAPTURE(method.name, copies);
       for (std::size_t k = 0; k < end.size(); ++k) CHECK(end[k] == Approx(alone[k % 2]).epsilon(1e-14));
     }
@@ -315,17 +316,17 @@ TEST_CASE("the end of a step is smooth enough in x for central differences") {
       });
   const double h = 0.05;
   const auto stepper = sim::make_implicit_stepper();
-  const State start{0.4, 1.0, -0.7};
+  const StateVector start{0.4, 1.0, -0.7};
   for (int slow = 1; slow < 3; ++slow) {
     const double displacement = 1e-5;
-    State plus = start;
-    State minus = start;
+    StateVector plus = start;
+    StateVector minus = start;
     for (std::size_t k = 0; k < 3; ++k) {
       plus[k] += displacement * basis(static_cast<Eigen::Index>(k), slow);
       minus[k] -= displacement * basis(static_cast<Eigen::Index>(k), slow);
     }
-    const State right = step(*stepper, field, plus, 0.2, h, 1e-10).end;
-    const State left = step(*stepper, field, minus, 0.2, h, 1e-10).end;
+    const StateVector right = step(*stepper, field, plus, 0.2, h, 1e-10).end;
+    const StateVector left = step(*stepper, field, minus, 0.2, h, 1e-10).end;
     for (std::size_t k = 0; k < 3; ++k) {
       const double exact = std::exp(h * rates[slow]) * basis(static_cast<Eigen::Index>(k), slow);
       CHECK((right[k] - left[k]) / (2.0 * displacement) == Approx(exact).margin(1e-8));
@@ -335,13 +336,13 @@ TEST_CASE("the end of a step is smooth enough in x for central differences") {
 
 TEST_CASE("what a stepper did before does not alter a step") {
   const Field field = ForcedDuffing::field();
-  const State x = ForcedDuffing::exact(1.0);
+  const StateVector x = ForcedDuffing::exact(1.0);
   const double allowed = 1e-8;
-  const State alone = step(*sim::make_implicit_stepper(), field, x, 1.0, 0.5, allowed).end;
+  const StateVector alone = step(*sim::make_implicit_stepper(), field, x, 1.0, 0.5, allowed).end;
   const auto used = sim::make_implicit_stepper();
   for (const double before : {0.3, 0.5, 0.9}) {
     (void)step(*used, field, ForcedDuffing::exact(1.0 - before), 1.0 - before, before, allowed);
-    const State end = step(*used, field, x, 1.0, 0.5, allowed).end;
+    const StateVector end = step(*used, field, x, 1.0, 0.5, allowed).end;
     for (std::size_t k = 0; k < 2; ++k) CHECK(end[k] == Approx(alone[k]).margin(2e-3 * allowed).epsilon(0));
   }
 }
@@ -363,7 +364,7 @@ TEST_CASE("the implicit stepper passes the jumps of a van der Pol oscillator") {
         columns[3] = fast * (1.0 - x[0] * x[0]);
       });
   const auto stepper = sim::make_implicit_stepper();
-  const State end = integrate(*stepper, field, {2.0, 0.0}, 2.0, 1e-10);
+  const StateVector end = integrate(*stepper, field, {2.0, 0.0}, 2.0, 1e-10);
   CHECK(end[0] == Approx(1.706167732170483).epsilon(1e-9));
   CHECK(end[1] == Approx(-0.8928097010247975).epsilon(1e-9));
 }
@@ -378,10 +379,10 @@ TEST_CASE("a step that fails says so and leaves the dense output of the one befo
   for (const Method& method : methods) {
     CAPTURE(method.name);
     const auto stepper = method.make();
-    const State end = step(*stepper, field, {0.0}, 0.0, 0.1, 1e-8).end;
-    const State allowed{1e-8};
-    State out(1);
-    State error(1);
+    const StateVector end = step(*stepper, field, {0.0}, 0.0, 0.1, 1e-8).end;
+    const StateVector allowed{1e-8};
+    StateVector out(1);
+    StateVector error(1);
     CHECK_FALSE(stepper->step(field, end, 0.1, 2.0, allowed, out, error));
     stepper->at(1.0, out);
     CHECK(out == end);

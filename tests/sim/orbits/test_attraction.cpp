@@ -12,7 +12,7 @@ namespace {
 
 using namespace dualdamp;
 
-constexpr double omega = 2.0;
+constexpr double swing_omega = 2.0;
 
 sim::State at(double x, double v) { return {.x = x, .v = v, .direction = friction::Direction::forward}; }
 
@@ -24,7 +24,7 @@ sim::ForcingPeriod orbit(double radius, double angle) {
   const double c = radius * std::cos(angle);
   const double s = radius * std::sin(angle);
   period.monodromy.resize(2, 2);
-  period.monodromy << c, -s / omega, s * omega, c;
+  period.monodromy << c, -s / swing_omega, s * swing_omega, c;
   return period;
 }
 
@@ -40,7 +40,7 @@ sim::State next(const sim::ForcingPeriod& o, const sim::State& state, double cur
 TEST_CASE("a motion on the linear map of its orbit approaches it at once, however slowly") {
   for (const double radius : {0.0, 0.5, 0.999}) {
     const sim::ForcingPeriod o = orbit(radius, 1.3);
-    sim::Attraction attraction(o, omega, 1e-9);
+    sim::Attraction attraction(o, swing_omega, 1e-9);
     sim::State state = at(1.4, 0.1);
     for (int i = 0; i < 4; ++i) {
       CHECK_FALSE(attraction.approaches());
@@ -54,7 +54,7 @@ TEST_CASE("a motion on the linear map of its orbit approaches it at once, howeve
 
 TEST_CASE("a motion that the quadratic part carries off does not approach the orbit") {
   const sim::ForcingPeriod o = orbit(0.9, 0.2);
-  sim::Attraction attraction(o, omega, 1e-9);
+  sim::Attraction attraction(o, swing_omega, 1e-9);
   sim::State state = at(2.0, 0.5);
   for (int i = 0; i < 12 && !attraction.leaves(); ++i) {
     attraction.observe(state);
@@ -63,7 +63,7 @@ TEST_CASE("a motion that the quadratic part carries off does not approach the or
   }
   CHECK(attraction.leaves());
   // Near enough the same map attracts.
-  sim::Attraction near(o, omega, 1e-9);
+  sim::Attraction near(o, swing_omega, 1e-9);
   state = at(1.001, 0.5);
   for (int i = 0; i < 5; ++i) {
     near.observe(state);
@@ -74,22 +74,22 @@ TEST_CASE("a motion that the quadratic part carries off does not approach the or
 
 TEST_CASE("a motion that stays beside the orbit never approaches it") {
   const sim::ForcingPeriod o = orbit(0.9, 0.7);
-  sim::Attraction attraction(o, omega, 1e-9);
+  sim::Attraction attraction(o, swing_omega, 1e-9);
   for (int i = 0; i < 50; ++i) attraction.observe(at(i % 2 == 0 ? 1.02 : 0.98, 0.5));
   CHECK_FALSE(attraction.approaches());
 }
 
 TEST_CASE("a motion comes back after its shortest period") {
   for (const int period : {1, 2, 7, 64}) {
-    sim::Recurrence recurrence(omega);
+    sim::Recurrence recurrence(swing_omega);
     for (int i = 0; i < 200; ++i) {
       const double angle = 6.283185307179586 * i / period;
-      recurrence.add(at(std::cos(angle), omega * std::sin(angle)), 1.0);
+      recurrence.add(at(std::cos(angle), swing_omega * std::sin(angle)), 1.0);
     }
     CHECK(recurrence.shortest(1e-9) == period);
     CHECK(recurrence.closure(period) < 1e-9);
   }
-  sim::Recurrence drifting(omega);
+  sim::Recurrence drifting(swing_omega);
   for (int i = 0; i < 200; ++i) drifting.add(at(0.01 * i, 0.0), 1.0);
   CHECK(drifting.shortest(1e-3) == 0);
 }

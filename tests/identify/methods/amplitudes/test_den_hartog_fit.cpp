@@ -18,13 +18,13 @@ namespace analytic = dualdamp::sim::analytic;
 
 namespace {
 
-const std::vector<double> levels = {4.45e-3, 5.025e-3, 5.6e-3, 6.175e-3, 6.75e-3};
+const std::vector<double> five_levels = {4.45e-3, 5.025e-3, 5.6e-3, 6.175e-3, 6.75e-3};
 
 /// Pairs of the closed form at every level and frequency, with errors of x.
 Record pairs_at(double zeta, double x_f, const std::vector<double>& ratios, double sigma, Normal& normal) {
   PairRecord record;
   for (const double r : ratios)
-    for (const double Y : levels)
+    for (const double Y : five_levels)
       record.pairs.push_back(
           {.Y = Y,
            .x = analytic::amplitude(analytic::den_hartog(zeta, r), Y, x_f).value() + sigma * normal(),
@@ -34,7 +34,7 @@ Record pairs_at(double zeta, double x_f, const std::vector<double>& ratios, doub
   return {record, std::nullopt};
 }
 
-Record exact_pairs(double zeta, double x_f, const std::vector<double>& ratios) {
+Record exact_pairs_at(double zeta, double x_f, const std::vector<double>& ratios) {
   Normal none(1);
   return pairs_at(zeta, x_f, ratios, 0.0, none);
 }
@@ -43,10 +43,10 @@ Record exact_pairs(double zeta, double x_f, const std::vector<double>& ratios) {
 /// the closed form, by no code of the method.
 Eigen::VectorXd standard_errors(double zeta, double x_f, const std::vector<double>& ratios, double sigma,
                                 bool free) {
-  Eigen::MatrixXd J(static_cast<Eigen::Index>(ratios.size() * levels.size()), 3);
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(ratios.size() * five_levels.size()), 3);
   Eigen::Index row = 0;
   for (const double r : ratios)
-    for (const double Y : levels) {
+    for (const double Y : five_levels) {
       const auto x = [&](double dz, double df, double dn) {
         return analytic::amplitude(analytic::den_hartog(zeta + dz, r / (1.0 + dn)), Y, x_f + df).value();
       };
@@ -68,7 +68,7 @@ TEST_CASE("Exact pairs give the truth, near resonance or not") {
                                               std::vector{0.95, 1.0, 1.05}, std::vector{0.6, 1.4}}) {
       const double x_f = 1.0e-3;
       CAPTURE(zeta, ratios);
-      const Estimate e = den_hartog_fit(exact_pairs(zeta, x_f, ratios), bearing, {});
+      const Estimate e = den_hartog_fit(exact_pairs_at(zeta, x_f, ratios), bearing, {});
       REQUIRE(e.outcome.ok());
       CHECK(e.usable);
       CHECK(e.excluded.empty());
@@ -87,7 +87,7 @@ TEST_CASE("Simulated pairs give the truth where the line of the resonance method
   model.excitation.type = sim::ExcitationType::base_harmonic;
   model.excitation.frequency = 1.03 * natural;
   std::vector<std::pair<double, double>> list;
-  for (const sim::CurvePoint& point : sim::xy_curve(model, levels).points) list.emplace_back(point.Y, point.x);
+  for (const sim::CurvePoint& point : sim::xy_curve(model, five_levels).points) list.emplace_back(point.Y, point.x);
   const KnownConstants constants{mass, stiffness, 1.03 * natural};
   const Estimate e = den_hartog_fit(pairs(list), constants, {});
   REQUIRE(e.outcome.ok());
@@ -112,11 +112,11 @@ TEST_CASE("The natural frequency is fitted from three frequencies and refused fr
   options.free_natural_frequency = true;
   options.sigma_x = sigma;
   for (const std::vector<double>& ratios : {std::vector{1.0}, std::vector{0.95, 1.05}}) {
-    const Estimate refused = den_hartog_fit(exact_pairs(zeta, x_f, ratios), bearing, options);
+    const Estimate refused = den_hartog_fit(exact_pairs_at(zeta, x_f, ratios), bearing, options);
     CHECK_FALSE(refused.outcome.ok());
     CHECK(mentions(refused.reason, "fewer than three frequencies"));
   }
-  const Estimate e = den_hartog_fit(exact_pairs(zeta, x_f, {0.95, 1.0, 1.05}), bearing, options);
+  const Estimate e = den_hartog_fit(exact_pairs_at(zeta, x_f, {0.95, 1.0, 1.05}), bearing, options);
   REQUIRE(e.outcome.ok());
   CHECK(e.std->zeta == Approx(three_free[0]).epsilon(1e-4));
   CHECK(e.std->x_f == Approx(three_free[1]).epsilon(1e-4));
@@ -126,10 +126,10 @@ TEST_CASE("The natural frequency is fitted from three frequencies and refused fr
 
   // A laboratory that has its mass wrong by 4 %, and so wn by 2 %.
   const KnownConstants wrong{1.04 * mass, stiffness, unknown};
-  const Estimate fixed = den_hartog_fit(exact_pairs(zeta, x_f, {0.95, 1.0, 1.05}), wrong, {});
+  const Estimate fixed = den_hartog_fit(exact_pairs_at(zeta, x_f, {0.95, 1.0, 1.05}), wrong, {});
   CHECK_FALSE(fixed.usable);
   CHECK(mentions(fixed.reason, "the frequencies contradict wn"));
-  const Estimate free = den_hartog_fit(exact_pairs(zeta, x_f, {0.95, 1.0, 1.05}), wrong, options);
+  const Estimate free = den_hartog_fit(exact_pairs_at(zeta, x_f, {0.95, 1.0, 1.05}), wrong, options);
   CHECK(free.usable);
   CHECK(free.value.zeta == Approx(zeta).epsilon(1e-9));
   CHECK(free.value.c == Approx(2.0 * zeta * std::sqrt(mass * stiffness)).epsilon(1e-9));
@@ -199,7 +199,7 @@ TEST_CASE("The exact law leaves out what sticks and tells what it cannot fit") {
 }
 
 TEST_CASE("Phases are compared and not fitted") {
-  Record record = exact_pairs(0.12, 2.0e-3, {1.0});
+  Record record = exact_pairs_at(0.12, 2.0e-3, {1.0});
   for (Pair& pair : record.pairs->pairs)
     pair.phase = analytic::non_sticking_state(analytic::den_hartog(0.12, 1.0), pair.Y, 2.0e-3)->phase;
   const Estimate right = den_hartog_fit(record, bearing, {});

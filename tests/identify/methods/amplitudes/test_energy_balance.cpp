@@ -16,12 +16,9 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double c = 11.0;
-constexpr double F0 = 3.7;
-
 /// What a perfect laboratory reads of the simulated motion: the work of the base gives the fundamental, that of the
 /// damper the mean square speed.
-Pair measure(double r, double Y, double damping = c, double friction_force = F0) {
+Pair measure(double r, double Y, double damping = bearing_c, double friction_force = bearing_F0) {
   sim::Model model;
   model.oscillator = {mass, stiffness, damping, sim::DamperTo::ground};
   model.friction.emplace_back(friction::Coulomb(friction_force, friction_force));
@@ -57,7 +54,7 @@ std::vector<Pair> sliding_states() {
 TEST_CASE("The energy balance is an identity") {
   for (const Pair& pair : sliding_states()) {
     const EnergyTerms terms = energy_of(pair, stiffness);
-    CHECK(terms.work == Approx(F0 * terms.path + c * terms.speed_square).epsilon(1e-11));
+    CHECK(terms.work == Approx(bearing_F0 * terms.path + bearing_c * terms.speed_square).epsilon(1e-11));
   }
 }
 
@@ -65,27 +62,27 @@ TEST_CASE("Exact quantities give the truth at any frequency, with stops or witho
   const Estimate e = energy_balance(states_record(sliding_states()), bearing, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
-  CHECK(e.value.c == Approx(c).epsilon(1e-9));
-  CHECK(e.value.F0 == Approx(F0).epsilon(1e-9));
-  CHECK(e.value.zeta == Approx(c / (2.0 * std::sqrt(mass * stiffness))).epsilon(1e-9));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
+  CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-9));
+  CHECK(e.value.zeta == Approx(bearing_c / (2.0 * std::sqrt(mass * stiffness))).epsilon(1e-9));
   CHECK(e.warnings.empty());
 
   // Y = 1.4 and 1.5 x_f stick in every period at resonance; two sticks do no work.
-  const double x_f = F0 / stiffness;
+  const double x_f = bearing_F0 / stiffness;
   const Estimate sticking = energy_balance(
       states_record({measure(1.0, 1.4 * x_f), measure(1.0, 1.5 * x_f), measure(0.6, 3.0 * x_f)}), bearing, {});
   REQUIRE(sticking.outcome.ok());
-  CHECK(sticking.value.c == Approx(c).epsilon(1e-9));
-  CHECK(sticking.value.F0 == Approx(F0).epsilon(1e-9));
+  CHECK(sticking.value.c == Approx(bearing_c).epsilon(1e-9));
+  CHECK(sticking.value.F0 == Approx(bearing_F0).epsilon(1e-9));
 }
 
 TEST_CASE("The mass is not needed, and without it there is no damping ratio") {
   const Estimate e = energy_balance(states_record(sliding_states()), {unknown, stiffness, unknown}, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
-  CHECK(e.value.c == Approx(c).epsilon(1e-9));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
   CHECK(std::isnan(e.value.zeta));
-  CHECK(e.value.x_f == Approx(F0 / stiffness).epsilon(1e-9));
+  CHECK(e.value.x_f == Approx(bearing_F0 / stiffness).epsilon(1e-9));
   CHECK(e.interval95.has_value());
 }
 
@@ -102,15 +99,15 @@ TEST_CASE("Harmonic quantities bias the estimate by what the method says") {
   Estimate crude;
   std::vector<std::string> faults;
   REQUIRE(balance(accounts, bearing, crude, faults));
-  CHECK(crude.value.F0 / F0 - 1.0 == Approx(-0.015).margin(0.01));
-  CHECK(crude.value.c / c - 1.0 == Approx(0.015).margin(0.01));
+  CHECK(crude.value.F0 / bearing_F0 - 1.0 == Approx(-0.015).margin(0.01));
+  CHECK(crude.value.c / bearing_c - 1.0 == Approx(0.015).margin(0.01));
 
   // The method keeps the path, which is measured; and it tells the bias of the rest, above 1 %.
   std::vector<Pair> states = sliding_states();
   for (Pair& pair : states) pair.mean_square_speed = unknown;
   const Estimate e = energy_balance(states_record(states), bearing, {});
   REQUIRE(e.outcome.ok());
-  const double worst = std::max(std::abs(e.value.c / c - 1.0), std::abs(e.value.F0 / F0 - 1.0));
+  const double worst = std::max(std::abs(e.value.c / bearing_c - 1.0), std::abs(e.value.F0 / bearing_F0 - 1.0));
   CHECK(worst < 0.03);
   const bool told = !e.warnings.empty() && mentions(e.warnings.back(), "harmonic motion");
   CHECK(told == (worst > 0.01));
@@ -135,7 +132,7 @@ TEST_CASE("A phase error does nothing at resonance and much beside it") {
   };
   const double e = pi / 180.0;
   const auto change = [](const Estimate& estimate) {
-    return std::abs(estimate.value.c / c - 1.0) + std::abs(estimate.value.F0 / F0 - 1.0);
+    return std::abs(estimate.value.c / bearing_c - 1.0) + std::abs(estimate.value.F0 / bearing_F0 - 1.0);
   };
   CHECK(change(shifted(1.0, e)) < 0.005);
   CHECK(change(shifted(0.9, e)) > 0.015);
@@ -163,8 +160,8 @@ TEST_CASE("Intervals of the energy balance hold in a Monte Carlo experiment") {
       pair.phase += 0.5 * pi / 180.0 * normal();
     }
     const Estimate e = energy_balance(states_record(states), bearing, {});
-    covered_c += e.interval95->c[0] < c && c < e.interval95->c[1];
-    covered_F0 += e.interval95->F0[0] < F0 && F0 < e.interval95->F0[1];
+    covered_c += e.interval95->c[0] < bearing_c && bearing_c < e.interval95->c[1];
+    covered_F0 += e.interval95->F0[0] < bearing_F0 && bearing_F0 < e.interval95->F0[1];
   }
   CHECK(covered_c / double(samples) == Approx(0.95).margin(0.03));
   CHECK(covered_F0 / double(samples) == Approx(0.95).margin(0.03));
@@ -175,7 +172,8 @@ TEST_CASE("Friction that bends is told by the energy balance") {
   std::vector<EnergyTerms> accounts;
   for (int i = 1; i <= 6; ++i) {
     const double u = 0.1 * i;
-    accounts.push_back({.work = F0 + c * u * (1.0 - 0.3 * u), .path = 1.0, .speed_square = u, .number = i});
+    accounts.push_back(
+        {.work = bearing_F0 + bearing_c * u * (1.0 - 0.3 * u), .path = 1.0, .speed_square = u, .number = i});
   }
   Estimate e;
   std::vector<std::string> faults;
@@ -188,13 +186,13 @@ TEST_CASE("Friction that bends is told by the energy balance") {
 TEST_CASE("Histories of any motion give the energy balance") {
   // Two levels from rest, transients and sticks included. Turns between samples are known to (w T)^2 = 4e-4 of
   // themselves.
-  const std::vector<History> histories = {sampled(driven_bearing(c, F0, 4e-3), 2.0, 2000.0),
-                                          sampled(driven_bearing(c, F0, 7e-3), 2.0, 2000.0)};
+  const std::vector<History> histories = {sampled(driven_bearing(bearing_c, bearing_F0, 4e-3), 2.0, 2000.0),
+                                          sampled(driven_bearing(bearing_c, bearing_F0, 7e-3), 2.0, 2000.0)};
   const Estimate e = energy_balance(testing::record_of(histories), bearing_constants, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
-  CHECK(e.value.c == Approx(c).epsilon(1e-3));
-  CHECK(e.value.F0 == Approx(F0).epsilon(1e-3));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-3));
+  CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-3));
   CHECK(e.used == std::vector<int>{1, 2});
   CHECK(mentions(e.reason, "periods of 2 histories"));
   // x alone, differentiated and filtered, with noise of 1 um: that of rounding to the 3 um of the paper's sensors.
@@ -203,8 +201,8 @@ TEST_CASE("Histories of any motion give the energy balance") {
   for (const History& history : histories) noisy.push_back(displacement_only(history, 1e-6, normal));
   const Estimate measured = energy_balance(testing::record_of(noisy), bearing_constants, {});
   REQUIRE(measured.outcome.ok());
-  CHECK(measured.value.c == Approx(c).epsilon(0.05));
-  CHECK(measured.value.F0 == Approx(F0).epsilon(0.05));
+  CHECK(measured.value.c == Approx(bearing_c).epsilon(0.05));
+  CHECK(measured.value.F0 == Approx(bearing_F0).epsilon(0.05));
   CHECK(mentions(energy_balance(testing::record_of(histories), {unknown, stiffness}, {}).reason, "needs the mass"));
 }
 

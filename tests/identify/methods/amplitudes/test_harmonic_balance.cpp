@@ -36,7 +36,7 @@ Record balanced(const std::function<double(double)>& f, const std::vector<double
 
 const std::vector<double> outputs = {5e-3, 7e-3, 9e-3, 11e-3, 13e-3, 15e-3, 17e-3, 19e-3};
 
-const EstimateCurve& named(const Estimate& estimate, const std::string& name) {
+const EstimateCurve& curve_named(const Estimate& estimate, const std::string& name) {
   const auto found = std::ranges::find(estimate.curves, name, &EstimateCurve::name);
   REQUIRE(found != estimate.curves.end());
   return *found;
@@ -122,7 +122,7 @@ TEST_CASE("A law that bends is rejected, and its curve is the result") {
   CHECK(e.others[2].value < 0.0);
   // A cubic through a law with one knee: 2 % of it; Abel's inversion of eight points with a cubic between them
   // likewise.
-  const EstimateCurve& curve = named(e, "friction_velocity");
+  const EstimateCurve& curve = curve_named(e, "friction_velocity");
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     CHECK(curve.columns[1].values[i] == Approx(law(curve.columns[0].values[i])).epsilon(0.02));
     CHECK(curve.columns[2].values[i] == Approx(law(curve.columns[0].values[i])).epsilon(0.04));

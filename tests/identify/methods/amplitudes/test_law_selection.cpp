@@ -20,7 +20,8 @@ namespace analytic = dualdamp::sim::analytic;
 
 namespace {
 
-Record exact_pairs(double zeta, double x_f, const std::vector<double>& levels, double sigma, Normal& normal) {
+Record exact_pairs_at_resonance(double zeta, double x_f, const std::vector<double>& levels, double sigma,
+                                Normal& normal) {
   std::vector<std::pair<double, double>> list;
   for (const double Y : levels)
     list.emplace_back(Y, analytic::amplitude(analytic::den_hartog(zeta, 1.0), Y, x_f).value() + sigma * normal());
@@ -42,7 +43,7 @@ std::vector<std::pair<double, double>> simulate(sim::Model model, const std::vec
   return list;
 }
 
-const LawCandidate& named(const Estimate& estimate, const std::string& law) {
+const LawCandidate& candidate_named(const Estimate& estimate, const std::string& law) {
   const auto found = std::ranges::find(estimate.candidates, law, &LawCandidate::law);
   REQUIRE(found != estimate.candidates.end());
   return *found;
@@ -74,7 +75,8 @@ TEST_CASE("The five reconstructed pairs: Coulomb + viscous is rejected at 1 %, s
   CHECK(e.reason.find("saturating_viscous ranks first") != std::string::npos);
   CHECK(any_mentions(e.warnings, "cannot tell which mechanism"));
   // At one frequency a law of position is a law of velocity.
-  CHECK(named(e, "position_quadratic").BIC == Approx(named(e, "quadratic_drag").BIC).epsilon(1e-9));
+  CHECK(candidate_named(e, "position_quadratic").BIC ==
+        Approx(candidate_named(e, "quadratic_drag").BIC).epsilon(1e-9));
   double sum = 0.0;
   for (const LawCandidate& candidate : e.candidates) sum += candidate.weight;
   CHECK(sum == Approx(1.0));
@@ -95,7 +97,7 @@ TEST_CASE("The five reconstructed pairs: Coulomb + viscous is rejected at 1 %, s
 TEST_CASE("Exact Coulomb + viscous pairs are Coulomb + viscous") {
   Normal none(1);
   const Estimate e =
-      law_selection(exact_pairs(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 8), 0.0, none), at_resonance, {});
+      law_selection(exact_pairs_at_resonance(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 8), 0.0, none), at_resonance, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
   CHECK(e.candidates.front().law == "coulomb_viscous");
@@ -113,8 +115,8 @@ TEST_CASE("Noise alone rejects Coulomb + viscous friction no more often than the
   int fired = 0, first = 0;
   constexpr int samples = 400;
   for (int i = 0; i < samples; ++i) {
-    const Estimate e =
-        law_selection(exact_pairs(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 10), 0.05e-3, normal), at_resonance, {});
+    const Estimate e = law_selection(
+        exact_pairs_at_resonance(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 10), 0.05e-3, normal), at_resonance, {});
     REQUIRE(e.outcome.ok());
     fired += e.lack_of_fit->fired;
     first += e.candidates.front().law == "coulomb_viscous";
@@ -169,8 +171,8 @@ TEST_CASE("A second frequency tells position from velocity") {
   const Estimate e = law_selection({record, std::nullopt}, at_resonance, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.candidates.front().law == "quadratic_drag");
-  CHECK(named(e, "position_quadratic").BIC > e.candidates.front().BIC + 2.0);
-  CHECK_NOTHROW(named(e, "position_linear"));
+  CHECK(candidate_named(e, "position_quadratic").BIC > e.candidates.front().BIC + 2.0);
+  CHECK_NOTHROW(candidate_named(e, "position_linear"));
 }
 
 TEST_CASE("Sweeps whose residuals go together count for fewer pairs") {
@@ -191,7 +193,7 @@ TEST_CASE("Sweeps whose residuals go together count for fewer pairs") {
   REQUIRE(swept.outcome.ok());
   // The penalty of one parameter, 2 K + 2 K (K + 1)/(N - K - 1), grows as N falls to about ten.
   const auto penalty = [](const Estimate& e) {
-    return named(e, "quadratic_drag").AICc - named(e, "coulomb_viscous").AICc;
+    return candidate_named(e, "quadratic_drag").AICc - candidate_named(e, "coulomb_viscous").AICc;
   };
   CHECK(penalty(swept) > penalty(single) + 1.0);
 }
@@ -199,6 +201,6 @@ TEST_CASE("Sweeps whose residuals go together count for fewer pairs") {
 TEST_CASE("Records that allow no comparison of laws are refused with the reason") {
   CHECK(law_selection(Record{}, at_resonance, {}).reason == "the record holds no x-Y pairs");
   Normal none(1);
-  CHECK(law_selection(exact_pairs(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 3), 0.0, none), at_resonance, {}).reason ==
-        "four levels are needed to compare laws, and the record has 3");
+  CHECK(law_selection(exact_pairs_at_resonance(0.12, 2.36e-3, spaced(4.4e-3, 7e-3, 3), 0.0, none), at_resonance, {})
+            .reason == "four levels are needed to compare laws, and the record has 3");
 }

@@ -16,19 +16,18 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double c = 11.0;
-constexpr double F0 = 3.7;
-const double zeta = c / (2.0 * std::sqrt(mass * stiffness));
+const double bearing_zeta = bearing_c / (2.0 * std::sqrt(mass * stiffness));
 
 /// mu = 4 F0/(pi k Y) = 0.6.
-constexpr double Y = 4.0 * F0 / (pi * stiffness * 0.6);
+constexpr double bearing_Y = 4.0 * bearing_F0 / (pi * stiffness * 0.6);
 
 Record response(const std::vector<double>& ratios, bool fundamental = true) {
   PairRecord record;
   for (const double r : ratios) {
-    const auto state = analytic::non_sticking_state(analytic::den_hartog(zeta, r), Y, F0 / stiffness);
+    const auto state =
+        analytic::non_sticking_state(analytic::den_hartog(bearing_zeta, r), bearing_Y, bearing_F0 / stiffness);
     REQUIRE(state.has_value());
-    record.pairs.push_back({.Y = Y,
+    record.pairs.push_back({.Y = bearing_Y,
                             .x = state->amplitude,
                             .sweep = {},
                             .number = static_cast<int>(record.pairs.size()) + 1,
@@ -44,15 +43,15 @@ Record harmonic(const std::vector<double>& list, double bend = 0.0) {
   PairRecord record;
   for (const double r : list) {
     const double w = r * natural;
-    double X = Y;
+    double X = bearing_Y;
     for (int i = 0; i < 5000; ++i) {  // damped iteration on |...| = k Y
       const double in_phase = (stiffness - mass * w * w) * X;
-      const double across = c * w * X + bend * w * w * X * X + 4.0 * F0 / pi;
-      X += 0.3 * Y * (stiffness * Y / std::hypot(in_phase, across) - 1.0);
+      const double across = bearing_c * w * X + bend * w * w * X * X + 4.0 * bearing_F0 / pi;
+      X += 0.3 * bearing_Y * (stiffness * bearing_Y / std::hypot(in_phase, across) - 1.0);
     }
     const double in_phase = (stiffness - mass * w * w) * X;
-    const double across = c * w * X + bend * w * w * X * X + 4.0 * F0 / pi;
-    record.pairs.push_back({.Y = Y,
+    const double across = bearing_c * w * X + bend * w * w * X * X + 4.0 * bearing_F0 / pi;
+    record.pairs.push_back({.Y = bearing_Y,
                             .x = X,
                             .sweep = {},
                             .number = static_cast<int>(record.pairs.size()) + 1,
@@ -69,8 +68,8 @@ TEST_CASE("A motion that balances in the first harmonic gives the truth") {
   const Estimate e = receptance(harmonic(spaced(0.95, 1.05, 7)), bearing);
   REQUIRE(e.outcome.ok());
   CHECK(e.excluded.empty());
-  CHECK(e.value.c == Approx(c).epsilon(1e-9));
-  CHECK(e.value.F0 == Approx(F0).epsilon(1e-9));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
+  CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-9));
   REQUIRE(e.others.size() == 2);
   CHECK(e.others[0].value == Approx(stiffness).epsilon(1e-9));
   CHECK(e.others[1].value == Approx(natural).epsilon(1e-9));
@@ -126,8 +125,8 @@ TEST_CASE("Intervals of the receptance hold in a Monte Carlo experiment") {
     }
     const Estimate e = receptance(noisy, bearing);
     REQUIRE(e.interval95.has_value());
-    covered_c += e.interval95->c[0] < c && c < e.interval95->c[1];
-    covered_F0 += e.interval95->F0[0] < F0 && F0 < e.interval95->F0[1];
+    covered_c += e.interval95->c[0] < bearing_c && bearing_c < e.interval95->c[1];
+    covered_F0 += e.interval95->F0[0] < bearing_F0 && bearing_F0 < e.interval95->F0[1];
     fired += e.lack_of_fit->p_value < 0.05;
   }
   CHECK(covered_c / double(samples) == Approx(0.95).margin(0.015));
@@ -142,6 +141,6 @@ TEST_CASE("Records that allow no receptance are refused with the reason") {
   // Without the mass there is no gate and no damping ratio.
   const Estimate e = receptance(harmonic(spaced(0.95, 1.05, 7)), {unknown, stiffness, unknown});
   REQUIRE(e.outcome.ok());
-  CHECK(e.value.c == Approx(c).epsilon(1e-9));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
   CHECK(std::isnan(e.value.zeta));
 }

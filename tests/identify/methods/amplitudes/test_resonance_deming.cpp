@@ -15,16 +15,16 @@ namespace analytic = dualdamp::sim::analytic;
 
 namespace {
 
-constexpr double zeta = 0.12;
-constexpr double x_f = 2.5e-3;
+constexpr double line_zeta = 0.12;
+constexpr double line_x_f = 2.5e-3;
 
 /// Sweeps of five levels over the paper's range, on the straight line, with errors of both amplitudes.
 std::vector<std::pair<double, double>> noisy_line(Normal& normal, double sigma_x, double sigma_Y, int count = 25) {
-  const double G = analytic::den_hartog(zeta, 1.0).G;
+  const double G = analytic::den_hartog(line_zeta, 1.0).G;
   std::vector<std::pair<double, double>> list;
   for (int i = 0; i < count; ++i) {
     const double Y = 4.45e-3 + 0.575e-3 * (i % 5);
-    list.emplace_back(Y + sigma_Y * normal(), Y / (2.0 * zeta) - G * x_f + sigma_x * normal());
+    list.emplace_back(Y + sigma_Y * normal(), Y / (2.0 * line_zeta) - G * line_x_f + sigma_x * normal());
   }
   return list;
 }
@@ -52,8 +52,8 @@ TEST_CASE("Errors of the input bias the least-squares line and not Deming's") {
       const Estimate both = resonance_deming(record, at_resonance, options);
       REQUIRE(line.outcome.ok());
       REQUIRE(both.outcome.ok());
-      ordinary.add(line.value.zeta / zeta - 1.0, line.value.x_f / x_f - 1.0);
-      deming.add(both.value.zeta / zeta - 1.0, both.value.x_f / x_f - 1.0);
+      ordinary.add(line.value.zeta / line_zeta - 1.0, line.value.x_f / line_x_f - 1.0);
+      deming.add(both.value.zeta / line_zeta - 1.0, both.value.x_f / line_x_f - 1.0);
     }
     CAPTURE(c.sigma_Y);
     CHECK(ordinary.mean_a == Approx(c.zeta_bias).margin(c.margin));
@@ -81,8 +81,8 @@ TEST_CASE("Standard errors and intervals of Deming's line hold in a Monte Carlo 
     cloud.add(e.value.zeta, e.value.F0);
     variance_zeta += (*e.covariance)(0, 0) / samples;
     variance_F0 += (*e.covariance)(1, 1) / samples;
-    covered_zeta += e.interval95->zeta[0] < zeta && zeta < e.interval95->zeta[1];
-    covered_F0 += e.interval95->F0[0] < 1568.0 * x_f && 1568.0 * x_f < e.interval95->F0[1];
+    covered_zeta += e.interval95->zeta[0] < line_zeta && line_zeta < e.interval95->zeta[1];
+    covered_F0 += e.interval95->F0[0] < 1568.0 * line_x_f && 1568.0 * line_x_f < e.interval95->F0[1];
   }
   CHECK(std::sqrt(variance_zeta) == Approx(std::sqrt(cloud.var_a())).epsilon(0.04));
   CHECK(std::sqrt(variance_F0) == Approx(std::sqrt(cloud.var_b())).epsilon(0.04));
@@ -155,8 +155,8 @@ TEST_CASE("Pairs on a straight line return the line, the reconstructed pairs are
   Normal none(1);
   const Estimate e = resonance_deming(pairs(noisy_line(none, 0.0, 0.0)), at_resonance, {});
   REQUIRE(e.outcome.ok());
-  CHECK(e.value.zeta == Approx(zeta).epsilon(1e-13));
-  CHECK(e.value.x_f == Approx(x_f).epsilon(1e-13));
+  CHECK(e.value.zeta == Approx(line_zeta).epsilon(1e-13));
+  CHECK(e.value.x_f == Approx(line_x_f).epsilon(1e-13));
   CHECK(e.usable);
   const Estimate bent = resonance_deming(pairs(subset_trend), soft_spring, {});
   CHECK_FALSE(bent.usable);

@@ -14,8 +14,8 @@ namespace analytic = dualdamp::sim::analytic;
 
 namespace {
 
-constexpr double zeta = 0.0987;
-constexpr double x_f = 2.2e-3;  // the lowest level is far from sticking whatever the drift
+constexpr double sweep_zeta = 0.0987;
+constexpr double sweep_x_f = 2.2e-3;  // the lowest level is far from sticking whatever the drift
 
 /// The levels of one experiment: ten sweeps of five, set by hand to 0.058 mm.
 std::vector<std::vector<double>> levels_of(Normal& normal) {
@@ -26,14 +26,14 @@ std::vector<std::vector<double>> levels_of(Normal& normal) {
 }
 
 /// Straight lines, one for each sweep: a drifting friction, errors of x, a curvature if asked for.
-Record measure(const std::vector<std::vector<double>>& levels, const std::vector<double>& friction, double sigma,
-               double curvature, Normal& normal) {
-  const double G = analytic::den_hartog(zeta, 1.0).G;
+Record measured_sweeps(const std::vector<std::vector<double>>& levels, const std::vector<double>& friction,
+                       double sigma, double curvature, Normal& normal) {
+  const double G = analytic::den_hartog(sweep_zeta, 1.0).G;
   PairRecord record;
   for (std::size_t j = 0; j < levels.size(); ++j)
     for (const double Y : levels[j]) {
       const double bend = curvature * (Y - 5.6e-3) * (Y - 5.6e-3);
-      record.pairs.push_back({Y, Y / (2.0 * zeta) - G * friction[j] + bend + sigma * normal(),
+      record.pairs.push_back({Y, Y / (2.0 * sweep_zeta) - G * friction[j] + bend + sigma * normal(),
                               std::string(1, static_cast<char>('a' + j)),
                               static_cast<int>(record.pairs.size()) + 1});
     }
@@ -42,7 +42,7 @@ Record measure(const std::vector<std::vector<double>>& levels, const std::vector
 
 std::vector<double> drift_of(Normal& normal, double deviation) {
   std::vector<double> friction(10);
-  for (double& value : friction) value = x_f + deviation * normal();
+  for (double& value : friction) value = sweep_x_f + deviation * normal();
   return friction;
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("Drift between sweeps halves what zeta is known to, and parallel lines
   // which gives sd(zeta) = 2 zeta^2 sd(b) of about 1.5e-4 and 2.8e-4. 3000 samples know them to 1.3 %.
   Normal normal(31);
   const auto levels = levels_of(normal);
-  const double G = analytic::den_hartog(zeta, 1.0).G;
+  const double G = analytic::den_hartog(sweep_zeta, 1.0).G;
   constexpr double sigma = 0.045e-3, deviation = 0.15e-3;
   double mean = 0.0, within = 0.0, all = 0.0, lever = 0.0;
   for (const auto& sweep : levels)
@@ -69,9 +69,9 @@ TEST_CASE("Drift between sweeps halves what zeta is known to, and parallel lines
     }
     lever += 25.0 * (own - mean) * (own - mean);
   }
-  const double sd_within = 2.0 * zeta * zeta * sigma / std::sqrt(within);
-  const double sd_line =
-      2.0 * zeta * zeta * std::sqrt(sigma * sigma / all + G * G * deviation * deviation * lever / (all * all));
+  const double sd_within = 2.0 * sweep_zeta * sweep_zeta * sigma / std::sqrt(within);
+  const double sd_line = 2.0 * sweep_zeta * sweep_zeta *
+                         std::sqrt(sigma * sigma / all + G * G * deviation * deviation * lever / (all * all));
   CHECK(sd_within == Approx(1.5e-4).epsilon(0.05));
   CHECK(sd_line == Approx(2.8e-4).epsilon(0.25));  // depends on the levels that were drawn
 
@@ -81,15 +81,15 @@ TEST_CASE("Drift between sweeps halves what zeta is known to, and parallel lines
   int covered_zeta = 0, covered_F0 = 0;
   constexpr int samples = 3000;
   for (int i = 0; i < samples; ++i) {
-    const Record record = measure(levels, drift_of(normal, deviation), sigma, 0.0, normal);
+    const Record record = measured_sweeps(levels, drift_of(normal, deviation), sigma, 0.0, normal);
     const Estimate one = resonance_least_squares(record, at_resonance, {});
     const Estimate e = resonance_within_sweep(record, at_resonance, {});
     REQUIRE(e.outcome.ok());
     line.add(one.value.zeta, one.value.F0);
     sweeps.add(e.value.zeta, e.value.F0);
     variance += (*e.covariance)(0, 0) / samples;
-    covered_zeta += e.interval95->zeta[0] < zeta && zeta < e.interval95->zeta[1];
-    covered_F0 += e.interval95->F0[0] < 1568.0 * x_f && 1568.0 * x_f < e.interval95->F0[1];
+    covered_zeta += e.interval95->zeta[0] < sweep_zeta && sweep_zeta < e.interval95->zeta[1];
+    covered_F0 += e.interval95->F0[0] < 1568.0 * sweep_x_f && 1568.0 * sweep_x_f < e.interval95->F0[1];
   }
   CHECK(std::sqrt(line.var_a()) == Approx(sd_line).epsilon(0.05));
   CHECK(std::sqrt(sweeps.var_a()) == Approx(sd_within).epsilon(0.05));
@@ -103,10 +103,10 @@ TEST_CASE("Parallel lines return the friction of each sweep") {
   Normal normal(32);
   const auto friction = drift_of(normal, 0.15e-3);
   const Estimate e =
-      resonance_within_sweep(measure(levels_of(normal), friction, 0.0, 0.0, normal), at_resonance, {});
+      resonance_within_sweep(measured_sweeps(levels_of(normal), friction, 0.0, 0.0, normal), at_resonance, {});
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
-  CHECK(e.value.zeta == Approx(zeta).epsilon(1e-11));
+  CHECK(e.value.zeta == Approx(sweep_zeta).epsilon(1e-11));
   double mean = 0.0, square = 0.0;
   REQUIRE(e.subsets.size() == 10);
   for (std::size_t j = 0; j < 10; ++j) {
@@ -128,12 +128,12 @@ TEST_CASE("What is not parallel or not straight is told") {
   const auto levels = levels_of(normal);
   // 0.5 mm over the half range of 1.15 mm, ten times the errors.
   const Estimate bent = resonance_within_sweep(
-      measure(levels, drift_of(normal, 0.15e-3), 0.045e-3, 0.5e-3 / 1.3e-6, normal), at_resonance, {});
+      measured_sweeps(levels, drift_of(normal, 0.15e-3), 0.045e-3, 0.5e-3 / 1.3e-6, normal), at_resonance, {});
   CHECK(bent.lack_of_fit->fired);
   CHECK_FALSE(bent.usable);
   CHECK(bent.lack_of_fit->freedom == 50 - 10 - 2);
 
-  Record fan = measure(levels, drift_of(normal, 0.0), 0.045e-3, 0.0, normal);
+  Record fan = measured_sweeps(levels, drift_of(normal, 0.0), 0.045e-3, 0.0, normal);
   for (Pair& pair : fan.pairs->pairs) pair.x += 0.2 * (pair.sweep[0] - 'e') * (pair.Y - 5.6e-3);
   const Estimate e = resonance_within_sweep(fan, at_resonance, {});
   REQUIRE_FALSE(e.warnings.empty());
@@ -142,8 +142,8 @@ TEST_CASE("What is not parallel or not straight is told") {
   // Both tests fire as often as their level says: 5 % of 1000, give or take 7; four times that.
   int curved = 0, spread = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Estimate quiet =
-        resonance_within_sweep(measure(levels, drift_of(normal, 0.15e-3), 0.045e-3, 0.0, normal), at_resonance, {});
+    const Estimate quiet = resonance_within_sweep(
+        measured_sweeps(levels, drift_of(normal, 0.15e-3), 0.045e-3, 0.0, normal), at_resonance, {});
     curved += quiet.lack_of_fit->p_value < 0.05;
     spread += !quiet.warnings.empty();
   }
@@ -161,7 +161,7 @@ TEST_CASE("The test for curvature keeps its level under drift, with errors of x 
     for (const double sigma_x : {20e-6, 50e-6, 100e-6}) {
       int fired = 0;
       for (int i = 0; i < samples; ++i) {
-        Record record = measure(levels, drift_of(normal, 0.15e-3), sigma_x, 0.0, normal);
+        Record record = measured_sweeps(levels, drift_of(normal, 0.15e-3), sigma_x, 0.0, normal);
         for (Pair& pair : record.pairs->pairs) pair.Y += sigma_Y * normal();
         fired += resonance_within_sweep(record, at_resonance, {}).lack_of_fit->p_value < 0.05;
       }
@@ -172,17 +172,17 @@ TEST_CASE("The test for curvature keeps its level under drift, with errors of x 
 
 TEST_CASE("Pairs that stick are left out by the friction of their own sweep") {
   // x = 3.2 mm slides where x_f = 2.8 mm (S = 1.063) and sticks where it is 3.4 mm.
-  const double G = analytic::den_hartog(zeta, 1.0).G;
+  const double G = analytic::den_hartog(sweep_zeta, 1.0).G;
   PairRecord record;
   for (const double own : {2.8e-3, 3.4e-3})
     for (const double x : {3.2e-3, 6e-3, 9e-3, 12e-3})
-      record.pairs.push_back(
-          {2.0 * zeta * (x + G * own), x, own < 3e-3 ? "low" : "high", static_cast<int>(record.pairs.size()) + 1});
+      record.pairs.push_back({2.0 * sweep_zeta * (x + G * own), x, own < 3e-3 ? "low" : "high",
+                              static_cast<int>(record.pairs.size()) + 1});
   const Estimate e = resonance_within_sweep({record, std::nullopt}, at_resonance, {});
   REQUIRE(e.outcome.ok());
   REQUIRE(e.excluded.size() == 1);
   CHECK(e.excluded[0].number == 5);
-  CHECK(e.value.zeta == Approx(zeta).epsilon(1e-12));
+  CHECK(e.value.zeta == Approx(sweep_zeta).epsilon(1e-12));
 }
 
 TEST_CASE("Sweeps drawn again give what the formula gives; records without sweeps are refused") {
@@ -190,7 +190,7 @@ TEST_CASE("Sweeps drawn again give what the formula gives; records without sweep
   WithinSweepOptions options;
   options.bootstrap = 2000;
   const Estimate e = resonance_within_sweep(
-      measure(levels_of(normal), drift_of(normal, 0.15e-3), 0.045e-3, 0.0, normal), at_resonance, options);
+      measured_sweeps(levels_of(normal), drift_of(normal, 0.15e-3), 0.045e-3, 0.0, normal), at_resonance, options);
   REQUIRE(e.others.size() == 3);
   // Drawing ten from ten loses a tenth of the variance; and ten sweeps know their own variance to 24 %.
   CHECK(*e.others[1].std == Approx(e.std->zeta).epsilon(0.4));

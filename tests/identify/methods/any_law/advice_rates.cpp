@@ -36,10 +36,6 @@ bool rejects_plain(const LawIntervals& laws) {
   return std::ranges::find(laws.laws, "coulomb_viscous", &LawAnswer::name)->rejected;
 }
 
-bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
-
-double width(const Interval& interval) { return interval[1] - interval[0]; }
-
 }  // namespace
 
 std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure, double severity,

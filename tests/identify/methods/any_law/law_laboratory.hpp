@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identify/design/candidate.hpp"
+#include "identify/methods/any_law/severity_curve.hpp"
 #include "identify/record.hpp"
 #include "identify/rigs/rigs.hpp"
 
@@ -44,5 +45,8 @@ struct LawRig {
 /// The same of given states.
 [[nodiscard]] Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, double severity,
                                    const std::vector<PlannedState>& states, bool phases, std::uint64_t seed);
+
+inline bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
+inline double width(const Interval& interval) { return interval[1] - interval[0]; }
 
 }  // namespace dualdamp::identify::testing

@@ -11,6 +11,7 @@
 #include "identify/rigs/rigs.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/identify/methods/any_law/law_laboratory.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
@@ -71,10 +72,6 @@ const LawAnswer& law_of(const Estimate& estimate, const std::string& name) {
   REQUIRE(found != estimate.laws->laws.end());
   return *found;
 }
-
-bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
-
-double width(const Interval& interval) { return interval[1] - interval[0]; }
 
 }  // namespace
 

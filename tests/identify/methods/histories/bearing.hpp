@@ -2,10 +2,10 @@
 /// The paper's mass on its soft spring, near resonance, and small helpers for the tests of its identification.
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "identify/record.hpp"
+#include "tests/identify/readers/refusals.hpp"
 
 namespace dualdamp::identify::testing {
 
@@ -20,10 +20,6 @@ inline std::vector<double> spaced(double from, double to, int count) {
   std::vector<double> list;
   for (int i = 0; i < count; ++i) list.push_back(from + (to - from) * i / (count - 1));
   return list;
-}
-
-inline bool mentions(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace dualdamp::identify::testing

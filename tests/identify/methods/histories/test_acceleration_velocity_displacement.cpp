@@ -9,23 +9,13 @@
 #include <string>
 
 #include "friction_models/laws/viscous_saturating.hpp"
+#include "tests/identify/estimates.hpp"
 #include "tests/identify/histories.hpp"
 #include "tests/support/source_tree.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
-
-namespace {
-
-const FurtherParameter& other(const std::vector<FurtherParameter>& list, const std::string& name) {
-  for (const FurtherParameter& parameter : list)
-    if (parameter.name == name) return parameter;
-  FAIL("no " << name);
-  return list.front();
-}
-
-}  // namespace
 
 TEST_CASE("Exact signals give all parameters to rounding, known or not") {
   // Two levels, so that a = -w^2 x holds for neither mass nor stiffness alone.
@@ -46,9 +36,9 @@ TEST_CASE("Exact signals give all parameters to rounding, known or not") {
       CHECK(e.value.c == Approx(11.0).epsilon(1e-11));
       CHECK(e.value.F0 == Approx(3.7).epsilon(1e-11));
       CHECK(e.value.zeta == Approx(11.0 / (2.0 * std::sqrt(1.042 * 1568.0))).epsilon(1e-11));
-      if (!know_mass) CHECK(other(e.others, "mass").value == Approx(1.042).epsilon(1e-11));
-      if (!know_stiffness) CHECK(other(e.others, "stiffness").value == Approx(1568.0).epsilon(1e-11));
-      CHECK(other(e.others, "offset").value == Approx(0.0).margin(1e-11));
+      if (!know_mass) CHECK(further(e, "mass").value == Approx(1.042).epsilon(1e-11));
+      if (!know_stiffness) CHECK(further(e, "stiffness").value == Approx(1568.0).epsilon(1e-11));
+      CHECK(further(e, "offset").value == Approx(0.0).margin(1e-11));
     }
   }
 }
@@ -81,10 +71,10 @@ TEST_CASE("One level hardly tells mass from stiffness, and the noise of sensors 
   REQUIRE(fixed.outcome.ok());
   CHECK(warned(one));
   CHECK_FALSE(warned(two));
-  const double bias = other(one.others, "mass").value / 1.042 - 1.0;
+  const double bias = further(one, "mass").value / 1.042 - 1.0;
   CHECK(bias < -0.005);
-  CHECK(other(one.others, "stiffness").value / 1568.0 - 1.0 == Approx(bias).margin(0.01));
-  CHECK(std::abs(other(two.others, "mass").value / 1.042 - 1.0) < 0.3 * std::abs(bias));
+  CHECK(further(one, "stiffness").value / 1568.0 - 1.0 == Approx(bias).margin(0.01));
+  CHECK(std::abs(further(two, "mass").value / 1.042 - 1.0) < 0.3 * std::abs(bias));
   CHECK(std::abs(fixed.value.c / 11.0 - 1.0) < 0.02);
   CHECK(std::abs(fixed.value.F0 / 3.7 - 1.0) < 0.02);
 }
@@ -185,17 +175,17 @@ TEST_CASE("A real machine on a rail gives the published parameters with three fi
   REQUIRE(e.subsets.size() == 3);
   for (const SubsetFit& fit : e.subsets) {
     CAPTURE(fit.label);
-    CHECK(other(fit.others, "mass").value == Approx(95.11).epsilon(0.005));
+    CHECK(further(fit.others, "mass").value == Approx(95.11).epsilon(0.005));
     CHECK(fit.value.c == Approx(203.5).epsilon(0.015));
     CHECK(fit.value.F0 == Approx(20.39).epsilon(0.015));
-    CHECK(other(fit.others, "offset").value == Approx(-3.16).margin(0.1));
+    CHECK(further(fit.others, "offset").value == Approx(-3.16).margin(0.1));
   }
   // The published values lie within the intervals.
   CHECK(e.interval95->c[0] < 203.5);
   CHECK(e.interval95->c[1] > 203.5);
   CHECK(e.interval95->F0[0] < 20.39);
   CHECK(e.interval95->F0[1] > 20.39);
-  const FurtherParameter& mass = other(e.others, "mass");
+  const FurtherParameter& mass = further(e, "mass");
   CHECK((*mass.interval95)[0] < 95.11);
   CHECK((*mass.interval95)[1] > 95.11);
   REQUIRE(e.curves.size() == 1);

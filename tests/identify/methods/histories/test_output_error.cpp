@@ -13,9 +13,6 @@ using namespace dualdamp::identify::testing;
 
 namespace {
 
-constexpr double c = 11.0;
-constexpr double F0 = 3.7;
-
 History base_and_displacement(const sim::Model& model, double duration) {
   Normal normal(1);
   return displacement_only(sampled(model, duration, 1000.0), 0.0, normal);
@@ -26,11 +23,11 @@ History base_and_displacement(const sim::Model& model, double duration) {
 TEST_CASE("The motion between samples is that of the exact engine, through reversals and sticks") {
   // Interpolation of degree seven leaves (w T)^8 of the base motion, 1e-11 and less; at the record's ends more.
   for (const auto& [Y, omega] : {std::pair{4e-3, 38.79}, std::pair{4e-3, 20.0}, std::pair{2.8e-3, 20.0}}) {
-    const sim::Model model = driven_bearing(c, F0, Y, omega);
+    const sim::Model model = driven_bearing(bearing_c, bearing_F0, Y, omega);
     const History history = base_and_displacement(model, 3.0);
     SampledOscillator oscillator(history);
     Eigen::VectorXd x;
-    REQUIRE(oscillator.run({1.042, c, 1568.0, F0, 3e-3, 0.0}, {}, x, nullptr));
+    REQUIRE(oscillator.run({1.042, bearing_c, 1568.0, bearing_F0, 3e-3, 0.0}, {}, x, nullptr));
     for (std::size_t i = 0; i < history.x.size(); ++i)
       REQUIRE(x[static_cast<Eigen::Index>(i)] == Approx(history.x[i]).margin(1e-14));
   }
@@ -38,9 +35,9 @@ TEST_CASE("The motion between samples is that of the exact engine, through rever
 
 TEST_CASE("Derivatives of the sampled motion are those of differences") {
   using By = SampledOscillator::By;
-  const History history = base_and_displacement(driven_bearing(c, F0, 4e-3, 20.0), 1.0);
+  const History history = base_and_displacement(driven_bearing(bearing_c, bearing_F0, 4e-3, 20.0), 1.0);
   SampledOscillator oscillator(history);
-  const SampledOscillator::Parameters at{1.042, c, 1568.0, F0, 3e-3, 0.05};
+  const SampledOscillator::Parameters at{1.042, bearing_c, 1568.0, bearing_F0, 3e-3, 0.05};
   const std::vector<By> by{By::mass, By::damping, By::stiffness, By::friction, By::position, By::velocity};
   Eigen::VectorXd x;
   SampledOscillator::Derivatives derivatives;
@@ -71,20 +68,21 @@ TEST_CASE("Derivatives of the sampled motion are those of differences") {
 
 TEST_CASE("Exact data give the truth, with and without sticks") {
   for (const double omega : {38.79, 20.0}) {
-    const Record record = record_of({base_and_displacement(driven_bearing(c, F0, 4e-3, omega), 5.0)});
+    const Record record =
+        record_of({base_and_displacement(driven_bearing(bearing_c, bearing_F0, 4e-3, omega), 5.0)});
     for (const double stiffness : {1568.0, unknown}) {
       const Estimate e = output_error(record, {1.042, stiffness}, {});
       REQUIRE(e.outcome.ok());
       CHECK(e.usable);
-      CHECK(e.value.c == Approx(c).epsilon(1e-9));
-      CHECK(e.value.F0 == Approx(F0).epsilon(1e-9));
+      CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
+      CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-9));
       CHECK(e.warnings.empty());
     }
   }
 }
 
 TEST_CASE("A free decay needs no base motion, and two histories share their friction") {
-  sim::Model decay = driven_bearing(c, F0, 0.0);
+  sim::Model decay = driven_bearing(bearing_c, bearing_F0, 0.0);
   decay.excitation = {};
   decay.initial = {40e-3, 0.0};
   sim::Model other = decay;
@@ -94,12 +92,12 @@ TEST_CASE("A free decay needs no base motion, and two histories share their fric
   REQUIRE(e.outcome.ok());
   CHECK(e.usable);
   CHECK(e.used == std::vector<int>{1, 2});
-  CHECK(e.value.c == Approx(c).epsilon(1e-9));
-  CHECK(e.value.F0 == Approx(F0).epsilon(1e-9));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
+  CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-9));
 }
 
 TEST_CASE("Intervals cover the truth under noise, with a tenth of the regression's error") {
-  const History clean = sampled(driven_bearing(c, F0, 4e-3), 2.0, 500.0);
+  const History clean = sampled(driven_bearing(bearing_c, bearing_F0, 4e-3), 2.0, 500.0);
   int covered = 0;
   const int cases = 60;
   for (int seed = 0; seed < cases; ++seed) {
@@ -107,9 +105,9 @@ TEST_CASE("Intervals cover the truth under noise, with a tenth of the regression
     const Record record = record_of({displacement_only(clean, 2e-5, normal)});
     const Estimate e = output_error(record, bearing_constants, {});
     REQUIRE(e.outcome.ok());
-    CHECK(std::abs(e.value.c / c - 1.0) < 0.02);
-    covered += e.interval95->c[0] <= c && c <= e.interval95->c[1] ? 1 : 0;
-    covered += e.interval95->F0[0] <= F0 && F0 <= e.interval95->F0[1] ? 1 : 0;
+    CHECK(std::abs(e.value.c / bearing_c - 1.0) < 0.02);
+    covered += e.interval95->c[0] <= bearing_c && bearing_c <= e.interval95->c[1] ? 1 : 0;
+    covered += e.interval95->F0[0] <= bearing_F0 && bearing_F0 <= e.interval95->F0[1] ? 1 : 0;
   }
   // Binomial at 0.95: three standard deviations of 120 correlated cases are 8 %.
   CHECK(covered >= static_cast<int>(0.87 * 2 * cases));
@@ -125,8 +123,8 @@ TEST_CASE("A wrong law, and a wrong stiffness, are told") {
   CHECK_FALSE(bent.usable);
   REQUIRE(bent.lack_of_fit);
   CHECK(bent.lack_of_fit->fired);
-  const Record sound =
-      record_of({displacement_only(sampled(driven_bearing(c, F0, 4e-3), 5.0, 500.0), 1e-6, normal)});
+  const Record sound = record_of(
+      {displacement_only(sampled(driven_bearing(bearing_c, bearing_F0, 4e-3), 5.0, 500.0), 1e-6, normal)});
   CHECK(output_error(sound, bearing_constants, {}).usable);
   const Estimate wrong = output_error(sound, {1.042, 1568.0 * 1.05}, {});
   REQUIRE(wrong.outcome.ok());
@@ -135,7 +133,7 @@ TEST_CASE("A wrong law, and a wrong stiffness, are told") {
 }
 
 TEST_CASE("What is missing is said") {
-  const Record record = record_of({base_and_displacement(driven_bearing(c, F0, 4e-3), 1.0)});
+  const Record record = record_of({base_and_displacement(driven_bearing(bearing_c, bearing_F0, 4e-3), 1.0)});
   CHECK(output_error(record, {1.042, 0.0}, {}).reason ==
         "the method needs a spring: without one the position drifts");
   CHECK(output_error(record, {-1.0, 1568.0}, {}).reason == "the mass must be positive and finite");

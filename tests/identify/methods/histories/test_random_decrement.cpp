@@ -4,20 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/identify/estimates.hpp"
 #include "tests/identify/random_response.hpp"
 
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
-
-namespace {
-
-double other(const Estimate& e, const std::string& name) {
-  for (const FurtherParameter& parameter : e.others)
-    if (parameter.name == name) return parameter.value;
-  return unknown;
-}
-
-}  // namespace
 
 TEST_CASE("Without dry friction the mean of the stretches is a free decay") {
   const double c = 8.0;
@@ -25,7 +16,7 @@ TEST_CASE("Without dry friction the mean of the stretches is a free decay") {
   const Estimate e = random_decrement(record_of({random_response(c, 0.0, 0.7, 600.0, 1)}), bearing_constants);
   REQUIRE(e.outcome.ok());
   // Conditional mean of a Gaussian process. A hundred independent stretches a band leave 10 % of the amplitude.
-  CHECK(other(e, "equivalent_damping_ratio") == Approx(zeta).epsilon(0.2));
+  CHECK(further(e, "equivalent_damping_ratio").value == Approx(zeta).epsilon(0.2));
   CHECK_FALSE(e.usable);
 }
 
@@ -37,7 +28,7 @@ TEST_CASE("With dry friction it reads an equivalent damping and does not separat
   REQUIRE(e.outcome.ok());
   CHECK_FALSE(e.usable);
   CHECK(e.reason.find("does not separate") != std::string::npos);
-  CHECK(other(e, "equivalent_damping_ratio") > 1.3 * zeta);
+  CHECK(further(e, "equivalent_damping_ratio").value > 1.3 * zeta);
   CHECK(e.value.zeta > 1.3 * zeta);
   CHECK(e.value.F0 < 0.5 * F0);
   CHECK(e.curves.size() == 2);

@@ -11,17 +11,14 @@ using namespace dualdamp::identify::testing;
 
 namespace {
 
-constexpr double c = 11.0;
-constexpr double F0 = 3.7;
-
 /// The force that would make friction grow from F0 at the rate `per_second` of it: a change of friction is a force.
 History drifting(double per_second, double noise, Normal& normal) {
-  History history = sampled(driven_bearing(c, F0, 4e-3), 8.0, 1000.0, 2.0);
+  History history = sampled(driven_bearing(bearing_c, bearing_F0, 4e-3), 8.0, 1000.0, 2.0);
   history.force.resize(history.x.size());
   for (std::size_t i = 0; i < history.x.size(); ++i) {
     const double t = static_cast<double>(i) / history.sample_rate;
     const double v = history.v[i];
-    history.force[i] = F0 * per_second * t * static_cast<double>((v > 0.0) - (v < 0.0)) + noise * normal();
+    history.force[i] = bearing_F0 * per_second * t * static_cast<double>((v > 0.0) - (v < 0.0)) + noise * normal();
   }
   return history;
 }
@@ -35,8 +32,8 @@ TEST_CASE("Nothing forgotten is least squares, and exact on exact data") {
   CHECK(e.usable);
   CHECK(e.warnings.empty());
   // The start's ignorance, 1e12 times the variance of a sample, leaves its inverse.
-  CHECK(e.value.c == Approx(c).epsilon(1e-9));
-  CHECK(e.value.F0 == Approx(F0).epsilon(1e-9));
+  CHECK(e.value.c == Approx(bearing_c).epsilon(1e-9));
+  CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-9));
   REQUIRE(e.curves.size() == 1);
 }
 
@@ -49,10 +46,10 @@ TEST_CASE("Forgetting follows a drift with a lag of its memory") {
   const Estimate following = recursive_least_squares(record_of({history}), bearing_constants, options);
   const Estimate mean = recursive_least_squares(record_of({history}), bearing_constants, {});
   REQUIRE(following.outcome.ok());
-  const double end = F0 * (1.0 + rate * 8.0);
+  const double end = bearing_F0 * (1.0 + rate * 8.0);
   // An exponential memory of 500 samples, 0.5 s, lags by as much; noise of 0.1 N over 1,000 samples is small.
-  CHECK(following.value.F0 == Approx(end - F0 * rate * 0.5).epsilon(0.01));
-  CHECK(mean.value.F0 == Approx(F0 * (1.0 + rate * 4.0)).epsilon(0.01));
+  CHECK(following.value.F0 == Approx(end - bearing_F0 * rate * 0.5).epsilon(0.01));
+  CHECK(mean.value.F0 == Approx(bearing_F0 * (1.0 + rate * 4.0)).epsilon(0.01));
   // And without forgetting the drift is told.
   REQUIRE(mean.warnings.size() == 1);
   CHECK(mean.warnings[0].find("forgetting") != std::string::npos);
@@ -63,14 +60,14 @@ TEST_CASE("Forgetting follows a drift with a lag of its memory") {
 TEST_CASE("Intervals hold under noise of the force") {
   int covered = 0;
   const int cases = 100;
-  const History clean = sampled(driven_bearing(c, F0, 4e-3), 2.0, 500.0, 2.0);
+  const History clean = sampled(driven_bearing(bearing_c, bearing_F0, 4e-3), 2.0, 500.0, 2.0);
   for (int seed = 0; seed < cases; ++seed) {
     Normal normal(static_cast<std::uint64_t>(seed));
     History noisy = clean;
     for (std::size_t i = 0; i < noisy.x.size(); ++i) noisy.force.push_back(normal());
     const Estimate e = recursive_least_squares(record_of({noisy}), bearing_constants, {});
     REQUIRE(e.outcome.ok());
-    covered += e.interval95->F0[0] <= F0 && F0 <= e.interval95->F0[1] ? 1 : 0;
+    covered += e.interval95->F0[0] <= bearing_F0 && bearing_F0 <= e.interval95->F0[1] ? 1 : 0;
   }
   CHECK(covered >= 88);  // three standard deviations of a binomial at 0.95 below
 }

@@ -1,0 +1,21 @@
+#pragma once
+/// What is said of an input that is refused.
+
+#include <vector>
+
+#include "core/diagnostics.hpp"
+
+namespace dualdamp::test {
+
+/// Nothing where `read` takes its input.
+template <typename Read>
+std::vector<core::Diagnostic> problems_of(Read read) {
+  try {
+    (void)read();
+  } catch (const core::InputError& error) {
+    return error.diagnostics();
+  }
+  return {};
+}
+
+}  // namespace dualdamp::test
