@@ -61,10 +61,11 @@ class SmoothEngine final : public Engine {
     std::size_t watch = 0;
     double part = 1.0;
   };
-  /// How far from zero a guard may be at the begin of the present interval that was zero at the end of the last.
+  /// How well the step before the present interval knows when the law changed its mode there. In time: a law's
+  /// guards are forces in one mode and speeds in another.
   struct Landing {
     std::size_t law = 0;
-    double error = 0.0;  ///< in the unit of the law's guards
+    double error = 0.0;  ///< s
   };
   /// A mode change, for its derivative.
   struct Change {

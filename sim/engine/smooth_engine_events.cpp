@@ -164,10 +164,15 @@ bool SmoothEngine::goes_negative(std::size_t watch, double value, double level) 
 }
 
 /// What the step that ended at a mode change leaves to the interval after it: that law's guards are known no better
-/// than the step landed, however small they are there.
+/// than by what they do in the time by which the step may have missed the change, however small they are there.
 void SmoothEngine::note_landing(const Hit& hit) {
-  if (const auto* guard = std::get_if<LawGuard>(&watches_[hit.watch].ending))
-    landing_ = {guard->law, resolution * watches_[hit.watch].scale};
+  const Watch& watch = watches_[hit.watch];
+  const auto* guard = std::get_if<LawGuard>(&watch.ending);
+  if (guard == nullptr) return;
+  const double error = resolution * watch.scale;
+  const double most = std::max(taken_, shortest_part * longest_step());
+  const double rate = std::abs(guard_rate(hit.watch, end_, local_time_ + taken_, most));
+  landing_ = {guard->law, error < rate * most ? error / rate : most};
 }
 
 /// Values within it of zero are zero at the start of the interval.
@@ -178,7 +183,9 @@ double SmoothEngine::level_at_start(const Watch& watch) const {
 /// What the step before this interval left of a guard of the law that changed its mode there; of others 0.
 double SmoothEngine::landing_error(const Watch& watch) const {
   const auto* guard = std::get_if<LawGuard>(&watch.ending);
-  return guard != nullptr && guard->law == landing_.law ? landing_.error : 0.0;
+  if (guard == nullptr || guard->law != landing_.law || landing_.error == 0.0) return 0.0;
+  const auto index = static_cast<std::size_t>(&watch - watches_.data());
+  return landing_.error * std::abs(guard_rate(index, X_, local_time_, longest_step()));
 }
 
 /// Whether a guard has its zero ahead, however near, so that a step finds it: a law asked to change its mode before
