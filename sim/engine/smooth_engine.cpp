@@ -377,7 +377,10 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
     return nullptr;
   }
-  if (!follows_event_) return interval_.get();
+  if (!follows_event_) {
+    if (has_faded()) is_laid_ = false;
+    return interval_.get();
+  }
   if (found) {
     ended_at_once_ = !at_once && taken_ == 0.0 && is<SlipEnd>(ending);
     interval_->ending = act(ending);

@@ -54,6 +54,7 @@ class SmoothEngine final : public Engine {
     Ending ending;
     std::array<double, points> values{};
     double scale = 0.0;  ///< its size, to judge rounding by
+    double reach = 0.0;  ///< of a law: what the sizes of x, v and the states make of it
     double parts = 0.0;  ///< of a law: what cancels in it at the begin of the interval
   };
   /// A guard that has crossed, and at which part of the step.
@@ -114,6 +115,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool find_violated(Hit& hit) const;
   [[nodiscard]] bool coincides(const Hit& hit) const;
   [[nodiscard]] bool find_hit(Hit& hit);
+  [[nodiscard]] bool has_faded() const;
   [[nodiscard]] double first_negative(std::size_t watch);
   /// Three points of the last step, as parts of it, and a guard there: the lowest in the middle.
   struct Triple {

@@ -65,7 +65,6 @@ void SmoothEngine::size_up_guards() {
       watches_[w].parts += present * std::abs(values[w]);
     }
   };
-  add(here, 1.0, 1.0);
   probe_ = X_;
   for (std::size_t k = 0; k < X_.size(); ++k) {
     probe_[k] = X_[k] + part * flow_.scales()[k];
@@ -74,6 +73,8 @@ void SmoothEngine::size_up_guards() {
     add(guard_values_, 1.0 / part, std::abs(X_[k]) / (part * flow_.scales()[k]));
     probe_[k] = X_[k];
   }
+  for (Watch& watch : watches_) watch.reach = watch.scale;
+  add(here, 1.0, 1.0);
 }
 
 /// Values of all guards, in the order of watches_.
@@ -240,6 +241,18 @@ bool SmoothEngine::find_hit(Hit& hit) {
     found = true;
   }
   return found;
+}
+
+/// Whether a law's guard is far below what it was earlier in this interval, as behind the fast decay of a state: its
+/// size then has to be taken anew.
+bool SmoothEngine::has_faded() const {
+  constexpr double far = 1e-3;
+  return std::ranges::any_of(watches_, [](const Watch& watch) {
+    if (!is<LawGuard>(watch.ending)) return false;
+    double largest = watch.reach;
+    for (const double value : watch.values) largest = std::max(largest, std::abs(value));
+    return largest < far * watch.scale;
+  });
 }
 
 /// Where a guard crosses first, as a part of the step; below zero: nowhere.
