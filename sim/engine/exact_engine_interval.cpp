@@ -170,9 +170,10 @@ void ExactEngine::lay_stick() {
 /// rounding.
 double ExactEngine::force_rounding() const { return rounding * std::max(force_scale_, instant_scale_); }
 
-/// In a slip. Forces cancel to the acceleration; their rounding reaches the velocity through the fastest rate.
+/// In a slip. Forces of this interval cancel to the acceleration; their rounding reaches the velocity through the
+/// fastest rate.
 double ExactEngine::velocity_rounding() const {
-  return force_rounding() / model_.oscillator.mass / mode_->basis().fastest();
+  return rounding * force_scale_ / model_.oscillator.mass / mode_->basis().fastest();
 }
 
 void ExactEngine::lay_slip() {
