@@ -327,6 +327,7 @@ bool SmoothEngine::move(double left, Hit& hit, bool& found) {
       continue;
     }
     if (!found || land(hit)) {
+      if (passes_over_turn(found && is<SlipEnd>(watches_[hit.watch].ending))) continue;
       // Beyond the event nothing grazed.
       std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });
       count_.grazings += static_cast<long>(grazings_.size());

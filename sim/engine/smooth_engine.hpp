@@ -128,6 +128,8 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool ends_against_flow(const Hit& hit) const;
   [[nodiscard]] bool may_be_swing_of_output(const Hit& hit) const;
   [[nodiscard]] bool land(const Hit& hit);
+  [[nodiscard]] bool hides_turn(bool at_end);
+  [[nodiscard]] bool passes_over_turn(bool at_stop);
   [[nodiscard]] bool move(double left, Hit& hit, bool& found);
 
   // Derivatives.

@@ -82,12 +82,13 @@ void SmoothEngine::track_step() {
   if (variation_size_ != size) variation_ = make_variation(size);
   variation_size_ = size;
   const auto rows = static_cast<Eigen::Index>(RadauCollocation::stages) * columns_.rows();
-  variation_work_ += rows * rows * rows / operations_in_unit;
   Eigen::VectorXd late(columns_.rows());
-  const TakenStep step{*stepper_, local_time_, taken_, part_for_rate * shortest_period()};
+  const TakenStep step{*stepper_, local_time_, taken_, part_for_rate * shortest_period(), flow_.scales()};
+  const long parts = variation_->parts();
   if (!variation_->pass(flow_, step, {columns_.data(), static_cast<std::size_t>(columns_.size())},
                         {late.data(), size}))
     columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  variation_work_ += (variation_->parts() - parts) * (rows * rows * rows / operations_in_unit);
   columns_ -= late * lead_;
 }
 

@@ -7,8 +7,12 @@
 /// It is the derivative of the motion, not of the method that computed it: a perturbation that decays within an
 /// explicit step decays here too. The nodes of a step by Radau IIA are its own stages.
 ///
-/// Errors: order 9 in the step; J is as exact as the field gives it. Cost: five Jacobians, ten evaluations of the
-/// field, LU factors of five times as many rows as the state has.
+/// A step that the motion takes lightly may hide a place where J alone changes sharply, as at v = 0 under a level
+/// that falls within a small part of the speed: such a step is passed in parts, halved until a cubic through the
+/// other stages tells J in each of them.
+///
+/// Errors: order 9 in the part; J is as exact as the field gives it. Cost of a part: five Jacobians, ten evaluations
+/// of the field, LU factors of five times as many rows as the state has.
 
 #include <memory>
 #include <span>
@@ -23,6 +27,7 @@ struct TakenStep {
   double t = 0.0;          ///< its begin [s]
   double h = 0.0;          ///< its length [s]
   double increment = 0.0;  ///< over which df/dt is a difference [s]
+  std::span<const double> sizes;  ///< of the state's components
 };
 
 class Variation {
@@ -32,6 +37,8 @@ class Variation {
   /// its end. False: a value is not finite.
   [[nodiscard]] virtual bool pass(const VectorField& field, const TakenStep& step, std::span<double> columns,
                                   std::span<double> late) = 0;
+  /// So many times the equation has been linearised so far.
+  [[nodiscard]] virtual long parts() const = 0;
 };
 
 /// For states of `size` components.
