@@ -243,8 +243,8 @@ bool SmoothEngine::find_hit(Hit& hit) {
   return found;
 }
 
-/// Whether a law's guard is far below what it was earlier in this interval, as behind the fast decay of a state: its
-/// size then has to be taken anew.
+/// Whether a law's guard is far below what it was earlier in this interval, as behind the fast decay of a state:
+/// its size then has to be taken anew.
 bool SmoothEngine::has_faded() const {
   constexpr double far = 1e-3;
   return std::ranges::any_of(watches_, [](const Watch& watch) {

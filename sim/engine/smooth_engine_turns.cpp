@@ -27,8 +27,8 @@ constexpr double shortest = 1e-9;
 
 }  // namespace
 
-/// Whether a step hides from its own error estimate how the states of a law depend on the speed near the turn at its
-/// end, or at its begin. Bristles that yield at a level which falls within a small speed are such a law: their
+/// Whether a step hides from its own error estimate how the states of a law depend on the speed near the turn at
+/// its end, or at its begin. Bristles that yield at a level which falls within a small speed are such a law: their
 /// rates are a product with the speed, so that the turn itself shows nothing of the level, and the stages before it
 /// are too fast.
 bool SmoothEngine::hides_turn(bool at_end) {
@@ -47,7 +47,8 @@ bool SmoothEngine::hides_turn(bool at_end) {
     if (i == 1) speed = std::abs(before);
     probe_[1] += friction::sign(direction_) * (change + varied * std::abs(before));
     flow_.evaluate(probe_, t, rates_);
-    for (std::size_t k = 0; k < rates_.size(); ++k) slopes[i][k] = (rates_[k] - slopes[i][k]) / (probe_[1] - before);
+    for (std::size_t k = 0; k < rates_.size(); ++k)
+      slopes[i][k] = (rates_[k] - slopes[i][k]) / (probe_[1] - before);
   }
   for (std::size_t k = 2; k < X_.size(); ++k) {
     double rest = slopes[0][k];

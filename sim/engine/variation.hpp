@@ -11,8 +11,8 @@
 /// that falls within a small part of the speed: such a step is passed in parts, halved until a cubic through the
 /// other stages tells J in each of them.
 ///
-/// Errors: order 9 in the part; J is as exact as the field gives it. Cost of a part: five Jacobians, ten evaluations
-/// of the field, LU factors of five times as many rows as the state has.
+/// Errors: order 9 in the part; J is as exact as the field gives it. Cost of a part: five Jacobians, ten
+/// evaluations of the field, LU factors of five times as many rows as the state has.
 
 #include <memory>
 #include <span>
@@ -24,9 +24,9 @@ namespace dualdamp::sim {
 /// A step that a stepper has taken last.
 struct TakenStep {
   const Stepper& stepper;
-  double t = 0.0;          ///< its begin [s]
-  double h = 0.0;          ///< its length [s]
-  double increment = 0.0;  ///< over which df/dt is a difference [s]
+  double t = 0.0;                 ///< its begin [s]
+  double h = 0.0;                 ///< its length [s]
+  double increment = 0.0;         ///< over which df/dt is a difference [s]
   std::span<const double> sizes;  ///< of the state's components
 };
 

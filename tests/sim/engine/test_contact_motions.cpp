@@ -339,3 +339,30 @@ TEST_CASE("A contact too stiff for double precision is refused, with a stiffness
   CHECK(taken.peak - 0.18607809795678620 == Approx(0.02161 / std::sqrt(1e13)).epsilon(1e-3));
   CHECK(std::abs(taken.multipliers[0]) < 0.3);
 }
+
+TEST_CASE("a stiff contact that lets go at little speed slides until that speed is used up", "[sim][exact]") {
+  // A limit of 4e4 N that falls a little, behind 1e10 N/m on a spring of 1e-3 N/m: the speed at the release was
+  // taken for rounding of the contact's force. Friction alone uses it up.
+  constexpr double limit = 4e4;
+  constexpr double stiffness = 1e10;
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1e-3};
+  model.friction = {
+      test::law("contact_compliance", {{"kinetic", limit}, {"contact_stiffness", stiffness}, {"drift", -0.01}})};
+  const double held = limit / std::sqrt(stiffness);
+  model.initial = {.position = 0.3, .velocity = std::hypot(held, 2e-4)};
+  const sim::History history = sim::simulate(model, {.duration = 2e-5});
+  INFO(history.outcome.reason);
+  REQUIRE(history.outcome.ok());
+  REQUIRE(history.events.size() >= 2);
+  const Event& release = history.events[0];
+  CHECK(release.kind == EventKind::switching);
+  // By the energy: the limit has fallen by 0.01/s times a quarter of the period, 1.57e-5 s; the spring has
+  // slowed the mass.
+  const double fallen = 1.0 - 0.01 * release.t;
+  const double spring = 2.0 * model.oscillator.stiffness * 0.3 * limit / stiffness;
+  const double speed = std::sqrt(2e-4 * 2e-4 + held * held * (1.0 - fallen * fallen) - spring);
+  CHECK(release.v == Approx(speed).epsilon(1e-3));
+  CHECK(history.events[1].kind == EventKind::reversal);
+  CHECK(history.events[1].t - release.t == Approx(release.v / limit).epsilon(1e-3));
+}
