@@ -152,13 +152,14 @@ bool Events::rests_beside(double t) const {
 
 bool Events::is_lone_switching(const Cluster& group) const {
   const sim::Event& event = group.a == 1 ? a_.events[i_] : b_.events[j_];
-  return group.a + group.b == 1 && event.kind == sim::EventKind::switching;
+  return group.a + group.b == 1 &&
+         (event.kind == sim::EventKind::switching || event.kind == sim::EventKind::grazing);
 }
 
 /// Events that coincide may be listed in another order, and an even number of them more (a stop and its release,
 /// two switchings) may be a grazing within rounding. A switching of a law alone is no event of the mass: where the
-/// two modes are one formula (at the start, while the mass sticks) rounding decides which of them holds. A mass
-/// that rests within what is allowed may turn at any time.
+/// two modes are one formula (at the start, while the mass sticks) rounding decides which of them holds; and a
+/// grazing leaves the motion as it is. A mass that rests within what is allowed may turn at any time.
 bool Events::name(const Cluster& group, Difference& result) const {
   const bool is_lone = group.a + group.b == 1;
   const double t = group.a > 0 ? a_.events[i_].t : b_.events[j_].t;

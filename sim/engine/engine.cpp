@@ -171,10 +171,13 @@ EventKind Engine::act(const Ending& ending) {
   return std::visit([this](const auto& what) { return act(what); }, ending);
 }
 
-/// Where a slip ends the mass sticks or reverses.
+/// Where a slip ends the mass sticks or reverses. One that nothing holds and that goes on as before has only
+/// touched rest.
 EventKind Engine::act(SlipEnd) {
+  const Direction before = direction_;
   settle();
-  return direction_ == Direction::none ? EventKind::stop : EventKind::reversal;
+  if (direction_ == Direction::none) return EventKind::stop;
+  return direction_ == before ? EventKind::grazing : EventKind::reversal;
 }
 
 EventKind Engine::act(StickEnd end) {

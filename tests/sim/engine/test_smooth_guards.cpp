@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/support/make_law.hpp"
 
@@ -212,4 +214,36 @@ TEST_CASE("smooth engine: a slider is judged by its present speed, not by that o
       CHECK(history.events[i + 1].t - history.events[i].t < 1e-9);
     }
   }
+}
+
+TEST_CASE("smooth engine: a mass that touches rest and goes on as before has not turned", "[sim][smooth]") {
+  // rate_state with mu0/a = 76: near t = 0.0985 s the mass comes to rest to rounding, and creeps on in the same
+  // direction.
+  sim::Model model;
+  model.oscillator = {.mass = 0.246121975179598, .stiffness = 822.2788298276305, .damping = -3.700815580118917};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.03234131226537181,
+                      .frequency = 10.466280765318338,
+                      .harmonics = {{.order = 4, .amplitude = 6.752217206017932e-05, .phase = 3.272399025386265}}};
+  friction::ParameterValues rock = {{"normal_force", 0.4468652623786342},
+                                    {"mu0", 0.45326123505277643},
+                                    {"a", 0.005965893127860531},
+                                    {"b", 0.006145726879732284},
+                                    {"slip_distance", 0.0009331701162164074},
+                                    {"reference_velocity", 0.00010905217683261384}};
+  rock.set("evolution", "aging");
+  rock.set("fluctuation",
+           std::vector<friction::ParameterValues>{
+               {{"ratio", 0.6222330653928851}, {"correlation_time", 0.031710565887636176}, {"seed", 439.0}}});
+  model.friction = {law("rate_state", rock), law("contact_compliance", {{"kinetic", 20.657227883758623},
+                                                                        {"contact_stiffness", 1816981.3780520023},
+                                                                        {"contact_damping", 0.11322588907519668}})};
+  const auto engine = sim::make_engine(model);
+  int touches = 0;
+  while (const sim::Interval* interval = engine->next(0.105)) {
+    if (interval->ending == sim::EventKind::reversal) CHECK(engine->direction() != interval->direction);
+    if (interval->ending == sim::EventKind::grazing) ++touches;
+  }
+  CHECK(engine->outcome().ok());
+  CHECK(touches > 0);
 }
