@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/crosscheck/patience.hpp"
+#include "friction_models/state_sizes.hpp"
 #include "sim/orbits/transient.hpp"
 
 namespace dualdamp::crosscheck {
@@ -30,7 +31,10 @@ Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length
     const friction::Memory& memory = state.memories[i];
     std::vector<double> scales(memory.state.size());
     model.friction[i].scales(memory, scales);
-    for (const double scale : scales) list.push_back(scale > 0.0 ? scale : length);
+    for (const double scale : scales) {
+      const bool is_velocity = scale == friction::size_of_velocity;
+      list.push_back(is_velocity ? length * omega : scale > 0.0 ? scale : length);
+    }
   }
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
