@@ -16,14 +16,14 @@ constexpr std::array<double, 4> from_turn = {0.0, 0.1, 0.3, 0.6};
 constexpr std::array<double, 3> parabola = {1.8, -1.0, 0.2};
 
 /// The speed is varied by this part of itself and of a hundredth of the largest one (`Flow::jacobian`).
-constexpr double varied = 1.5e-8;
-constexpr double slow = 0.01;
+constexpr double speed_variation = 1.5e-8;
+constexpr double slow_part = 0.01;
 
-/// Of a dependence that matters: over the fastest rate, and over all that the step does.
-constexpr double sharp = 0.01;
+/// A dependence that changes by less over the step matters to no state, relative to the sizes of both.
+constexpr double sharp_change = 0.01;
 
 /// Steps shorter than this part of the longest one are not shortened further.
-constexpr double shortest = 1e-9;
+constexpr double shortest_with_turn = 1e-9;
 
 }  // namespace
 
@@ -32,8 +32,8 @@ constexpr double shortest = 1e-9;
 /// rates are a product with the speed, so that the turn itself shows nothing of the level, and the stages before it
 /// are too fast.
 bool SmoothEngine::hides_turn(bool at_end) {
-  if (X_.size() <= 2 || taken_ < shortest * longest_step()) return false;
-  const double change = varied * slow * flow_.scales()[1];
+  if (X_.size() <= 2 || taken_ < shortest_with_turn * longest_step()) return false;
+  const double change = speed_variation * slow_part * flow_.scales()[1];
   std::array<std::vector<double>, from_turn.size()> slopes;
   double speed = 0.0;
   for (std::size_t i = 0; i < from_turn.size(); ++i) {
@@ -45,7 +45,7 @@ bool SmoothEngine::hides_turn(bool at_end) {
     slopes[i] = rates_;
     const double before = probe_[1];
     if (i == 1) speed = std::abs(before);
-    probe_[1] += friction::sign(direction_) * (change + varied * std::abs(before));
+    probe_[1] += friction::sign(direction_) * (change + speed_variation * std::abs(before));
     flow_.evaluate(probe_, t, rates_);
     for (std::size_t k = 0; k < rates_.size(); ++k)
       slopes[i][k] = (rates_[k] - slopes[i][k]) / (probe_[1] - before);
@@ -54,7 +54,7 @@ bool SmoothEngine::hides_turn(bool at_end) {
     double rest = slopes[0][k];
     for (std::size_t i = 0; i < parabola.size(); ++i) rest -= parabola[i] * slopes[i + 1][k];
     const double missed = std::abs(rest) * speed * from_turn[1] * taken_;
-    const double clearly = sharp * flow_.scales()[k] / flow_.scales()[1];
+    const double clearly = sharp_change * flow_.scales()[k] / flow_.scales()[1];
     if (missed > allowed_[k] && std::abs(rest) * taken_ > clearly) return true;
   }
   return false;

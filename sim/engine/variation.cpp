@@ -13,7 +13,7 @@ namespace {
 using Vector = std::vector<double>;
 /// J varies smoothly over a part of a step if h J is told by a cubic to this, relative to the rates of both
 /// components; the error of a column is then far below.
-constexpr double smooth = 1e-4;
+constexpr double told_by_cubic = 1e-4;
 /// The shortest part of a step.
 constexpr int most_halvings = 20;
 
@@ -103,7 +103,7 @@ class RadauVariation final : public Variation {
           rest += residual_[i] * jacobian(i, j, k);
           rate = std::max({rate, std::abs(jacobian(i, j, j)), std::abs(jacobian(i, k, k))});
         }
-        if (std::abs(rest) * sizes[k] > smooth * rate * sizes[j]) return true;
+        if (std::abs(rest) * sizes[k] > told_by_cubic * rate * sizes[j]) return true;
       }
     }
     return false;

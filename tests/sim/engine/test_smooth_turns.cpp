@@ -16,9 +16,9 @@ using namespace dualdamp;
 using sim::Monodromy;
 using sim::SolverKind;
 
-constexpr double frequency = 0.9;
-constexpr double damping = 0.01;
-constexpr double kinetic = 0.3;
+constexpr double drive_rate = 0.9;
+constexpr double dashpot = 0.01;
+constexpr double kinetic_level = 0.3;
 constexpr double static_level = 0.45;
 constexpr double bristle_damping = 0.3;
 
@@ -29,9 +29,9 @@ struct Bristles {
 
 sim::Model model_with(Bristles bristles) {
   sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = damping};
-  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = frequency};
-  model.friction = {test::law("lugre", {{"kinetic", kinetic},
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = dashpot};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = drive_rate};
+  model.friction = {test::law("lugre", {{"kinetic", kinetic_level},
                                         {"static", static_level},
                                         {"stribeck_velocity", bristles.stribeck_velocity},
                                         {"sigma0", bristles.stiffness},
@@ -39,29 +39,29 @@ sim::Model model_with(Bristles bristles) {
   return model;
 }
 
-using Point = std::array<double, 3>;  // x, v, z
+using BristleState = std::array<double, 3>;  // x, v, z
 
 /// One forcing period of the equations of canudas1995, by the classical Runge-Kutta method.
-Point by_small_steps(Bristles bristles, Point from, int steps) {
-  const auto rates = [&](const Point& at, double t) -> Point {
+BristleState by_small_steps(Bristles bristles, BristleState from, int steps) {
+  const auto rates = [&](const BristleState& at, double t) -> BristleState {
     const auto [x, v, z] = at;
     const double ratio = v / bristles.stribeck_velocity;
-    const double level = kinetic + (static_level - kinetic) * std::exp(-ratio * ratio);
+    const double level = kinetic_level + (static_level - kinetic_level) * std::exp(-ratio * ratio);
     const double yielding = v - bristles.stiffness * std::abs(v) * z / level;
     const double friction = bristles.stiffness * z + bristle_damping * yielding;
-    return {v, std::cos(frequency * t) - x - damping * v - friction, yielding};
+    return {v, std::cos(drive_rate * t) - x - dashpot * v - friction, yielding};
   };
-  const auto along = [](const Point& at, double s, const Point& by) -> Point {
+  const auto along = [](const BristleState& at, double s, const BristleState& by) -> BristleState {
     return {at[0] + s * by[0], at[1] + s * by[1], at[2] + s * by[2]};
   };
-  const double h = 2.0 * std::acos(-1.0) / frequency / steps;
-  Point at = from;
+  const double h = 2.0 * std::acos(-1.0) / drive_rate / steps;
+  BristleState at = from;
   for (int i = 0; i < steps; ++i) {
     const double t = i * h;
-    const Point a = rates(at, t);
-    const Point b = rates(along(at, 0.5 * h, a), t + 0.5 * h);
-    const Point c = rates(along(at, 0.5 * h, b), t + 0.5 * h);
-    const Point d = rates(along(at, h, c), t + h);
+    const BristleState a = rates(at, t);
+    const BristleState b = rates(along(at, 0.5 * h, a), t + 0.5 * h);
+    const BristleState c = rates(along(at, 0.5 * h, b), t + 0.5 * h);
+    const BristleState d = rates(along(at, h, c), t + h);
     for (std::size_t k = 0; k < at.size(); ++k) at[k] += h / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
   }
   return at;
@@ -81,7 +81,7 @@ TEST_CASE("smooth engine: a step does not pass over what a turn shows of the fri
   constexpr Bristles bristles = {.stiffness = 1e2, .stribeck_velocity = 1e-2};
   sim::Model model = model_with(bristles);
   const sim::State start = running(model);
-  const Point expected = by_small_steps(bristles, {start.x, start.v, start.memories[0].state[0]}, 400'000);
+  const BristleState expected = by_small_steps(bristles, {start.x, start.v, start.memories[0].state[0]}, 400'000);
   for (const SolverKind kind : {SolverKind::automatic, SolverKind::explicit_steps, SolverKind::implicit_steps}) {
     for (const double tolerance : {1e-8, 1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12}) {
       model.solver = {kind, tolerance};
