@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/history_model.hpp"
 #include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
@@ -356,6 +357,38 @@ TEST_CASE("A zero of x that is off is named beside friction's symmetry, and the 
   }
   CHECK(named >= 1);  // where it moves zeta or F0 by 2 % or more
   CHECK(held >= records - 1);
+}
+
+TEST_CASE("A zero of x that drifts is charged to what drifts, neither to friction nor to the constants") {
+  for (const Kind kind : {Kind::extremes, Kind::decay, Kind::forced}) {
+    for (std::uint64_t seed = first_seed; seed < first_seed + 4; ++seed) {
+      const Measured m = measured(kind, seed, nullptr, {.zero_drift = 3.0});
+      const Ledger ledger = ledger_of(m.record, m.constants);
+      CAPTURE(name_of(kind), seed);
+      const LedgerEntry& drift = ledger.entry(Assumption::stationarity);
+      CHECK(drift.test == "zero of x that drifts");
+      CHECK(drift.p_value.value_or(1.0) < family_level);
+      CHECK_FALSE(ledger.is_violated(Assumption::symmetry));
+      CHECK_FALSE(ledger.is_violated(Assumption::friction_velocity));
+      CHECK_FALSE(ledger.is_violated(Assumption::constants));
+      CHECK(holds_truth(ledger, m.rig.zeta, m.rig.F0));
+    }
+  }
+}
+
+TEST_CASE("Of two departures of a history the one that explains more is charged first, not what hides the other") {
+  // A zero that is off and drifts: a mass set free explains nothing, and was charged as it left less to the rest.
+  Measured m = measured(Kind::decay, first_seed, nullptr, {.zero_drift = 2.0});
+  for (double& x : m.record.histories[0].x) x += m.rig.x_f();
+  const auto model = history_model(m.record, m.constants);
+  const RelaxationTests tests = test_relaxations(std::get<JointModel>(model));
+  REQUIRE(tests.departures.size() >= 2);
+  const auto& relaxations = std::get<JointModel>(model).relaxations;
+  for (const Departure& departure : tests.departures)
+    for (const RelaxationTest& test : departure.explanations) {
+      CAPTURE(relaxations[test.index].test);
+      CHECK(relaxations[test.index].assumption != Assumption::constants);
+    }
 }
 
 TEST_CASE("Noise of the drive, which columns and residuals share, rejects no constant of a steady motion") {
