@@ -341,7 +341,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
 
 Estimate joint_fit(const Record& record, const KnownConstants& constants, const std::vector<std::string>& relaxed) {
   Estimate none;
-  const MaybeModel found = model_of(record, constants);
+  const MaybeModel found = testable_model(record, constants);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     refuse(none, *reason);
     return none;

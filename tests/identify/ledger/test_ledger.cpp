@@ -362,7 +362,7 @@ TEST_CASE("A zero of x that is off is named beside friction's symmetry, and the 
 
 TEST_CASE("A zero of x that drifts is charged to what drifts, neither to friction nor to the constants") {
   for (const Kind kind : {Kind::extremes, Kind::decay, Kind::forced}) {
-    for (std::uint64_t seed = first_seed; seed < first_seed + 4; ++seed) {
+    for (std::uint64_t seed = ledger_seed; seed < ledger_seed + 4; ++seed) {
       const Measured m = measured(kind, seed, nullptr, {.zero_drift = 3.0});
       const Ledger ledger = ledger_of(m.record, m.constants);
       CAPTURE(name_of(kind), seed);
@@ -379,7 +379,7 @@ TEST_CASE("A zero of x that drifts is charged to what drifts, neither to frictio
 
 TEST_CASE("Of two departures of a history the one that explains more is charged first, not what hides the other") {
   // A zero that is off and drifts: a mass set free explains nothing, and was charged as it left less to the rest.
-  Measured m = measured(Kind::decay, first_seed, nullptr, {.zero_drift = 2.0});
+  Measured m = measured(Kind::decay, ledger_seed, nullptr, {.zero_drift = 2.0});
   for (double& x : m.record.histories[0].x) x += m.rig.x_f();
   const auto model = history_model(m.record, m.constants);
   const RelaxationTests tests = test_relaxations(std::get<JointModel>(model));
@@ -393,7 +393,7 @@ TEST_CASE("Of two departures of a history the one that explains more is charged 
 }
 
 TEST_CASE("Constants that are 1 % higher move a joint fit that sets nothing else free, each by its own share") {
-  const Measured m = measured(Kind::response, first_seed);
+  const Measured m = measured(Kind::response, ledger_seed);
   const Ledger ledger = ledger_of(m.record, m.constants);
   REQUIRE(ledger.joint);
   CHECK(ledger.relaxed.empty());
