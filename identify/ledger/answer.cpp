@@ -211,6 +211,24 @@ std::string departures_text(const Ledger& ledger) {
   return text;
 }
 
+/// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing; those with one p are one
+/// departure.
+std::string harmless_text(const Ledger& ledger) {
+  std::vector<std::string> texts;
+  std::vector<double> seen;
+  for (const LedgerEntry& entry : ledger.entries) {
+    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level) continue;
+    const auto known = std::ranges::find(seen, *entry.p_value);
+    if (known != seen.end()) {
+      texts[static_cast<std::size_t>(known - seen.begin())].insert(0, entry.test + " or ");
+      continue;
+    }
+    seen.push_back(*entry.p_value);
+    texts.push_back(entry.test + " (p = " + core::format_number(*entry.p_value, 2) + ")");
+  }
+  return core::joined(texts, "; ");
+}
+
 std::string trend_text(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
   const auto trend = std::ranges::find_if(estimates, [](const Estimate& e) { return e.subsets.size() > 1; });
   if (trend == estimates.end()) return {};
@@ -229,6 +247,16 @@ bool overlap(const std::array<double, 2>& a, const std::array<double, 2>& b) {
 bool disagree(const Estimate& a, const Estimate& b) {
   if (!b.usable || !a.interval95 || !b.interval95) return false;
   return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
+}
+
+/// An estimate that the joint model, which has all of the same data and departs from them in nothing that is known,
+/// excludes cannot be used. A range over laws is wider than the joint model on purpose.
+bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
+  if (!joint || !joint->usable || estimate.laws || !disagree(*joint, estimate)) return false;
+  estimate.usable = false;
+  estimate.reason = "joint_fit, which has all data, excludes it: zeta = " + number(joint->value.zeta) +
+                    ", F0 = " + number(joint->value.F0);
+  return true;
 }
 
 /// The ranges over all laws, and which laws end that of zeta.
@@ -257,10 +285,13 @@ std::string verdict_of(const Identification& all) {
            "No estimate is to be used: " + all.reason + "." + over_laws(all.estimates, all.ledger.coordinate);
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
-  text = numbers_of(best, all.ledger.coordinate) + ", by " + best.method + ". " +
-         (!text.empty() ? text.substr(1)
-          : untested    ? "These data cannot tell whether friction is Coulomb + viscous."
-                        : "These data do not contradict any assumption that they can test.");
+  const std::string harmless = harmless_text(all.ledger);
+  text =
+      numbers_of(best, all.ledger.coordinate) + ", by " + best.method + ". " +
+      (!text.empty()       ? text.substr(1)
+       : untested          ? "These data cannot tell whether friction is Coulomb + viscous."
+       : !harmless.empty() ? "These data contradict no assumption in a way that matters; seen is: " + harmless + "."
+                           : "These data do not contradict any assumption that they can test.");
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
@@ -271,10 +302,16 @@ std::string verdict_of(const Identification& all) {
 
 Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   Identification all{std::move(estimates), std::move(ledger), std::nullopt, {}, {}};
-  if (all.estimates.size() > 1 && all.ledger.joint) all.estimates.push_back(*all.ledger.joint);
+  bool beside = all.estimates.size() > 1;  // one method that was asked for alone answers alone, if it can
   for (Estimate& estimate : all.estimates) {
     correct(estimate);
     judge(estimate, all.ledger);
+    beside = excluded(estimate, all.ledger.joint) || beside;
+  }
+  if (beside && all.ledger.joint) {
+    all.estimates.push_back(*all.ledger.joint);
+    correct(all.estimates.back());
+    judge(all.estimates.back(), all.ledger);
   }
   all.answer = preferred(all.estimates);
   all.reason = all.answer ? why_preferred(all) : why_none(all);

@@ -50,7 +50,8 @@ struct DecayTerm {
   std::string_view test;
   double (*loss)(const Swing& swing);
   double (*lasting)(double X);
-  int sign = 0;  ///< of the coefficient in such a departure; 0: either
+  int sign = 0;          ///< of the coefficient in such a departure; 0: either
+  bool is_zero = false;  ///< it is the zero of x that drifts, and changes no swing
 };
 
 double no_loss(const Swing& /*swing*/) { return 0.0; }
@@ -73,7 +74,7 @@ using enum Assumption;
 /// A period other than stated: alike but for F0 = k x_f.
 constexpr std::string_view mass_free = "period free, stiffness as stated";
 constexpr std::string_view stiffness_free = "period free, mass as stated";
-constexpr std::array<DecayTerm, 9> all_decay_terms = {{
+constexpr std::array<DecayTerm, 10> all_decay_terms = {{
     {constants, mass_free, no_loss, always},
     {constants, stiffness_free, no_loss, always},
     {spring, "cubic stiffness", stiffer, stiffening},
@@ -83,13 +84,14 @@ constexpr std::array<DecayTerm, 9> all_decay_terms = {{
     {friction_displacement, "deflection before sliding", deflection, no_lasting, -1},
     {friction_displacement, "restoring force before sliding", no_loss, stiff_contact, 1},
     {symmetry, "damping of its own in each direction", one_sided, no_lasting},
+    {stationarity, "zero of x that drifts", no_loss, no_lasting, 0, true},
 }};
 
 /// Terms that a record can tell: those of times only where there are times.
 std::vector<const DecayTerm*> terms_of(bool timed) {
   std::vector<const DecayTerm*> list;
   for (const DecayTerm& term : all_decay_terms)
-    if (timed || term.loss != no_loss) list.push_back(&term);
+    if (timed || term.loss != no_loss || term.is_zero) list.push_back(&term);
   return list;
 }
 
@@ -124,6 +126,7 @@ Eigen::VectorXd rows_of(const Setting& setting, const Decay& decay) {
       const double g = decay.g[j];
       if (g == 0.0) continue;
       const DecayTerm& term = *setting.terms[static_cast<std::size_t>(j)];
+      if (term.is_zero) rows[i] += g * static_cast<double>(i) / static_cast<double>(count - 1);
       next -= g * term.loss({mean, side, decay.x_f * (1.0 + R), (1.0 - R) * X});
       t += g * term.lasting(mean);
     }
@@ -195,10 +198,14 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
       model.zeta_parts[j] = std::pow(root, 1.5) / (std::numbers::pi * decrement);
   const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
   model.scale_freedom = amplitudes.freedom;
+  // Of the noise; what it leaves is added where it is known what is fitted.
+  const auto readings = static_cast<double>(setting.count);
+  model.deviance = 2.0 * readings * std::log(amplitudes.deviation);
   add_readings(model, ReadingKind::extreme, setting.count, amplitudes.deviation * setting.unit);
   model.spent = setting.timed ? 1.0 : 0.0;
   if (setting.timed) {
     const ChannelScale times = scale_channel(model, setting.count, setting.count);
+    model.deviance += 2.0 * readings * std::log(times.deviation);
     add_readings(model, ReadingKind::time, setting.count, times.deviation * setting.half_period);
     model.readings.emplace_back();
     // Two of the columns are of the times alone.
@@ -228,6 +235,16 @@ void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector
   }
 }
 
+/// Columns of the base parameters and of the terms taken.
+Eigen::MatrixXd free_decay_columns(const JointModel& model, const std::vector<std::size_t>& taken) {
+  const Eigen::Index base = model.base.cols();
+  Eigen::MatrixXd columns(model.base.rows(), base + static_cast<Eigen::Index>(taken.size()));
+  columns.leftCols(base) = model.base;
+  for (std::size_t j = 0; j < taken.size(); ++j)
+    columns.col(base + static_cast<Eigen::Index>(j)) = model.relaxed.col(static_cast<Eigen::Index>(taken[j]));
+  return columns;
+}
+
 /// The model linearised where the terms taken are fitted beside plain friction.
 JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const Decay& start,
                   const std::vector<std::size_t>& taken) {
@@ -235,18 +252,15 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
   JointModel model = linearised(setting, measured, at);
   constexpr int steps = 6;
   for (int i = 0; i < steps; ++i) {
-    Eigen::MatrixXd columns(model.base.rows(), model.base.cols() + static_cast<Eigen::Index>(taken.size()));
-    columns.leftCols(model.base.cols()) = model.base;
-    for (std::size_t j = 0; j < taken.size(); ++j)
-      columns.col(model.base.cols() + static_cast<Eigen::Index>(j)) =
-          model.relaxed.col(static_cast<Eigen::Index>(taken[j]));
-    const Eigen::VectorXd step = pivoted_least_squares(columns, model.residuals);
+    const Eigen::VectorXd step = pivoted_least_squares(free_decay_columns(model, taken), model.residuals);
     Decay moved = at;
     move(setting, step, taken, moved);
     if (!step.allFinite() || !rows_of(setting, moved).allFinite()) break;
     at = moved;
     model = linearised(setting, measured, at);
   }
+  const Eigen::MatrixXd columns = free_decay_columns(model, taken);
+  model.deviance += (model.residuals - columns * pivoted_least_squares(columns, model.residuals)).squaredNorm();
   model.constants = setting.constants;
   for (std::size_t j = 0; j < setting.terms.size(); ++j) {
     const double longer = 1.0 + at.g[static_cast<Eigen::Index>(j)];

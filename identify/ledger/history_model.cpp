@@ -27,7 +27,7 @@ enum class Sensor { x, v, a };
 
 /// What a relaxation sets free.
 struct Way {
-  enum class Kind { constant, force, friction_of_test, gain, delay, zero } kind = Kind::constant;
+  enum class Kind { constant, force, friction_of_test, gain, delay, zero, zero_drift } kind = Kind::constant;
   By by = By::mass;                   ///< of a constant
   const HistoryTerm* term = nullptr;  ///< of a force
   std::size_t test = 0;
@@ -96,7 +96,7 @@ class Histories {
       at = std::move(moved);
       here = std::move(next);
     }
-    return joint(at, all);
+    return joint(at, taken, all);
   }
 
  private:
@@ -105,14 +105,16 @@ class Histories {
     Eigen::MatrixXd base;
     Eigen::MatrixXd relaxed;
     Eigen::MatrixXd shaken;  ///< all of them with more noise in the drive; empty: not asked for, or there is none
-    double squares = 0.0;    ///< of the innovations of x
-    double variance = 1.0;   ///< of one residual
+    double log_variances = 0.0;  ///< of what is left of the rows, summed
+    double squares = 0.0;        ///< of the innovations of x
+    double variance = 1.0;       ///< of one residual
   };
 
-  [[nodiscard]] JointModel joint(const Place& at, const Numbers& all) {
+  [[nodiscard]] JointModel joint(const Place& at, const Numbers& taken, const Numbers& all) {
     JointModel model;
     model.relaxations = relaxations_;
     if (std::optional<Linearised> found = linearised(at, all, true)) {
+      model.deviance = found->log_variances + squares_beside(*found, taken);
       model.residuals = std::move(found->residuals);
       model.base = std::move(found->base);
       model.relaxed = std::move(found->relaxed);
@@ -138,6 +140,16 @@ class Histories {
         model.zeta_parts[own] = unit_force_ / scale_.speed / (2.0 * std::sqrt(force.m * force.k));
     }
     return model;
+  }
+
+  /// What base parameters and the relaxations taken leave.
+  [[nodiscard]] static double squares_beside(const Linearised& rows, const Numbers& taken) {
+    const Eigen::Index base = rows.base.cols();
+    Eigen::MatrixXd columns(rows.base.rows(), base + static_cast<Eigen::Index>(taken.size()));
+    columns.leftCols(base) = rows.base;
+    for (std::size_t j = 0; j < taken.size(); ++j)
+      columns.col(base + static_cast<Eigen::Index>(j)) = rows.relaxed.col(static_cast<Eigen::Index>(taken[j]));
+    return (rows.residuals - columns * pivoted_least_squares(columns, rows.residuals)).squaredNorm();
   }
 
   /// The fit where a constant is not known: a motion that runs out of step with that of the constant as stated is
@@ -202,7 +214,9 @@ class Histories {
     for (Channel* channel : {&x, &v, &a}) {
       if (channel->rows.rows() == 0) continue;
       if (!white) channel->most_lags = 0;
-      parts.push_back(made_white(*channel, base + more));
+      WhiteRows made = made_white(*channel, base + more);
+      result.log_variances += made.log_variances;
+      parts.push_back(std::move(made.rows));
     }
     const Eigen::MatrixXd rows = stacked(parts);
     result.residuals = rows.col(0);
@@ -240,6 +254,7 @@ class Histories {
     };
     add_readings("x", Sensor::x);
     add_relaxation(Assumption::sensors, "zero of x free", {.kind = zero});
+    add_relaxation(Assumption::stationarity, "zero of x that drifts", {.kind = zero_drift});
     if (has(&History::v)) add_readings("v", Sensor::v);
     if (has(&History::a)) add_readings("a", Sensor::a);
   }
@@ -318,10 +333,10 @@ class Histories {
     const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
     const Reader read{*this, at, wanted};
     SensorRows rows;
-    rows.x = read(Sensor::x, history.x, motion.x, motion.v, a, columns_x, columns_v);
-    if (!history.v.empty()) rows.v = read(Sensor::v, history.v, motion.v, a, jerk, columns_v, columns_a);
+    rows.x = read(Sensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
+    if (!history.v.empty()) rows.v = read(Sensor::v, history.v, {motion.v, a, jerk}, columns_v, columns_a);
     if (!history.a.empty())
-      rows.a = read(Sensor::a, history.a, a, jerk, Eigen::VectorXd::Zero(jerk.size()), columns_a,
+      rows.a = read(Sensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size())}, columns_a,
                     Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
     return rows;
   }
@@ -365,43 +380,34 @@ class Histories {
     return way.test == test ? 1.0 : -1.0 / (static_cast<double>(fit_.tests().size()) - 1.0);
   }
 
-  /// Rows of one reading with its gain, delay and zero, to second order in the delay.
+  /// Rows of one reading, with columns of what is set free about its sensor.
   struct Reader {
     const Histories& owner;
     const Place& at;
     const Numbers& wanted;
 
-    Eigen::MatrixXd operator()(Sensor sensor, const std::vector<double>& measured, const Eigen::VectorXd& modelled,
-                               const Eigen::VectorXd& slope, const Eigen::VectorXd& curvature,
+    Eigen::MatrixXd operator()(Sensor sensor, const std::vector<double>& measured, const SensorMotion& motion,
                                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) const {
-      const Eigen::Index base = owner.fit_.layout().count();
-      double gain = 1.0;
-      double delay = 0.0;
-      double zero = 0.0;
       const auto own = [&](auto act) {
-        for (std::size_t j = 0; j < wanted.size(); ++j) {
-          const Way& way = owner.ways_[wanted[j]];
-          const bool reads =
-              way.kind == Way::Kind::gain || way.kind == Way::Kind::delay || way.kind == Way::Kind::zero;
-          if (reads && way.sensor == sensor)
-            act(way, static_cast<Eigen::Index>(wanted[j]), static_cast<Eigen::Index>(j));
-        }
+        for (std::size_t j = 0; j < wanted.size(); ++j)
+          if (const Way& way = owner.ways_[wanted[j]]; way.sensor == sensor)
+            act(way.kind, at.g[static_cast<Eigen::Index>(wanted[j])], static_cast<Eigen::Index>(j));
       };
-      own([&](const Way& way, Eigen::Index index, Eigen::Index) {
-        if (way.kind == Way::Kind::gain) gain += at.g[index];
-        if (way.kind == Way::Kind::delay) delay = at.g[index];
-        if (way.kind == Way::Kind::zero) zero = at.g[index] * owner.scale_.length;
+      const double length = owner.scale_.length;
+      SensorErrors errors;
+      own([&](Way::Kind kind, double g, Eigen::Index) {
+        if (kind == Way::Kind::gain) errors.gain += g;
+        if (kind == Way::Kind::delay) errors.delay = g;
+        if (kind == Way::Kind::zero) errors.zero = g * length;
+        if (kind == Way::Kind::zero_drift) errors.drift = g * length;
       });
-      const Eigen::VectorXd late = modelled - delay * slope + 0.5 * delay * delay * curvature;
-      Eigen::MatrixXd rows(modelled.size(), columns.cols() + 1);
-      rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), modelled.size()) - gain * late;
-      rows.col(0).array() -= zero;
-      rows.rightCols(columns.cols()) = gain * (columns - delay * slopes);
-      own([&](const Way& way, Eigen::Index, Eigen::Index j) {
-        const Eigen::Index to = 1 + base + j;
-        if (way.kind == Way::Kind::gain) rows.col(to) = late;
-        if (way.kind == Way::Kind::delay) rows.col(to) = gain * (delay * curvature - slope);
-        if (way.kind == Way::Kind::zero) rows.col(to).setConstant(owner.scale_.length);
+      Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
+      own([&](Way::Kind kind, double, Eigen::Index j) {
+        auto to = rows.col(1 + owner.fit_.layout().count() + j);
+        if (kind == Way::Kind::gain) to = motion.late(errors.delay);
+        if (kind == Way::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
+        if (kind == Way::Kind::zero) to.setConstant(length);
+        if (kind == Way::Kind::zero_drift) to = length * course_of(rows.rows());
       });
       return rows;
     }

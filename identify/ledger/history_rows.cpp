@@ -53,7 +53,7 @@ Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::V
 
 }  // namespace
 
-Eigen::MatrixXd made_white(const Channel& channel, Eigen::Index count_of_columns) {
+WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns) {
   const Eigen::MatrixXd columns = channel.rows.middleCols(1, count_of_columns);
   const Eigen::VectorXd target = channel.rows.col(0);
   const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
@@ -61,7 +61,20 @@ Eigen::MatrixXd made_white(const Channel& channel, Eigen::Index count_of_columns
   const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
   Autoregression errors = autoregression_of(error_covariances(columns, left, channel.blocks, most), count);
   errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
-  return whitened(channel.rows, channel.blocks, errors);
+  return {whitened(channel.rows, channel.blocks, errors), 2.0 * count * std::log(errors.deviation)};
+}
+
+Eigen::VectorXd course_of(Eigen::Index samples) { return Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0); }
+
+Eigen::MatrixXd reading_rows(const std::vector<double>& measured, const SensorMotion& motion,
+                             const SensorErrors& errors, const Eigen::MatrixXd& columns,
+                             const Eigen::MatrixXd& slopes) {
+  const Eigen::Index count = motion.value.size();
+  Eigen::MatrixXd rows(count, columns.cols() + 1);
+  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count) - errors.gain * motion.late(errors.delay);
+  rows.col(0) -= Eigen::VectorXd::Constant(count, errors.zero) + errors.drift * course_of(count);
+  rows.rightCols(columns.cols()) = errors.gain * (columns - errors.delay * slopes);
+  return rows;
 }
 
 Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& parts) {

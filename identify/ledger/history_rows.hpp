@@ -29,9 +29,40 @@ struct SensorRows {
   void append(const SensorRows& more);
 };
 
-/// The rows with independent errors of unit variance, by what is left of the residual beside the `columns` after
-/// it.
-[[nodiscard]] Eigen::MatrixXd made_white(const Channel& channel, Eigen::Index columns);
+/// Rows with independent errors of unit variance.
+struct WhiteRows {
+  Eigen::MatrixXd rows;
+  double log_variances = 0.0;  ///< sum of the logs of the variances that the errors had
+};
+
+/// The rows with independent errors, by what is left of the residual beside the `columns` after it.
+[[nodiscard]] WhiteRows made_white(const Channel& channel, Eigen::Index columns);
+
+/// How a sensor may read a motion: gain (1 + a) at a time later by a delay, about a zero that drifts.
+struct SensorErrors {
+  double gain = 1.0;
+  double delay = 0.0;  ///< s
+  double zero = 0.0;
+  double drift = 0.0;  ///< of the zero, from the beginning to the end
+};
+
+/// What a sensor reads, and its first two derivatives over time.
+struct SensorMotion {
+  Eigen::VectorXd value, slope, curvature;
+
+  /// As it is read late, to second order in the delay.
+  [[nodiscard]] Eigen::VectorXd late(double delay) const {
+    return value - delay * slope + 0.5 * delay * delay * curvature;
+  }
+};
+
+/// The course of a record, from 0 to 1: a sensor is set to zero before, and drifts from there.
+[[nodiscard]] Eigen::VectorXd course_of(Eigen::Index samples);
+
+/// The residual of a reading, then the columns that are derivatives of the motion; `slopes`: theirs over time.
+[[nodiscard]] Eigen::MatrixXd reading_rows(const std::vector<double>& measured, const SensorMotion& motion,
+                                           const SensorErrors& errors, const Eigen::MatrixXd& columns,
+                                           const Eigen::MatrixXd& slopes);
 
 /// One below the other, all of one width.
 [[nodiscard]] Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& parts);

@@ -333,8 +333,31 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
   if (is_friction || !has_spring) return ledger;
   ledger.joint = joint_estimate(model, tests);
+  for (const Departure& departure : tests.departures)
+    ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);
   note_nearly_seen(model, tests, ledger);
   return ledger;
+}
+
+Estimate joint_fit(const Record& record, const KnownConstants& constants, const std::vector<std::string>& relaxed) {
+  Estimate none;
+  const MaybeModel found = testable_model(record, constants);
+  if (const auto* reason = std::get_if<std::string>(&found)) {
+    refuse(none, *reason);
+    return none;
+  }
+  const auto& model = std::get<JointModel>(found);
+  Numbers numbers;
+  for (const std::string& test : relaxed) {
+    const auto at = std::ranges::find(model.relaxations, test, &Relaxation::test);
+    if (at == model.relaxations.end()) {
+      refuse(none, "the record does not tell: " + test);
+      return none;
+    }
+    numbers.push_back(static_cast<std::size_t>(at - model.relaxations.begin()));
+  }
+  return joint_estimate(model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
+                        "all of " + model.data + " together");
 }
 
 }  // namespace dualdamp::identify

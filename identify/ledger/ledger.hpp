@@ -56,6 +56,7 @@ struct Ledger {
   ParameterSet plain;                                            ///< of the joint model with nothing relaxed
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in sentences
   std::vector<std::string> left_out;  ///< parts of the record outside the tests' conditions, each a sentence
+  std::vector<std::string> relaxed;   ///< tests of the relaxations that the joint estimate has free
   /// What the joint model itself estimates, with departures that are not friction's relaxed; nothing where there is
   /// no model.
   std::optional<Estimate> joint;
@@ -70,5 +71,9 @@ struct Ledger {
 
 [[nodiscard]] Ledger ledger_of(const Record& record, const KnownConstants& constants,
                                const LedgerOptions& options = {});
+
+/// The joint estimate with these relaxations free and no others, by their tests: nothing is tested.
+[[nodiscard]] Estimate joint_fit(const Record& record, const KnownConstants& constants,
+                                 const std::vector<std::string>& relaxed);
 
 }  // namespace dualdamp::identify

@@ -69,6 +69,13 @@ std::optional<BootstrapSpread> bootstrap_spread(
   return spread;
 }
 
+int synthetic_records_for(std::size_t samples) {
+  constexpr double all_up_to = 60'000.0;
+  constexpr int fewest = 12;
+  const double share = all_up_to / std::max(all_up_to, static_cast<double>(samples));
+  return std::max(fewest, static_cast<int>(share * synthetic_count));
+}
+
 std::optional<BootstrapSpread> parametric_bootstrap(
     const std::vector<NumberedHistory>& histories, const ParameterReading& own, double offset,
     const std::function<std::optional<ParameterReading>(const Record&)>& read) {
@@ -78,7 +85,10 @@ std::optional<BootstrapSpread> parametric_bootstrap(
   if (!synthetic) return std::nullopt;
   Eigen::VectorXd truth = p;
   truth.head<4>() << law.m, law.c, law.k, law.F0;
-  return bootstrap_spread(own, truth, [&](int number) { return synthetic->record(number); }, read);
+  std::size_t samples = 0;
+  for (const NumberedHistory& item : histories) samples += item.history->x.size();
+  return bootstrap_spread(
+      own, truth, [&](int number) { return synthetic->record(number); }, read, synthetic_records_for(samples));
 }
 
 void set_estimate(Estimate& estimate, const ForceParameters& force, const std::optional<BootstrapSpread>& spread) {

@@ -53,6 +53,10 @@ struct BootstrapSpread {
     const ParameterReading& own, const Eigen::VectorXd& truth, const std::function<Record(int)>& draw,
     const std::function<std::optional<ParameterReading>(const Record&)>& read, int records = synthetic_count);
 
+/// How many synthetic records of so many samples are read: fewer of long ones, 12 from 200,000 samples on, whose
+/// intervals are 12 % wider for it. The quantile and 1/B keep their coverage.
+[[nodiscard]] int synthetic_records_for(std::size_t samples);
+
 /// The spread over synthetic records of the synthetic record that `own` is the truth of. `offset`: a constant force
 /// [N].
 [[nodiscard]] std::optional<BootstrapSpread> parametric_bootstrap(

@@ -237,8 +237,11 @@ std::vector<identify::Sensitivity> IdentifyQuestion::sensitivities(const identif
   const identify::Estimate& best = found.estimates[*found.answer];
   const identify::MethodEntry* method = identify::find_method(best.method);
   if (method != nullptr && method->takes_seconds) return {};
-  const identify::Reader reader =
-      method == nullptr ? joint_estimate(methods_.ledger) : reader_of(*method, methods_.options);
+  // With what was set free, and no more: a constant that is off would be set free, too, and say nothing.
+  const identify::Reader joint = [&](const identify::Record& moved, const identify::KnownConstants& constants) {
+    return identify::joint_fit(moved, constants, found.ledger.relaxed);
+  };
+  const identify::Reader reader = method == nullptr ? joint : reader_of(*method, methods_.options);
   return identify::sensitivities(reader, best, record, methods_.constants, methods_.uncertainties);
 }
 

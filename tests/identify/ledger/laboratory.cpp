@@ -67,6 +67,11 @@ class Laboratory {
     return off_.clock > 0.0 ? off_.clock * std::round(time / off_.clock) : time;
   }
 
+  /// What the zero of x is off by at one of `count` readings.
+  [[nodiscard]] double drift_of_zero(std::size_t i, std::size_t count) const {
+    return off_.zero_drift * result_.rig.x_f() * static_cast<double>(i) / static_cast<double>(count - 1);
+  }
+
   /// Drive amplitudes from twice to six times what dry friction alone withstands; L and V of the largest.
   void choose_level() {
     Rig& rig = result_.rig;
@@ -146,6 +151,8 @@ class Laboratory {
       record.extremes.push_back(x * (1.0 + off_.gain) + sx * normal());
       record.times.push_back(on_clock((static_cast<double>(i) + share) / rate + st * normal()));
     }
+    for (std::size_t i = 0; i < record.extremes.size(); ++i)
+      record.extremes[i] += drift_of_zero(i, record.extremes.size());
     convert(record.extremes);
     result_.record.decay = std::move(record);
   }
@@ -195,7 +202,8 @@ class Laboratory {
     for (std::size_t i = 0; i < motion.x.size(); ++i) {
       const auto from =
           static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(i) - late));
-      history.x.push_back(motion.x[from] * (1.0 + off_.gain) + 0.002 * size * normal());
+      history.x.push_back(motion.x[from] * (1.0 + off_.gain) + drift_of_zero(i, motion.x.size()) +
+                          0.002 * size * normal());
       if (!free)
         history.force.push_back(motion.drive[i] * (1.0 + off_.drive_gain) + 0.005 * largest_force * normal());
       if (off_.v_noise > 0.0) history.v.push_back(motion.v[i] + off_.v_noise * size * rig.omega() * normal());

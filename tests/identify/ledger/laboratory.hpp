@@ -33,6 +33,7 @@ struct Off {
   double gain = 0.0;         ///< of x
   double drive_gain = 0.0;   ///< of Y or of the force
   double sweep_drift = 0.0;  ///< F0 of the last sweep over that of the first, less one
+  double zero_drift = 0.0;   ///< of the zero of x, over the record, in x_f
   double v_noise = 0.0;      ///< of a measured velocity, over its largest value; 0: not measured
   double noise = 1.0;        ///< factor on all noise
   double clock = 0.0;        ///< step of the clock that times of extremes are rounded to [s]; 0: none

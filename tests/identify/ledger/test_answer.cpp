@@ -116,3 +116,33 @@ TEST_CASE("Who disagrees with the answer is named, and without estimates nothing
   CHECK(concluded({none}, ledger({})).verdict.empty());
   CHECK(concluded({}, ledger({})).verdict.empty());
 }
+
+TEST_CASE("An estimate that the joint fit of all data excludes cannot be used, and the joint fit answers") {
+  Ledger with_joint = ledger({});
+  with_joint.joint = estimate("joint_fit", 0.1, 4.0, 0.01);
+  const Identification alone = concluded({estimate("energy_balance", 0.14, 4.0, 0.02)}, with_joint);
+  REQUIRE(alone.estimates.size() == 2);
+  CHECK_FALSE(alone.estimates[0].usable);
+  CHECK(mentions(alone.estimates[0].reason, "joint_fit, which has all data, excludes it: zeta = 0.1, F0 = 4"));
+  CHECK(answering(alone) == "joint_fit");
+  // One that agrees answers alone when it was asked for alone.
+  const Identification agrees = concluded({estimate("energy_balance", 0.102, 4.0, 0.02)}, with_joint);
+  CHECK(agrees.estimates.size() == 1);
+  CHECK(answering(agrees) == "energy_balance");
+  // A joint fit that cannot be used excludes nothing.
+  with_joint.joint->usable = false;
+  CHECK(concluded({estimate("energy_balance", 0.14, 4.0, 0.02)}, with_joint).estimates[0].usable);
+}
+
+TEST_CASE("A departure that is seen and does no harm stands in the verdict") {
+  Ledger seen = ledger({});
+  for (const Assumption assumption : {Assumption::sensors, Assumption::symmetry}) {
+    LedgerEntry& entry = seen.entries[static_cast<std::size_t>(assumption)];
+    entry.test = assumption == Assumption::sensors ? "zero of x free" : "friction force of its own";
+    entry.p_value = 1e-20;
+  }
+  const Identification found = concluded({estimate("energy_balance", 0.1, 4.0, 0.02)}, seen);
+  CHECK(mentions(found.verdict,
+                 "in a way that matters; seen is: friction force of its own or zero of x free (p = 1e-20)"));
+  CHECK_FALSE(mentions(found.verdict, "do not contradict any"));
+}

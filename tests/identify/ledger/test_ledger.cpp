@@ -9,8 +9,10 @@
 #include <variant>
 
 #include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/history_model.hpp"
 #include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
+#include "identify/uncertainty/uncertain_constants.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
 
 using namespace dualdamp::identify;
@@ -356,6 +358,67 @@ TEST_CASE("A zero of x that is off is named beside friction's symmetry, and the 
   }
   CHECK(named >= 1);  // where it moves zeta or F0 by 2 % or more
   CHECK(held >= records - 1);
+}
+
+TEST_CASE("A zero of x that drifts is charged to what drifts, neither to friction nor to the constants") {
+  for (const Kind kind : {Kind::extremes, Kind::decay, Kind::forced}) {
+    for (std::uint64_t seed = ledger_seed; seed < ledger_seed + 4; ++seed) {
+      const Measured m = measured(kind, seed, nullptr, {.zero_drift = 3.0});
+      const Ledger ledger = ledger_of(m.record, m.constants);
+      CAPTURE(name_of(kind), seed);
+      const LedgerEntry& drift = ledger.entry(Assumption::stationarity);
+      CHECK(drift.test == "zero of x that drifts");
+      CHECK(drift.p_value.value_or(1.0) < family_level);
+      CHECK_FALSE(ledger.is_violated(Assumption::symmetry));
+      CHECK_FALSE(ledger.is_violated(Assumption::friction_velocity));
+      CHECK_FALSE(ledger.is_violated(Assumption::constants));
+      CHECK(holds_truth(ledger, m.rig.zeta, m.rig.F0));
+    }
+  }
+}
+
+TEST_CASE("Of two departures of a history the one that explains more is charged first, not what hides the other") {
+  // A zero that is off and drifts: a mass set free explains nothing, and was charged as it left less to the rest.
+  Measured m = measured(Kind::decay, ledger_seed, nullptr, {.zero_drift = 2.0});
+  for (double& x : m.record.histories[0].x) x += m.rig.x_f();
+  const auto model = history_model(m.record, m.constants);
+  const RelaxationTests tests = test_relaxations(std::get<JointModel>(model));
+  REQUIRE(tests.departures.size() >= 2);
+  const auto& relaxations = std::get<JointModel>(model).relaxations;
+  for (const Departure& departure : tests.departures)
+    for (const RelaxationTest& test : departure.explanations) {
+      CAPTURE(relaxations[test.index].test);
+      CHECK(relaxations[test.index].assumption != Assumption::constants);
+    }
+}
+
+TEST_CASE("Constants that are 1 % higher move a joint fit that sets nothing else free, each by its own share") {
+  const Measured m = measured(Kind::response, ledger_seed);
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  REQUIRE(ledger.joint);
+  CHECK(ledger.relaxed.empty());
+  const Reader reader = [&](const Record& record, const KnownConstants& constants) {
+    return joint_fit(record, constants, ledger.relaxed);
+  };
+  const std::vector<Sensitivity> found = sensitivities(reader, *ledger.joint, m.record, m.constants, {});
+  const auto of = [&](const std::string& constant) {
+    const auto at = std::ranges::find(found, constant, &Sensitivity::constant);
+    REQUIRE(at != found.end());
+    return *at;
+  };
+  // Lengths 1 % larger leave zeta and raise F0 by 1 %; so do a mass and a stiffness that are 1 % larger.
+  for (const auto& [one, other] : {std::pair{"gain of x", "gain of y"}, {"mass", "stiffness"}}) {
+    CAPTURE(one);
+    CHECK(of(one).zeta_change + of(other).zeta_change == Approx(0.0).margin(0.01));
+    CHECK(of(one).F0_change + of(other).F0_change == Approx(0.01).margin(0.01));
+  }
+  // A mass that is 1 % off is a natural frequency half a percent off, which the ledger would set free.
+  CHECK_FALSE(ledger_of(m.record, {1.01 * m.constants.mass, m.constants.stiffness, unknown}).departures.empty());
+  // The answer with a mass that is 1 % off, freed again, is that with the right one.
+  const Estimate freed = joint_fit(m.record, {1.01 * m.constants.mass, m.constants.stiffness, unknown},
+                                   {"natural frequency free, stiffness as stated"});
+  CHECK(freed.value.zeta == Approx(ledger.joint->value.zeta).epsilon(0.01));
+  CHECK_FALSE(joint_fit(m.record, m.constants, {"no such test"}).outcome.ok());
 }
 
 TEST_CASE("Noise of the drive, which columns and residuals share, rejects no constant of a steady motion") {

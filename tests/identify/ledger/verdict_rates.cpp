@@ -57,6 +57,8 @@ std::vector<Row> rows() {
   add("detuning 2 %", nullptr, {.frequency = 0.02}, pairs);
   add("drift", nullptr, {.sweep_drift = 0.2}, {Kind::xy, Kind::xy_phase});
   add("drift", [](Rig& rig) { rig.drift = 0.3; }, {}, driven);
+  add("zero drifts", nullptr, {.zero_drift = 2.0},
+      {Kind::extremes, Kind::decay, Kind::forced, Kind::beat, Kind::ramp, Kind::random});
   add("clock of 0.02 s", nullptr, {.noise = 0.1, .clock = 0.02}, {Kind::extremes});
   add("8 bits", nullptr, {.bits = 8}, {Kind::extremes, Kind::decay, Kind::forced, Kind::beat, Kind::random});
   add("12 samples", nullptr, {.samples = 12.0}, {Kind::decay, Kind::forced, Kind::beat, Kind::random});

@@ -201,3 +201,11 @@ TEST_CASE("Ten seconds at 1 kHz have intervals by every method") {
     CHECK(method.run(record, bearing_constants, {}).interval95);
   }
 }
+
+TEST_CASE("Fewer synthetic records of long records are read, and never too few") {
+  CHECK(synthetic_records_for(100) == synthetic_count);
+  CHECK(synthetic_records_for(60'000) == synthetic_count);
+  CHECK(synthetic_records_for(120'000) == synthetic_count / 2);
+  CHECK(synthetic_records_for(300'000) == 12);
+  CHECK(synthetic_records_for(30'000'000) == 12);
+}
