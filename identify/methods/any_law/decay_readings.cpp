@@ -6,6 +6,7 @@
 
 #include "identify/methods/decays/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::identify {
 
@@ -81,7 +82,9 @@ class DecayReadings final : public ReadingModel {
   [[nodiscard]] std::optional<VectorXd> residuals(const LawAt& law, const VectorXd& p,
                                                   NearbyOrbits& none) const override {
     const double accuracy = static_cast<const NoOrbits&>(none).accuracy;
-    const sim::FreeDecay decay = sim::free_decay(model_of(law, p, accuracy), static_cast<int>(readings_.size()));
+    const sim::Model model = model_of(law, p, accuracy);
+    if (!sim::validate(model).empty()) return std::nullopt;
+    const sim::FreeDecay decay = sim::free_decay(model, static_cast<int>(readings_.size()));
     if (!decay.outcome.ok() || decay.peaks.empty()) return std::nullopt;
     VectorXd result(readings_.size());
     for (Index i = 0; i < result.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "identify/methods/amplitudes/harmonic_balance.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "sim/orbits/steady_state_near.hpp"
+#include "sim/validate.hpp"
 
 namespace dualdamp::identify {
 
@@ -108,6 +109,7 @@ class SteadyReadings final : public ReadingModel {
       const std::size_t twin = twins_[i];
       if (twin == i) {
         const sim::Model model = model_of(law, p, states_[i], accuracy);
+        if (!sim::validate(model).empty()) return std::nullopt;  // a search may try a spring that pushes
         const sim::SteadyState state = found(model, orbits[i]);
         if (!state.outcome.ok()) return std::nullopt;
         remember(model, state, orbits[i]);

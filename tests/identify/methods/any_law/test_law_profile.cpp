@@ -46,6 +46,16 @@ Case case_of(const char* law, double severity, double noise = 0.003) {
 
 }  // namespace
 
+TEST_CASE("any_law: where a search tries a spring that pushes there are no readings") {
+  const Case one = case_of("contact_compliance", 0.1);
+  const auto near = one.model->no_orbits(one.plain.noise.deviations);
+  Eigen::VectorXd unknowns = one.plain.fit.unknowns;
+  constexpr Eigen::Index stiffness_change = 2;
+  REQUIRE(one.model->residuals({nullptr, 0.0}, unknowns, *near));
+  unknowns[stiffness_change] = -1.5;
+  CHECK_FALSE(one.model->residuals({nullptr, 0.0}, unknowns, *near));
+}
+
 TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
   const Case one = case_of("contact_compliance", 0.1);
   const ReadingModel& model = *one.model;
