@@ -25,6 +25,8 @@ string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_R
 add_library(dualdamp_options INTERFACE)
 target_compile_options(dualdamp_options INTERFACE
   -ffp-contract=off
+  # Asserts name files by their place in the tree: the same bits, and hits of the compiler cache, wherever it stands.
+  -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
   -fno-semantic-interposition
   $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range;-fno-math-errno>
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wdouble-promotion -Wnon-virtual-dtor
