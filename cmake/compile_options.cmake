@@ -13,7 +13,7 @@ if(CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 if(PROJECT_IS_TOP_LEVEL)
-  option(CMAKE_UNITY_BUILD "Compile the sources of a room together: half the time from scratch, more after a change of one file" ON)
+  option(CMAKE_UNITY_BUILD "Compile the sources of a room together: less time from scratch, more after a change of one file" ON)
 endif()
 option(DUALDAMP_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
 option(DUALDAMP_FUZZ "Link the harnesses of tests/fuzz with clang's libFuzzer" OFF)

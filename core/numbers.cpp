@@ -82,12 +82,6 @@ NumberText read_number(std::string_view text) {
   return converted(text.substr(0, end));
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
 NumberText parse_number(std::string_view text) {
   NumberText number = read_number(text);
   if (number.value && number.length != text.size())

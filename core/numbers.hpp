@@ -24,9 +24,6 @@ struct NumberText {
 /// `text` as a whole is a number.
 [[nodiscard]] NumberText parse_number(std::string_view text);
 
-/// `text` without the spaces around it.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-
 /// Shortest text that reads back to the same bits. An exponent always comes with a point (`1.0e-05`): YAML 1.1
 /// readers take `1e-05` for a word. `nan`, `inf`, `-inf` for what is not finite.
 [[nodiscard]] std::string format_number(double value);

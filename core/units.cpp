@@ -12,6 +12,12 @@
 
 namespace dualdamp::core {
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string_view::npos ? std::string_view()
+                                         : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
 namespace {
 
 constexpr double pi = std::numbers::pi;

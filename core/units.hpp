@@ -41,6 +41,9 @@ struct QuantityText {
 [[nodiscard]] QuantityText unit_factor(std::string_view unit, std::string_view si_unit,
                                        Coordinate coordinate = Coordinate::displacement);
 
+/// `text` without the spaces around it.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
 /// Whether the unit can name a dimension: one of SI, or a product of such, with factor 1, and read by its name.
 [[nodiscard]] bool is_si(std::string_view unit);
 

@@ -112,7 +112,7 @@ class Motions {
       finding.text = gap.exception;
     } else if (gap.resting > 0) {
       finding.verdict = Verdict::exception;
-      finding.text = fmt::format("at rest within the agreed_tolerance: {} groups", gap.resting);
+      finding.text = fmt::format("at rest within the tolerance: {} groups", gap.resting);
     } else if (gap.coincident > 0) {
       finding.verdict = Verdict::exception;
       finding.text = fmt::format("coincident events: {} groups", gap.coincident);
@@ -186,13 +186,12 @@ class Motions {
     const double allowed = is_exact_ ? energy_tolerance_exact : energy_tolerance_smooth;
     Finding finding{"energy balance", Verdict::agreed, defect, {}};
     if (first_.energy_scale == 0.0) finding.worst = 0.0;
-    // The smooth engine knows positions to its agreed_tolerance of a thousandth of what the drive could move the
-    // mass by.
+    // The smooth engine knows positions to its tolerance of a thousandth of what the drive could move the mass by.
     constexpr double unresolved = 1e-12;
     if (!is_exact_ && std::abs(first_.energy.defect) <= unresolved * first_.drive_energy &&
         !(finding.worst <= allowed)) {
       finding.verdict = Verdict::exception;
-      finding.text = "at rest within the agreed_tolerance: the mass creeps";
+      finding.text = "at rest within the tolerance: the mass creeps";
     } else if (!(finding.worst <= allowed)) {
       finding.verdict = Verdict::disagree;
       finding.text = fmt::format("defect {:.2e} of the energy exchanged", defect);

@@ -217,14 +217,6 @@ struct AmplitudeFit {
 /// Relaxations that are fitted beside the friction, by their numbers.
 using Taken = std::vector<std::size_t>;
 
-Eigen::MatrixXd free_columns(const Rows& rows, const Taken& taken) {
-  Eigen::MatrixXd columns(rows.base.rows(), 2 + static_cast<Eigen::Index>(taken.size()));
-  columns.leftCols(2) = rows.base;
-  for (std::size_t j = 0; j < taken.size(); ++j)
-    columns.col(2 + static_cast<Eigen::Index>(j)) = rows.relaxed.col(static_cast<Eigen::Index>(taken[j]));
-  return columns;
-}
-
 /// Of the curve that the noise of a channel is told from.
 Eigen::Index smooth_columns(const SteadyStates& states) { return states.frequencies() > 1 ? 6 : 3; }
 
@@ -269,7 +261,7 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
   constexpr int iterations = 14;
   for (int i = 0; i < iterations; ++i) {
     fit.rows = states.linearise(fit.at, fit.deviations);
-    const Eigen::MatrixXd columns = free_columns(fit.rows, taken);
+    const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
     const Eigen::VectorXd step = pivoted_least_squares(columns, fit.rows.residuals);
     if (!step.allFinite()) return fit;
     move(step, taken, fit.at);
@@ -281,7 +273,7 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
     if (states.phases() > 0) fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
   }
   fit.rows = states.linearise(fit.at, fit.deviations);
-  const Eigen::MatrixXd columns = free_columns(fit.rows, taken);
+  const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
   const double left =
       (fit.rows.residuals - columns * pivoted_least_squares(columns, fit.rows.residuals)).squaredNorm();
   fit.deviance = left + 2.0 * fit.rows.log_variances;

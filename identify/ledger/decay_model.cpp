@@ -235,16 +235,6 @@ void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector
   }
 }
 
-/// Columns of the base parameters and of the terms taken.
-Eigen::MatrixXd free_decay_columns(const JointModel& model, const std::vector<std::size_t>& taken) {
-  const Eigen::Index base = model.base.cols();
-  Eigen::MatrixXd columns(model.base.rows(), base + static_cast<Eigen::Index>(taken.size()));
-  columns.leftCols(base) = model.base;
-  for (std::size_t j = 0; j < taken.size(); ++j)
-    columns.col(base + static_cast<Eigen::Index>(j)) = model.relaxed.col(static_cast<Eigen::Index>(taken[j]));
-  return columns;
-}
-
 /// The model linearised where the terms taken are fitted beside plain friction.
 JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const Decay& start,
                   const std::vector<std::size_t>& taken) {
@@ -252,14 +242,15 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
   JointModel model = linearised(setting, measured, at);
   constexpr int steps = 6;
   for (int i = 0; i < steps; ++i) {
-    const Eigen::VectorXd step = pivoted_least_squares(free_decay_columns(model, taken), model.residuals);
+    const Eigen::VectorXd step =
+        pivoted_least_squares(free_columns(model.base, model.relaxed, taken), model.residuals);
     Decay moved = at;
     move(setting, step, taken, moved);
     if (!step.allFinite() || !rows_of(setting, moved).allFinite()) break;
     at = moved;
     model = linearised(setting, measured, at);
   }
-  const Eigen::MatrixXd columns = free_decay_columns(model, taken);
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
   model.deviance += (model.residuals - columns * pivoted_least_squares(columns, model.residuals)).squaredNorm();
   model.constants = setting.constants;
   for (std::size_t j = 0; j < setting.terms.size(); ++j) {

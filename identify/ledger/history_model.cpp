@@ -144,11 +144,7 @@ class Histories {
 
   /// What base parameters and the relaxations taken leave.
   [[nodiscard]] static double squares_beside(const Linearised& rows, const Numbers& taken) {
-    const Eigen::Index base = rows.base.cols();
-    Eigen::MatrixXd columns(rows.base.rows(), base + static_cast<Eigen::Index>(taken.size()));
-    columns.leftCols(base) = rows.base;
-    for (std::size_t j = 0; j < taken.size(); ++j)
-      columns.col(base + static_cast<Eigen::Index>(j)) = rows.relaxed.col(static_cast<Eigen::Index>(taken[j]));
+    const Eigen::MatrixXd columns = free_columns(rows.base, rows.relaxed, taken);
     return (rows.residuals - columns * pivoted_least_squares(columns, rows.residuals)).squaredNorm();
   }
 

@@ -62,4 +62,8 @@ struct JointModel {
       left_out;  ///< parts of the record that are outside the tests' conditions, each a sentence
 };
 
+/// The columns of the base parameters and of the relaxations taken, these last.
+[[nodiscard]] Eigen::MatrixXd free_columns(const Eigen::MatrixXd& base, const Eigen::MatrixXd& relaxed,
+                                           const std::vector<std::size_t>& taken);
+
 }  // namespace dualdamp::identify

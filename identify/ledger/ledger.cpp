@@ -213,11 +213,7 @@ bool is_of_friction(Assumption assumption) {
 Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::string basis) {
   Estimate estimate;
   estimate.method = "joint_fit";
-  const Eigen::Index base = model.base.cols();
-  Eigen::MatrixXd columns(model.base.rows(), base + static_cast<Eigen::Index>(relaxed.size()));
-  columns.leftCols(base) = model.base;
-  for (std::size_t j = 0; j < relaxed.size(); ++j)
-    columns.col(base + static_cast<Eigen::Index>(j)) = model.relaxed.col(static_cast<Eigen::Index>(relaxed[j]));
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, relaxed);
   const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
   const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
   if (!covariance || freedom < 1.0) {

@@ -33,19 +33,9 @@ struct Projection {
   Eigen::VectorXd shared;
 };
 
-/// Columns side by side, the relaxations taken last.
-Eigen::MatrixXd beside_base(const Eigen::MatrixXd& base, const Eigen::MatrixXd& relaxed,
-                            const std::vector<std::size_t>& taken) {
-  Eigen::MatrixXd all(base.rows(), base.cols() + static_cast<Eigen::Index>(taken.size()));
-  all.leftCols(base.cols()) = base;
-  for (std::size_t j = 0; j < taken.size(); ++j)
-    all.col(base.cols() + static_cast<Eigen::Index>(j)) = relaxed.col(static_cast<Eigen::Index>(taken[j]));
-  return all;
-}
-
 Projection project(const JointModel& model, const std::vector<std::size_t>& taken) {
   const Eigen::Index own = model.base.cols();
-  const Eigen::MatrixXd base = beside_base(model.base, model.relaxed, taken);
+  const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
   const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve(model.relaxed);
@@ -74,7 +64,7 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   const Eigen::Index all = model.relaxed.cols();
   const Eigen::MatrixXd relaxed = model.shaken.rightCols(all) - model.relaxed;
   const Eigen::MatrixXd moved =
-      relaxed - beside_base(model.shaken.middleCols(1, own) - model.base, relaxed, taken) * solved;
+      relaxed - free_columns(model.shaken.middleCols(1, own) - model.base, relaxed, taken) * solved;
   const Eigen::VectorXd pushed = model.shaken.col(0) - model.residuals;
   const Eigen::VectorXd left = pushed - base * (scale.cwiseInverse().asDiagonal() * qr.solve(pushed));
   for (Eigen::Index j = 0; j < count; ++j)

@@ -275,7 +275,7 @@ class RadauStepper final : public Stepper {
   Vector state_;
   Vector middle_state_;  ///< where the Jacobian was taken
   Vector probed_;
-  Row speed_defect_{};  ///< f - u' at the radau_stages before the last correction
+  Row speed_defect_{};  ///< f - u' at the stages before the last correction
   std::vector<Complex> pair_;
   double factored_h_ = 0.0;
   Vector jacobian_;

@@ -18,7 +18,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// SlidingRows of the regression on {v, sgn v, 1}.
+/// Rows of the regression on {v, sgn v, 1}.
 struct SlidingRows {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target, displacement;
