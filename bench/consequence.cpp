@@ -1,11 +1,13 @@
 #include "bench/consequence.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::bench {
 
@@ -159,7 +161,7 @@ std::optional<Nearest> nearest(const MatchedResponse& response, const Eigen::Vec
   for (int i = 0; i < most_steps; ++i) {
     const std::optional<Eigen::MatrixX2d> slopes = response.slopes(p, data.size());
     if (!slopes) break;
-    Eigen::Vector2d step = slopes->colPivHouseholderQr().solve(data - *here);
+    Eigen::Vector2d step = identify::pivoted_least_squares(*slopes, data - *here);
     step = step.cwiseMax(-1.0).cwiseMin(1.0);
     const double before = (data - *here).squaredNorm();
     bool is_nearer = false;

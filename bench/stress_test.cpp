@@ -72,7 +72,7 @@ Section rig_keys() {
                "scenario")}};
 }
 
-Section keys() {
+Section stress_test_keys() {
   constexpr int max_seeds = 1'000'000;
   std::vector<Field> set = {text("name", "its name in the results").required()};
   for (Field& field : sensor_fields())
@@ -244,7 +244,7 @@ void check_samples(CheckedFile& file, const Json& analysis) {
                  most * number(set.at("sample_rate")) * period * set.value("average_cycles", 1));
 }
 
-void check(CheckedFile& file) {
+void check_stress_test(CheckedFile& file) {
   const Json& analysis = file.values().at("analysis");
   if (!file.has("analysis", "severities") || !file.has("analysis", "ranges")) return;
   check_truth(file);
@@ -341,7 +341,7 @@ StressTest stress_test_of(const CheckedValues& values) {
   return result;
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_stress_test(CheckedValues&& values) {
   return std::make_unique<StressTestQuestion>(stress_test_of(values));
 }
 
@@ -360,11 +360,11 @@ const Analysis& stress_test_analysis() {
   static const Analysis analysis = {
       .name = "stress_test",
       .summary = "how wrong each method is under friction that is not Coulomb + viscous, and whether it rejects",
-      .keys = keys(),
+      .keys = stress_test_keys(),
       .needs = {{"", {"base_harmonic"}, {"frequency"}, true, "the methods need the amplitude of the base"}},
       .results = score_fields(),
-      .check = check,
-      .ask = ask};
+      .check = check_stress_test,
+      .ask = ask_stress_test};
   return analysis;
 }
 

@@ -1,6 +1,6 @@
 #include "identify/fit/compromise.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +8,7 @@
 
 #include "core/constants.hpp"
 #include "identify/fit/problem.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "sim/parallel.hpp"
@@ -103,7 +104,7 @@ class Compromiser {
     const auto shared = static_cast<Eigen::Index>(known.parameters.size());
     whitening_.resize(0, size());
     if (shared == 0 || known.covariance.rows() != shared || !known.covariance.allFinite()) return;
-    const Eigen::MatrixXd inverse = problem_.slope(held_).topLeftCorner(shared, shared).inverse();
+    const Eigen::MatrixXd inverse = inverse_of(problem_.slope(held_).topLeftCorner(shared, shared));
     const Eigen::MatrixXd covariance = inverse * known.covariance * inverse.transpose();
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < shared; ++i)
@@ -118,14 +119,13 @@ class Compromiser {
       for (Eigen::Index b = 0; b < count; ++b)
         part(a, b) = covariance(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(b)]) /
                      (deviation(a) * deviation(b));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(part);
+    const SymmetricSpectrum spectrum = symmetric_spectrum(part);
     whitening_ = Eigen::MatrixXd::Zero(count, size());
     constexpr double rounding = 1e-10;
     for (Eigen::Index row = 0; row < count; ++row)
       for (Eigen::Index a = 0; a < count; ++a)
         whitening_(row, in[static_cast<std::size_t>(a)]) =
-            spectrum.eigenvectors()(a, row) / deviation(a) /
-            std::sqrt(std::max(spectrum.eigenvalues()[row], rounding));
+            spectrum.vectors(a, row) / deviation(a) / std::sqrt(std::max(spectrum.values[row], rounding));
   }
 
   [[nodiscard]] double squares(const Eigen::VectorXd& q, bool both) const {

@@ -7,7 +7,7 @@
 #include "identify/fit/starts.hpp"
 #include "identify/fit/tie.hpp"
 #include "identify/records/signals.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/engine/engine.hpp"

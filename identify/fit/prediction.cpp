@@ -1,6 +1,5 @@
 #include "identify/fit/prediction.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
@@ -63,7 +63,7 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
   if (!problem.derivatives(q, outputs, jacobian)) return 0.0;
-  jacobian = (jacobian * problem.slope(q).inverse()).eval();
+  jacobian = (jacobian * inverse_of(problem.slope(q))).eval();
   // The record's own state follows the rig's parameters: what it can follow is no error.
   Eigen::MatrixXd by_rig = jacobian.leftCols(shared);
   const Eigen::MatrixXd by_own = jacobian.rightCols(jacobian.cols() - shared);

@@ -1,7 +1,6 @@
 #include "identify/fit/serial_test.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "identify/record.hpp"
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
@@ -62,12 +62,11 @@ double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& b
     return 0.5 * std::erfc((2.0 - d) * std::sqrt(static_cast<double>(count)) / (2.0 * std::numbers::sqrt2));
   const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count) - base * base.transpose();
   const Eigen::MatrixXd differences = matrix_of_differences(count) - d * Eigen::MatrixXd::Identity(count, count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> covariance(left);
-  const Eigen::MatrixXd root = covariance.eigenvectors() *
-                               covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-                               covariance.eigenvectors().transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(root * differences * root);
-  return chance_below_zero(spectrum.eigenvalues());
+  const SymmetricSpectrum covariance = symmetric_spectrum(left);
+  const Eigen::MatrixXd root = covariance.vectors * covariance.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                               covariance.vectors.transpose();
+  const SymmetricSpectrum spectrum = symmetric_spectrum(root * differences * root);
+  return chance_below_zero(spectrum.values);
 }
 
 SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
@@ -78,10 +77,8 @@ SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights
   Eigen::MatrixXd columns = weights.asDiagonal() * jacobian;
   for (Eigen::Index j = 0; j < columns.cols(); ++j)
     if (const double norm = columns.col(j).norm(); norm > 0.0) columns.col(j) /= norm;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(columns);
   constexpr double rounding = 1e-7;
-  decomposition.setThreshold(rounding);
-  base_ = decomposition.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), decomposition.rank());
+  base_ = orthonormal_basis(columns, rounding);
 }
 
 double SerialTest::p_value(const SignalRows& rows) const {

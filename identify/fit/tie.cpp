@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "identify/records/signals.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/sampled_signal.hpp"
 

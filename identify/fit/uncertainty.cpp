@@ -1,7 +1,6 @@
 #include "identify/fit/uncertainty.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "identify/fit/profile.hpp"
 #include "identify/fit/residual_covariance.hpp"
 #include "identify/fit/trade_offs.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
@@ -44,7 +44,7 @@ class Uncertainty {
   void run() {
     const Eigen::MatrixXd slope = end_.problem.slope(end_.q);
     fit_.covariance = slope * covariance_ * slope.transpose();
-    fit_.slopes = end_.jacobian * slope.inverse();
+    fit_.slopes = end_.jacobian * inverse_of(slope);
     // The bound of a robust fit leaves less freedom than this; with histories there is plenty.
     const double freedom =
         all_stated_ ? infinity : std::max(1.0, fit_.log_likelihood_count - static_cast<double>(size_));
@@ -87,16 +87,16 @@ class Uncertainty {
     Eigen::MatrixXd scaled(rows_.rows(), free);
     for (Eigen::Index j = 0; j < free; ++j)
       scaled.col(j) = rows_.col(free_[static_cast<std::size_t>(j)]) * whole(free_[static_cast<std::size_t>(j)]);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
-    const double largest = normal.eigenvalues()[free - 1];
+    const SymmetricSpectrum normal = symmetric_spectrum(scaled.transpose() * scaled);
+    const double largest = normal.values[free - 1];
     constexpr double singular = 1e-12;  // of squares
     Eigen::VectorXd inverse(free);
     for (Eigen::Index j = 0; j < free; ++j) {
-      const double value = normal.eigenvalues()[j];
+      const double value = normal.values[j];
       inverse[j] = value > singular * largest ? 1.0 / value : 0.0;
-      if (inverse[j] == 0.0) lost_.push_back(expand(normal.eigenvectors().col(j)));
+      if (inverse[j] == 0.0) lost_.push_back(expand(normal.vectors.col(j)));
     }
-    const Eigen::MatrixXd bread = normal.eigenvectors() * inverse.asDiagonal() * normal.eigenvectors().transpose();
+    const Eigen::MatrixXd bread = normal.vectors * inverse.asDiagonal() * normal.vectors.transpose();
     Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(free, free);
     Eigen::MatrixXd plain = inner;
     for (std::size_t s = 0; s < variances_.size(); ++s) {
@@ -245,10 +245,10 @@ class Uncertainty {
     };
     for (const Eigen::VectorXd& direction : lost_) add(direction, infinity);
     if (free_.empty()) return;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(scaled_covariance_);
+    const SymmetricSpectrum spectrum = symmetric_spectrum(scaled_covariance_);
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {
-      const double deviation = std::sqrt(std::max(spectrum.eigenvalues()[j], 0.0));
-      if (quantile_ * deviation > 1.0) add(spectrum.eigenvectors().col(j), deviation);
+      const double deviation = std::sqrt(std::max(spectrum.values[j], 0.0));
+      if (quantile_ * deviation > 1.0) add(spectrum.vectors.col(j), deviation);
     }
   }
 

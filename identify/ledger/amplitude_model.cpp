@@ -11,7 +11,7 @@
 
 #include "identify/ledger/amplitude_terms.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "identify/methods/decays/free_decay.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

@@ -14,7 +14,7 @@
 #include "identify/ledger/history_terms.hpp"
 #include "identify/ledger/innovations.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

@@ -1,6 +1,5 @@
 #include "identify/ledger/history_rows.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,7 +8,7 @@
 #include "core/random.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/autoregression.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/noise_level.hpp"
 
 namespace dualdamp::identify {
@@ -39,9 +38,7 @@ namespace {
 Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left,
                                   const std::vector<Eigen::Index>& blocks, int most) {
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns * scale.cwiseInverse().asDiagonal());
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), std::min(qr.rank(), columns.rows()));
+  const Eigen::MatrixXd basis = orthonormal_basis(columns * scale.cwiseInverse().asDiagonal());
   const auto count = static_cast<double>(left.size());
   const double freedom = std::max(1.0, count - static_cast<double>(basis.cols()));
   const double variance = left.squaredNorm() / freedom;

@@ -13,9 +13,9 @@
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/history_model.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

@@ -12,7 +12,7 @@
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/joint_model.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 
 namespace dualdamp::identify {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/random.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
@@ -132,10 +133,9 @@ class Scores {
 /// The largest score of draws under the base model, ascending.
 std::vector<double> largest_scores(const JointModel& model, const Projection& projection, const Scores& scores) {
   constexpr std::size_t draws = 2000;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projection.unit);
-  const auto rank = std::min<Eigen::Index>(qr.rank(), static_cast<Eigen::Index>(projection.scale_freedom));
-  const Eigen::MatrixXd basis =
-      Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(projection.unit.rows(), rank));
+  const Eigen::MatrixXd whole = orthonormal_basis(projection.unit);
+  const auto rank = std::min<Eigen::Index>(whole.cols(), static_cast<Eigen::Index>(projection.scale_freedom));
+  const Eigen::MatrixXd basis = whole.leftCols(rank);
   const Eigen::MatrixXd directions = projection.unit.transpose() * basis;
   const double beside = std::max(0.0, projection.scale_freedom - static_cast<double>(rank));
   constexpr core::RandomStream stream{20261122, 1};

@@ -1,13 +1,13 @@
 #include "identify/statistics/correlated_regression.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "identify/statistics/autoregression.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 
@@ -76,13 +76,13 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   if (!(scale.minCoeff() > 0.0)) return std::nullopt;
   const Eigen::MatrixXd scaled = columns * scale.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd normal = scaled.transpose() * scaled;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(normal);
-  const double least = spectrum.eigenvalues()[0];
+  const SymmetricSpectrum spectrum = symmetric_spectrum(normal);
+  const double least = spectrum.values[0];
   constexpr double dependent = 1e-12;  // of squares: the columns agree to a millionth
   if (!(least > dependent)) return std::nullopt;
 
   CorrelatedFit fit;
-  fit.condition = std::sqrt(spectrum.eigenvalues()[count - 1] / least);
+  fit.condition = std::sqrt(spectrum.values[count - 1] / least);
   const Eigen::VectorXd solution = linear_least_squares(scaled, target);
   fit.coefficients = solution.cwiseQuotient(scale);
   fit.residuals = target - scaled * solution;
@@ -94,8 +94,8 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   for (std::size_t l = 1; l < rho.size(); ++l) inflation += 2.0 * weight(l, rho.size()) * rho[l];
   fit.independent = static_cast<double>(columns.rows()) / std::max(1.0, inflation);
 
-  const Eigen::MatrixXd inverse = spectrum.eigenvectors() * spectrum.eigenvalues().cwiseInverse().asDiagonal() *
-                                  spectrum.eigenvectors().transpose();
+  const Eigen::MatrixXd inverse =
+      spectrum.vectors * spectrum.values.cwiseInverse().asDiagonal() * spectrum.vectors.transpose();
   const Eigen::MatrixXd root = scale.cwiseInverse().asDiagonal() * inverse;
   fit.covariance = root * score_covariance(scaled, fit.residuals, parts, rho.size()) * root.transpose();
   // As least squares of independent errors has N - p in place of N.

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/cancellation.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 

@@ -17,7 +17,7 @@ namespace {
 
 using identify::Advice;
 
-Section keys() {
+Section design_keys() {
   std::vector<Field> fields = data_fields();
   std::ranges::move(measurement_fields(), std::back_inserter(fields));
   for (Field& field : method_option_fields()) {
@@ -29,14 +29,14 @@ Section keys() {
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
-std::vector<Needs> needs() {
+std::vector<Needs> design_needs() {
   const std::string base = "the states are those of a mass that its base drives";
   return {{"xy_curve", {"base_harmonic"}, {}, true, base},
           {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
           {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
 }
 
-void check(CheckedFile& file) {
+void check_design(CheckedFile& file) {
   check_measurement(file);
   read_data(file);
   if (const std::optional<identify::Record> record = outlined_record(file)) check_gains(file, *record);
@@ -48,7 +48,7 @@ void check(CheckedFile& file) {
   check_frequency(file, file.data->record);
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_design(CheckedValues&& values) {
   auto options =
       identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(method_options(values.analysis)));
   return std::make_unique<DesignQuestion>(record_question(std::move(values)), std::move(options));
@@ -76,7 +76,7 @@ Table candidate_table(const std::vector<Advice>& list) {
            real("power", [](const Advice& advice) { return advice.power; })}};
 }
 
-ResultFields fields() {
+ResultFields design_fields() {
   return {
       {"candidates[].measurement", "", "what could be measured next, the best first"},
       {"candidates[].cost", "1", "states to be measured, or releases"},
@@ -132,12 +132,12 @@ Answer DesignQuestion::run(const RunContext& context) const {
 const Analysis& design_analysis() {
   static const Analysis analysis = {.name = "design",
                                     .summary = "what to measure next, so that the ranges over friction laws narrow",
-                                    .keys = keys(),
-                                    .needs = needs(),
-                                    .results = fields(),
+                                    .keys = design_keys(),
+                                    .needs = design_needs(),
+                                    .results = design_fields(),
                                     .uses_uncertainties = true,
-                                    .check = check,
-                                    .ask = ask};
+                                    .check = check_design,
+                                    .ask = ask_design};
   return analysis;
 }
 

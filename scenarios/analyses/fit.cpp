@@ -25,7 +25,7 @@ Field law_list() {
       .items(1, 32);
 }
 
-Section keys() {
+Section fit_keys() {
   return {{data_list("data", "data files of the rig: pairs, responses, decays, histories, loops").required(),
            data_list("validate", "further data files, which the fitted rig has to predict"), law_list(),
            text("free",
@@ -93,7 +93,7 @@ sim::Model outlined_model(const CheckedFile& file) {
   return model;
 }
 
-void check(CheckedFile& file) {
+void check_fit(CheckedFile& file) {
   read_data_list(file, "data");
   read_data_list(file, "validate");
   const bool laws = file.has("analysis", "laws");
@@ -118,7 +118,7 @@ void check(CheckedFile& file) {
   for (SetupFault& fault : faults) file.complain("analysis." + fault.path, std::move(fault.message));
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   Setup setup =
       setup_of(values.analysis, values.system, values.model, values.initial_is_stated, values.files, faults);
@@ -209,13 +209,13 @@ const Analysis& fit_analysis() {
   static const Analysis analysis = {
       .name = "fit",
       .summary = "laws and constants of the rig fitted to measured records, and what they predict",
-      .keys = keys(),
+      .keys = fit_keys(),
       .needs = {{"", excitations().names(), {}, false, ""}},
       .results =
           joined(joined(fit_fields(), validation_fields("validation.")), {{"verdict", "", "of the validation"}}),
       .seeks_laws = true,
-      .check = check,
-      .ask = ask};
+      .check = check_fit,
+      .ask = ask_fit};
   return analysis;
 }
 

@@ -6,7 +6,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-Section keys() {
+Section formula_keys() {
   Choice forms{"name", {}};
   for (const FormulaEntry& entry : formulas())
     forms.variants.push_back({.name = std::string(entry.name),
@@ -18,7 +18,7 @@ Section keys() {
   return {{std::move(formula).required()}};
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_formula(CheckedValues&& values) {
   const Json& formula = values.analysis.at("formula");
   return std::make_unique<FormulaQuestion>(*find_formula(formula.at("name").get<std::string>()), formula);
 }
@@ -36,10 +36,10 @@ Answer FormulaQuestion::run(const RunContext& /*context*/) const {
 const Analysis& formula_analysis() {
   static const Analysis analysis = {.name = "formula",
                                     .summary = "a closed form of the paper",
-                                    .keys = keys(),
+                                    .keys = formula_keys(),
                                     .needs = {{"", {}, {}, false, ""}},
                                     .results = {},  // those of the chosen form
-                                    .ask = ask};
+                                    .ask = ask_formula};
   return analysis;
 }
 

@@ -8,14 +8,14 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-ResultFields fields() {
+ResultFields free_decay_fields() {
   return {{"peaks[].t", "s", "time of the extreme"},
           {"peaks[].x", "m", "its position, signed"},
           {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"},
           {"creeps", "", "fewer because the motion does not turn any more within 100 natural periods"}};
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {
   return std::make_unique<FreeDecayQuestion>(values.analysis.at("peaks").get<int>());
 }
 
@@ -45,10 +45,10 @@ const Analysis& free_decay_analysis() {
       .summary = "extremes of the free vibration from the initial state",
       .keys = {{peaks()}},
       .needs = {needs_of_free_vibrations("")},
-      .results = fields(),
+      .results = free_decay_fields(),
       .chart = {.table = "peaks", .list = "peaks", .x = "t", .y = "x", .x_label = "time t", .y_label = "extreme x"},
       .verifiable = true,
-      .ask = ask};
+      .ask = ask_free_decay};
   return analysis;
 }
 

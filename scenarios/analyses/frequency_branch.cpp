@@ -8,7 +8,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_frequency_branch(CheckedValues&& values) {
   const Json& range = values.analysis.at("frequencies");
   return std::make_unique<BranchQuestion>(sim::BranchParameter::frequency, number(range.at("from")),
                                           number(range.at("to")));
@@ -29,7 +29,7 @@ const Analysis& frequency_branch_analysis() {
                                               .x_label = "frequency",
                                               .y_label = "output amplitude x",
                                               .by = "stable"},
-                                    .ask = ask};
+                                    .ask = ask_frequency_branch};
   return analysis;
 }
 

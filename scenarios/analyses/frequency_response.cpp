@@ -8,7 +8,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_frequency_response(CheckedValues&& values) {
   return std::make_unique<FrequencyResponseQuestion>(grid_values(values.analysis.at("frequencies")),
                                                      stepping_of(values.analysis));
 }
@@ -40,7 +40,7 @@ const Analysis& frequency_response_analysis() {
       .steady_vibrations = true,
       .verifiable = true,
       .check = check_stepping,
-      .ask = ask,
+      .ask = ask_frequency_response,
       .length_of = number_of_points};
   return analysis;
 }

@@ -67,7 +67,7 @@ void check_gains(CheckedFile& file, const identify::Record& record) {
 
 namespace {
 
-Section keys() {
+Section identify_keys() {
   std::vector<Field> fields = data_fields();
   std::ranges::move(measurement_fields(), std::back_inserter(fields));
   fields.push_back(methods_key("all that fit the data"));
@@ -85,7 +85,7 @@ Section keys() {
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
-std::vector<Needs> needs() {
+std::vector<Needs> identify_needs() {
   const std::string base = "the methods need the amplitude of the base";
   return {{"xy_curve", {"base_harmonic"}, {}, true, base},
           {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
@@ -94,7 +94,7 @@ std::vector<Needs> needs() {
           {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
 }
 
-void check(CheckedFile& file) {
+void check_identify(CheckedFile& file) {
   check_measurement(file);
   read_data(file);
   const std::optional<identify::Record> record = outlined_record(file);
@@ -156,7 +156,7 @@ std::unique_ptr<const IdentifyQuestion> question_of(CheckedValues&& values, Iden
   return std::make_unique<IdentifyQuestion>(std::move(synthetic), std::move(methods));
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_identify(CheckedValues&& values) {
   const Json& section = values.analysis;
   IdentifyQuestion::Methods methods = {methods_of(section.at("methods")),
                                        constants_of(values.model),
@@ -167,7 +167,7 @@ std::unique_ptr<const Question> ask(CheckedValues&& values) {
   return question_of(std::move(values), std::move(methods));
 }
 
-std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view list) {
+std::optional<std::size_t> identify_length_of(const CheckedFile& file, std::string_view list) {
   if (list != "estimates" || !file.has("analysis", "methods")) return std::nullopt;
   return file.values().at("analysis").at("methods").size();
 }
@@ -265,8 +265,8 @@ const Analysis& identify_analysis() {
   static const Analysis analysis = {
       .name = "identify",
       .summary = "estimates by the identification methods from measured or simulated data",
-      .keys = keys(),
-      .needs = needs(),
+      .keys = identify_keys(),
+      .needs = identify_needs(),
       .results = joined(estimate_fields(), outlier_fields()),
       .main = {"answer.zeta", "answer.F0", "answer.c"},
       .chart = {.table = "",
@@ -279,9 +279,9 @@ const Analysis& identify_analysis() {
                 .kind = MainChart::Kind::points,
                 .x_otherwise = "number"},
       .uses_uncertainties = true,
-      .check = check,
-      .ask = ask,
-      .length_of = length_of};
+      .check = check_identify,
+      .ask = ask_identify,
+      .length_of = identify_length_of};
   return analysis;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_parameters = 100;
 
-Section keys() {
+Section predict_keys() {
   return {{data_list("data", "data files that the rig has to predict").required(),
            text("free",
                 "names of the numbers that were fitted, with commas: what the same laws can attain is found by "
@@ -55,7 +55,7 @@ Eigen::MatrixXd covariance_of(const Json& analysis, std::size_t count) {
   return covariance;
 }
 
-void check(CheckedFile& file) {
+void check_predict(CheckedFile& file) {
   read_data_list(file, "data");
   const bool whole = file.has("system", "mass") && file.has("system", "stiffness") && file.has("system", "damping");
   if (!whole)
@@ -63,7 +63,7 @@ void check(CheckedFile& file) {
                   "a prediction needs the whole rig: mass, stiffness, damping and the friction's numbers");
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   identify::Rig rig = rig_of(values.system, values.model);
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
@@ -101,11 +101,11 @@ const Analysis& predict_analysis() {
   static const Analysis analysis = {
       .name = "predict",
       .summary = "a fitted rig against records that were not fitted",
-      .keys = keys(),
+      .keys = predict_keys(),
       .needs = {{"", excitations().names(), {}, false, ""}},
       .results = joined(validation_fields("validation."), {{"verdict", "", "what that means"}}),
-      .check = check,
-      .ask = ask};
+      .check = check_predict,
+      .ask = ask_predict};
   return analysis;
 }
 

@@ -18,14 +18,14 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-Section keys() {
+Section regime_map_keys() {
   return {{frequencies(), amplitudes(),
            boolean("sticking_boundary",
                    "also find, at each frequency, the smallest amplitude whose steady state never sticks")
                .with_fallback(false)}};
 }
 
-ResultFields fields() {
+ResultFields regime_map_fields() {
   return joined(
       {{"points[].omega", "rad/s", "forcing frequency"},
        {"points[].Y", "m or N", "input amplitude"},
@@ -53,7 +53,7 @@ ResultFields fields() {
       certificate_fields());
 }
 
-void check(CheckedFile& file) {
+void check_regime_map(CheckedFile& file) {
   const auto count = number_of_points(file, "points");
   if (count && static_cast<double>(*count) > max_points)
     file.complain("analysis.type", "the map has too many points",
@@ -61,14 +61,14 @@ void check(CheckedFile& file) {
                   std::to_string(*count));
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_regime_map(CheckedValues&& values) {
   const Json& section = values.analysis;
   return std::make_unique<RegimeMapQuestion>(grid_values(section.at("frequencies")),
                                              grid_values(section.at("amplitudes")),
                                              section.at("sticking_boundary").get<bool>());
 }
 
-std::optional<std::size_t> length_of(const CheckedFile& file, std::string_view list) {
+std::optional<std::size_t> regime_map_length_of(const CheckedFile& file, std::string_view list) {
   if (list == "boundary" && file.has("analysis", "frequencies"))
     return grid_size(file.values().at("analysis").at("frequencies"));
   return number_of_points(file, list);
@@ -237,9 +237,9 @@ const Analysis& regime_map_analysis() {
   static const Analysis analysis = {
       .name = "regime_map",
       .summary = "output amplitude, stops and sticks over frequency and input amplitude",
-      .keys = keys(),
+      .keys = regime_map_keys(),
       .needs = needs_of_steady_states({}),
-      .results = fields(),
+      .results = regime_map_fields(),
       .chart = {.table = "map",
                 .list = "points",
                 .x = "omega",
@@ -250,9 +250,9 @@ const Analysis& regime_map_analysis() {
                 .kind = MainChart::Kind::cells},
       .steady_vibrations = true,
       .verifiable = true,
-      .check = check,
-      .ask = ask,
-      .length_of = length_of};
+      .check = check_regime_map,
+      .ask = ask_regime_map,
+      .length_of = regime_map_length_of};
   return analysis;
 }
 

@@ -25,7 +25,7 @@ Section measured_keys() {
   return {std::move(fields)};
 }
 
-Section keys() {
+Section simulate_keys() {
   return {{quantity("duration", {"s"}, "time to simulate").above(0),
            quantity("cycles", {"1"}, "time to simulate, in forcing periods").above(0).at_most(max_periods),
            quantity("sample_rate", {"1/s"}, "rows of history.csv in a second; without it the file is not written")
@@ -36,7 +36,7 @@ Section keys() {
           {{{"duration", "cycles"}, true}}};
 }
 
-ResultFields fields() {
+ResultFields simulate_fields() {
   return joined(
       {{"events[].t", "s", "time"},
        {"events[].kind", "", "reversal, stop, release, grazing, switching"},
@@ -52,7 +52,7 @@ ResultFields fields() {
       joined(energy_fields(), certificate_fields()));
 }
 
-void check(CheckedFile& file) {
+void check_simulate(CheckedFile& file) {
   check_work(file, file.values().at("analysis"), "analysis",
              {"analysis.sample_rate", file.number_at("analysis", "sample_rate")});
   if (!file.has("analysis", "measured")) return;
@@ -74,7 +74,7 @@ MeasuredMotion measured_motion(CheckedValues& values) {
           number_or(values.analysis.at("measured"), "noise", 0.0)};
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_simulate(CheckedValues&& values) {
   return std::make_unique<SimulateQuestion>(duration_of(values.analysis, values.model.excitation.frequency),
                                             number_or(values.analysis, "sample_rate", 0.0),
                                             measured_motion(values));
@@ -137,7 +137,7 @@ Answer SimulateQuestion::run(const RunContext& context) const {
   options.duration = duration_;
   options.sample_rate = sample_rate_;
   options.times = measured_.times;
-  constexpr long max_events = 1'000'000;  // each is an item of the result
+  constexpr long max_events = 3'000'000;  // each is an item of the result; some 450 MB of memory
   options.max_events = max_events;
   const sim::History history = sim::simulate(context.model, options);
   if (!history.outcome.ok()) return failed(history.outcome.reason);
@@ -156,9 +156,9 @@ Answer SimulateQuestion::run(const RunContext& context) const {
 const Analysis& simulate_analysis() {
   static const Analysis analysis = {.name = "simulate",
                                     .summary = "the motion from its initial state",
-                                    .keys = keys(),
+                                    .keys = simulate_keys(),
                                     .needs = {{"", excitations().names(), {"amplitude", "frequency"}, true, ""}},
-                                    .results = fields(),
+                                    .results = simulate_fields(),
                                     .main = {"final.x", "final.v", "energy.friction"},
                                     .chart = {.table = "history",
                                               .list = "",
@@ -168,8 +168,8 @@ const Analysis& simulate_analysis() {
                                               .y_label = "displacement",
                                               .further = "y"},
                                     .verifiable = true,
-                                    .check = check,
-                                    .ask = ask};
+                                    .check = check_simulate,
+                                    .ask = ask_simulate};
   return analysis;
 }
 

@@ -12,7 +12,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-ResultFields fields() {
+ResultFields steady_state_fields() {
   return joined({{"peak", "m", "max x"},
                  {"trough", "m", "min x"},
                  {"amplitude", "m", "(peak - trough)/2"},
@@ -32,7 +32,9 @@ ResultFields fields() {
                 joined(energy_fields(), certificate_fields()));
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& /*values*/) { return std::make_unique<SteadyStateQuestion>(); }
+std::unique_ptr<const Question> ask_steady_state(CheckedValues&& /*values*/) {
+  return std::make_unique<SteadyStateQuestion>();
+}
 
 /// Of a period, for plots: as many in each of its forcing periods, so that orbits that begin with different ones
 /// can be compared.
@@ -108,7 +110,7 @@ const Analysis& steady_state_analysis() {
                                     .summary = "the periodic motion approached from the initial state",
                                     .keys = {},
                                     .needs = needs_of_steady_states({"amplitude", "frequency"}),
-                                    .results = fields(),
+                                    .results = steady_state_fields(),
                                     .main = {"amplitude", "phase", "max_speed"},
                                     .chart = {.table = "orbit",
                                               .list = "",
@@ -119,7 +121,7 @@ const Analysis& steady_state_analysis() {
                                               .further = "y"},
                                     .steady_vibrations = true,
                                     .verifiable = true,
-                                    .ask = ask};
+                                    .ask = ask_steady_state};
   return analysis;
 }
 

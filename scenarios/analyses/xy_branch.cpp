@@ -8,7 +8,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_xy_branch(CheckedValues&& values) {
   const Json& range = values.analysis.at("amplitudes");
   return std::make_unique<BranchQuestion>(sim::BranchParameter::amplitude, number(range.at("from")),
                                           number(range.at("to")));
@@ -30,7 +30,7 @@ const Analysis& xy_branch_analysis() {
                 .x_label = "input amplitude Y",
                 .y_label = "output amplitude x",
                 .by = "stable"},
-      .ask = ask};
+      .ask = ask_xy_branch};
   return analysis;
 }
 

@@ -8,7 +8,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_xy_curve(CheckedValues&& values) {
   return std::make_unique<XyCurveQuestion>(grid_values(values.analysis.at("amplitudes")),
                                            stepping_of(values.analysis));
 }
@@ -39,7 +39,7 @@ const Analysis& xy_curve_analysis() {
                                     .steady_vibrations = true,
                                     .verifiable = true,
                                     .check = check_stepping,
-                                    .ask = ask,
+                                    .ask = ask_xy_curve,
                                     .length_of = number_of_points};
   return analysis;
 }

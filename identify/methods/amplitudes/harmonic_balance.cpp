@@ -8,9 +8,9 @@
 
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

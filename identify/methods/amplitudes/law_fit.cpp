@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/least_squares.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
 
 namespace dualdamp::identify {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "identify/statistics/linear_least_squares.hpp"
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 

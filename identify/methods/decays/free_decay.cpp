@@ -13,8 +13,8 @@
 
 #include "core/numbers.hpp"
 #include "identify/methods/decays/extremes.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
-#include "identify/statistics/linear_least_squares.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/statistics.hpp"
 
