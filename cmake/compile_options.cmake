@@ -43,7 +43,7 @@ target_compile_options(dualdamp_options INTERFACE
 # What reads, writes and tests computes little: in daily work its time is the compiler's, which -O1 costs a third less.
 add_library(dualdamp_brief_options INTERFACE)
 target_compile_options(dualdamp_brief_options INTERFACE $<$<CONFIG:RelWithDebInfo>:-O1>)
-set(DUALDAMP_BRIEF_FOLDERS scenarios bench identify)
+set(DUALDAMP_BRIEF_FOLDERS scenarios bench)
 
 # The engine's loops cross folders: where speed counts, these are optimised at link time, and no others, so that
 # linking stays quick. Fat objects keep the installed libraries usable by other compilers. Their loops run over three
