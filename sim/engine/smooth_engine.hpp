@@ -140,6 +140,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] Eigen::RowVectorXd guard_gradient(std::size_t watch, double t, double& by_time) const;
   void carry_to_event(std::size_t watch);
   void carry_from_event();
+  void carry_through_changes();
   [[nodiscard]] std::vector<double> sizes_of(std::size_t law, const friction::Memory& memory) const;
   [[nodiscard]] Eigen::VectorXd through(const Change& change, Eigen::Index column,
                                         const Eigen::VectorXd& states) const;
@@ -174,6 +175,7 @@ class SmoothEngine final : public Engine {
   Eigen::MatrixXd columns_;
   std::vector<Change> changes_;
   Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
+  Eigen::RowVectorXd mode_lead_;  ///< the part of it by which a law's mode change is late; empty: none is
   bool follows_event_ = false;
   std::unique_ptr<Variation> variation_;
   std::size_t variation_size_ = 0;

@@ -51,6 +51,7 @@ void SmoothEngine::reset_sensitivity() {
   // A mass that sticks stops again at once, over a distance of second order.
   if (direction_ == friction::Direction::none) columns_.row(1).setZero();
   lead_ = Eigen::RowVectorXd::Zero(n);
+  mode_lead_.resize(0);
   changes_.clear();
 }
 
@@ -134,6 +135,9 @@ Eigen::RowVectorXd SmoothEngine::guard_gradient(std::size_t watch, double t, dou
 
 /// To the crossing at end_, on the motion before it. A lead is one along the motion and not in time: it brings the
 /// crossing no nearer as far as the guard changes with time alone.
+///
+/// The delay of a law's mode change is taken back behind it. Where forces hardly change there it is long, and the
+/// variational equation would have to tell the perturbation as a small difference of it and of what it leads to.
 void SmoothEngine::carry_to_event(std::size_t watch) {
   const double t = local_time_ + taken_;
   const double rate = guard_rate(watch, end_, t, taken_ > 0.0 ? taken_ : longest_step());
@@ -145,6 +149,7 @@ void SmoothEngine::carry_to_event(std::size_t watch) {
   flow_.evaluate(end_, t, rates_);
   columns_ += as_vector(rates_) * ahead;
   lead_ -= ahead;
+  if (is<LawGuard>(watches_[watch].ending)) mode_lead_ = -ahead;
 }
 
 /// Sizes of a law's states, as `Flow` has them.
@@ -189,8 +194,17 @@ Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
   return (as_vector(above) - as_vector(below)) / (2.0 * step);
 }
 
-/// Through the mode changes. The motion after them begins with the same lead.
+/// To the motion behind the event.
 void SmoothEngine::carry_from_event() {
+  carry_through_changes();
+  if (mode_lead_.size() == 0) return;
+  columns_ += rates_now() * mode_lead_;
+  lead_ -= mode_lead_;
+  mode_lead_.resize(0);
+}
+
+/// The motion after the mode changes begins with the same lead.
+void SmoothEngine::carry_through_changes() {
   if (changes_.empty()) return;
   Eigen::Index rows = 2;
   for (const friction::Memory& memory : memories_) rows += static_cast<Eigen::Index>(memory.state.size());
