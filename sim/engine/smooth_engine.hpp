@@ -75,6 +75,11 @@ class SmoothEngine final : public Engine {
     friction::Trigger trigger;
     friction::Direction direction;
   };
+  /// By how much columns_ and lead_ have a law's mode change early.
+  struct ModeLead {
+    Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
+    Eigen::VectorXd rates_before;
+  };
 
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
   void settle() override;
@@ -174,8 +179,8 @@ class SmoothEngine final : public Engine {
 
   Eigen::MatrixXd columns_;
   std::vector<Change> changes_;
-  Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
-  Eigen::RowVectorXd mode_lead_;  ///< the part of it by which a law's mode change is late; empty: none is
+  Eigen::RowVectorXd lead_;       ///< of each column: the time by which its motion is ahead, beside columns_ [s]
+  ModeLead mode_lead_;
   bool follows_event_ = false;
   std::unique_ptr<Variation> variation_;
   std::size_t variation_size_ = 0;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "friction_models/state_sizes.hpp"
@@ -35,10 +36,13 @@ constexpr double near_stop = 1e-3;
 /// Part of the shortest period over which the field's change with time is a difference.
 constexpr double part_for_rate = 1e-6;
 
+/// Rates that differ by less than this part are the same before and after a mode change.
+constexpr double same_rates = 1e-2;
+
 /// Operations of LU factors in a unit of work.
 constexpr long operations_in_unit = 4000;
 
-Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
+Eigen::Map<const Eigen::VectorXd> as_vector(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
@@ -51,7 +55,7 @@ void SmoothEngine::reset_sensitivity() {
   // A mass that sticks stops again at once, over a distance of second order.
   if (direction_ == friction::Direction::none) columns_.row(1).setZero();
   lead_ = Eigen::RowVectorXd::Zero(n);
-  mode_lead_.resize(0);
+  mode_lead_ = {};
   changes_.clear();
 }
 
@@ -135,9 +139,6 @@ Eigen::RowVectorXd SmoothEngine::guard_gradient(std::size_t watch, double t, dou
 
 /// To the crossing at end_, on the motion before it. A lead is one along the motion and not in time: it brings the
 /// crossing no nearer as far as the guard changes with time alone.
-///
-/// The delay of a law's mode change is taken back behind it. Where forces hardly change there it is long, and the
-/// variational equation would have to tell the perturbation as a small difference of it and of what it leads to.
 void SmoothEngine::carry_to_event(std::size_t watch) {
   const double t = local_time_ + taken_;
   const double rate = guard_rate(watch, end_, t, taken_ > 0.0 ? taken_ : longest_step());
@@ -149,7 +150,7 @@ void SmoothEngine::carry_to_event(std::size_t watch) {
   flow_.evaluate(end_, t, rates_);
   columns_ += as_vector(rates_) * ahead;
   lead_ -= ahead;
-  if (is<LawGuard>(watches_[watch].ending)) mode_lead_ = -ahead;
+  if (is<LawGuard>(watches_[watch].ending)) mode_lead_ = {-ahead, as_vector(rates_)};
 }
 
 /// Sizes of a law's states, as `Flow` has them.
@@ -194,13 +195,20 @@ Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
   return (as_vector(above) - as_vector(below)) / (2.0 * step);
 }
 
-/// To the motion behind the event.
+/// To the motion behind the event. The delay of a mode change is taken back where it leaves the rates as they are:
+/// it may be long, and the variational equation would have to tell the perturbation as a small difference of the
+/// delay and of what the columns make of it.
 void SmoothEngine::carry_from_event() {
   carry_through_changes();
-  if (mode_lead_.size() == 0) return;
-  columns_ += rates_now() * mode_lead_;
-  lead_ -= mode_lead_;
-  mode_lead_.resize(0);
+  const ModeLead late = std::exchange(mode_lead_, {});
+  if (late.time.size() == 0) return;
+  const Eigen::VectorXd rates = rates_now();
+  if (rates.size() != late.rates_before.size()) return;
+  const auto sizes = as_vector(flow_.scales()).array();
+  const double change = ((rates - late.rates_before).array() / sizes).abs().maxCoeff();
+  if (!(change < same_rates * (late.rates_before.array() / sizes).abs().maxCoeff())) return;
+  columns_ += rates * late.time;
+  lead_ -= late.time;
 }
 
 /// The motion after the mode changes begins with the same lead.

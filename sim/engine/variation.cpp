@@ -17,9 +17,9 @@ using Vector = std::vector<double>;
 /// J varies smoothly over a part of a step if h J is told by a cubic to this, relative to the rates of both
 /// components; the error of a column is then far below.
 constexpr double told_by_cubic = 1e-4;
-/// An eigenvalue z of h J is followed to 3e-9 up to this |z|; at 3.5 to 4e-4.
+/// A perturbation that turns by this angle [rad] within a part is followed to 3e-9; one by 3.5 to 4e-4.
 constexpr double followed = 1.0;
-/// With a real part below that nothing is left of a perturbation behind the part: it is not followed.
+/// With a real part of h times the eigenvalue below that nothing is left of it behind the part: it is not followed.
 constexpr double died_out = -20.0;
 /// The shortest part of a step.
 constexpr int most_halvings = 20;
@@ -60,7 +60,7 @@ class RadauVariation final : public Variation {
   void pass_part(const VectorField& field, const TakenStep& step, Part part, std::span<double> columns,
                  std::span<double> late, int halvings) {
     linearise(field, step, part);
-    if (halvings > 0 && (hides_change(step.sizes) || hides_mode(step.sizes))) {
+    if (halvings > 0 && (hides_change(step.sizes) || hides_turn(step.sizes))) {
       const double half = 0.5 * part.length;
       pass_part(field, step, {part.from, half}, columns, late, halvings - 1);
       pass_part(field, step, {part.from + half, half}, columns, late, halvings - 1);
@@ -116,13 +116,13 @@ class RadauVariation final : public Variation {
     return false;
   }
 
-  /// Whether a perturbation turns or decays within the part faster than five stages tell. The motion need not: an
-  /// attached mass that has come to rest, a bristle in its balance.
-  [[nodiscard]] bool hides_mode(std::span<const double> sizes) const {
+  /// Whether a perturbation turns within the part faster than five stages tell. The motion need not: an attached
+  /// mass that has come to rest, a bristle in its balance.
+  [[nodiscard]] bool hides_turn(std::span<const double> sizes) const {
     for (std::size_t i = 0; i < radau_stages; ++i) {
       if (!(largest_cycle(i) > followed)) continue;
       for (const std::complex<double>& z : eigenvalues(i, sizes))
-        if (std::abs(z) > followed && z.real() > died_out) return true;
+        if (std::abs(z.imag()) > followed && z.real() > died_out) return true;
     }
     return false;
   }
@@ -142,11 +142,13 @@ class RadauVariation final : public Variation {
   /// Of h J_i, each component in its own size.
   [[nodiscard]] Eigen::VectorXcd eigenvalues(std::size_t i, std::span<const double> sizes) const {
     const auto n = static_cast<Eigen::Index>(n_());
-    return Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index row, Eigen::Index column) {
-             const auto j = static_cast<std::size_t>(row);
-             const auto k = static_cast<std::size_t>(column);
-             return jacobian(i, j, k) * sizes[k] / sizes[j];
-           }).eigenvalues();
+    return Eigen::MatrixXd::NullaryExpr(n, n,
+                                        [&](Eigen::Index row, Eigen::Index column) {
+                                          const auto j = static_cast<std::size_t>(row);
+                                          const auto k = static_cast<std::size_t>(column);
+                                          return jacobian(i, j, k) * sizes[k] / sizes[j];
+                                        })
+        .eigenvalues();
   }
 
   /// Of the equations of all stages.
