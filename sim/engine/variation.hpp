@@ -9,10 +9,12 @@
 ///
 /// A step that the motion takes lightly may hide a place where J alone changes sharply, as at v = 0 under a level
 /// that falls within a small part of the speed: such a step is passed in parts, halved until a cubic through the
-/// other stages tells J in each of them.
+/// other stages tells J in each of them. So is one in which a perturbation turns by more than 1 rad, where the
+/// motion does not turn with it.
 ///
 /// Errors: order 9 in the part; J is as exact as the field gives it. Cost of a part: five Jacobians, ten
-/// evaluations of the field, LU factors of five times as many rows as the state has.
+/// evaluations of the field, LU factors of five times as many rows as the state has; eigenvalues of J where
+/// components act on each other within the part.
 
 #include <memory>
 #include <span>
