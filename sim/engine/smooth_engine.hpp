@@ -179,7 +179,7 @@ class SmoothEngine final : public Engine {
 
   Eigen::MatrixXd columns_;
   std::vector<Change> changes_;
-  Eigen::RowVectorXd lead_;       ///< of each column: the time by which its motion is ahead, beside columns_ [s]
+  Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
   ModeLead mode_lead_;
   bool follows_event_ = false;
   std::unique_ptr<Variation> variation_;
