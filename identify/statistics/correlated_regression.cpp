@@ -28,8 +28,8 @@ double product_at(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index l
   return sum;
 }
 
-/// The same at lags 0 ... most by Fourier's transform: a residual that lasts is alike over thousands of samples, and
-/// sums lag by lag would take the square of the number of samples.
+/// The same at lags 0 ... most by Fourier's transform: a residual that lasts is alike over thousands of samples,
+/// and sums lag by lag would take the square of the number of samples.
 std::vector<double> products_up_to(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index most) {
   std::vector<double> products(static_cast<std::size_t>(most) + 1, 0.0);
   Eigen::FFT<double> transform;
@@ -53,7 +53,9 @@ std::size_t lags_of(const Eigen::VectorXd& r, const Ranges& blocks) {
   if (!(variance > 0.0)) return 1;
   const double chance = 2.0 / std::sqrt(static_cast<double>(r.size())) * variance;
   const Eigen::Index longest = r.size() / 10;
-  const auto twice = [longest](Eigen::Index lag) { return static_cast<std::size_t>(std::min(longest, 2 * lag)) + 1; };
+  const auto twice = [longest](Eigen::Index lag) {
+    return static_cast<std::size_t>(std::min(longest, 2 * lag)) + 1;
+  };
   constexpr Eigen::Index few = 32;
   for (Eigen::Index lag = 1; lag <= std::min(few, longest); ++lag)
     if (product_at(r, blocks, lag) < chance) return twice(lag);

@@ -62,7 +62,8 @@ void tell(const LawIntervals& laws, bool stated, Estimate& estimate) {
   const auto bounded = std::ranges::count_if(laws.laws, [stated](const LawAnswer& law) {
     constexpr double near = 0.99;
     // A law that is rejected at the user's bound might hold beyond it.
-    return (stated || !law.rejected) && std::abs(law.severity) > near * std::abs(law.largest) && law.severity != 0.0;
+    return (stated || !law.rejected) && std::abs(law.severity) > near * std::abs(law.largest) &&
+           law.severity != 0.0;
   });
   if (bounded > 0)
     estimate.warnings.push_back(std::to_string(bounded) + (bounded == 1 ? " law fits" : " laws fit") +

@@ -4,9 +4,10 @@
 /// Steady states, with or without phases, or the extremes of a free vibration are fitted under every law of the
 /// library, each over its severity (law_intervals.hpp). The 95 % interval of the estimate is the hull; its value is
 /// the mean of the average over laws, moved into the hull where it lies outside. What remains assumed: one law of
-/// the library, or one that acts on the readings like it, its severity below `largest_severity` where that is stated; that the
-/// sensors are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty: estimated from what a
-/// smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`. Cost: seconds.
+/// the library, or one that acts on the readings like it, its severity below `largest_severity` where that is
+/// stated; that the sensors are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty:
+/// estimated from what a smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`.
+/// Cost: seconds.
 
 #include <string>
 #include <vector>

@@ -117,8 +117,8 @@ const std::vector<rigs::Rig>& all_laws() {
 LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
   LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit, law.furthest)};
   if (!law.both_signs) return all;
-  std::vector<SeverityFit> negative = law_profile(model, *law.departure, -law.largest, plain.noise,
-                                                  plain.fit, law.furthest_below);
+  std::vector<SeverityFit> negative =
+      law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit, law.furthest_below);
   std::ranges::reverse(negative);
   negative.pop_back();
   all.fits.insert(all.fits.begin(), negative.begin(), negative.end());
@@ -138,8 +138,12 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
   for (const rigs::Rig& departure : all_laws()) {
     if (names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
-    LibraryLaw law{&departure, std::min(options.largest_severity, departure.largest), 0.0, 0.0,
-                   options.severity_deviation, names(two_sided, departure.name)};
+    LibraryLaw law{&departure,
+                   std::min(options.largest_severity, departure.largest),
+                   0.0,
+                   0.0,
+                   options.severity_deviation,
+                   names(two_sided, departure.name)};
     // Where the readings tell of spring and frequency these are free under every law.
     const bool of_spring = departure.name == "detuning" || departure.name == "cubic_spring";
     if (of_spring && !model.nuisances().empty()) continue;

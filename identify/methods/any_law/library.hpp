@@ -12,7 +12,7 @@ namespace dualdamp::identify {
 
 struct LawIntervalOptions {
   double largest_severity = 0.3;
-  bool further = true;  ///< whether a law that fits best there is followed beyond it
+  bool further = true;              ///< whether a law that fits best there is followed beyond it
   double severity_deviation = 0.1;  ///< of the prior of a severity, about zero
   /// Of what a departure does to the readings: the share that laws like it leave, as a standard deviation.
   double law_error = 0.25;

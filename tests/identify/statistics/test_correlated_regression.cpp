@@ -28,7 +28,8 @@ Sample sample_of(Index count, double lasting) {
   for (Index i = 0; i < count; ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(count);
     sample.columns.row(i) << std::sin(0.3 * static_cast<double>(i)), t;
-    sample.target[i] = 2.0 * sample.columns(i, 0) + t + lasting * (1.0 + std::cos(2.0 * t)) + 0.1 * noise.normal(static_cast<std::uint64_t>(i));
+    sample.target[i] = 2.0 * sample.columns(i, 0) + t + lasting * (1.0 + std::cos(2.0 * t)) +
+                       0.1 * noise.normal(static_cast<std::uint64_t>(i));
   }
   return sample;
 }

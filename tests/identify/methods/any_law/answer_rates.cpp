@@ -85,8 +85,8 @@ void print_answers(const identify::rigs::Rig& departure, int records, std::uint6
     constexpr double much = 0.05;
     far += std::max(zeta, F0) > much ? 1 : 0;
     if (zeta > 0.0 || F0 > 0.0)
-      misses += "  seed " + std::to_string(seed) + " misses zeta by " + std::to_string(100.0 * zeta) + " %, F0 by " +
-                std::to_string(100.0 * F0) + " %: " + all.verdict + "\n";
+      misses += "  seed " + std::to_string(seed) + " misses zeta by " + std::to_string(100.0 * zeta) +
+                " %, F0 by " + std::to_string(100.0 * F0) + " %: " + all.verdict + "\n";
   }
   std::printf("answers/%-26s severity %.2g n %d | hold zeta %d, F0 %d, miss by over 5 %% %d | by",
               std::string(departure.name).c_str(), severity, played, held[0], held[1], far);

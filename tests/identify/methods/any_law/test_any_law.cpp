@@ -116,7 +116,8 @@ TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull hol
   CHECK(std::abs(law_of(bounded, "contact_compliance").severity) <= 0.02);
 }
 
-TEST_CASE("any_law: a law that fits best at the expected severity is followed on, and the hull holds a strong drag") {
+TEST_CASE(
+    "any_law: a law that fits best at the expected severity is followed on, and the hull holds a strong drag") {
   for (const bool phases : {false, true}) {
     Normal normal(12);
     // Twice the force of the damper at the reference speed.
@@ -127,7 +128,8 @@ TEST_CASE("any_law: a law that fits best at the expected severity is followed on
     CHECK(law_of(estimate, "coulomb_viscous").rejected);
     const LawAnswer& drag = law_of(estimate, "film_beside_damper");
     CHECK_FALSE(drag.rejected);
-    CHECK(drag.severity == Approx(-2.0).margin(1.0));
+    // Of the speeds that the record has, half of the reference's.
+    CHECK(drag.severity == Approx(-1.0).margin(0.4));
     CHECK(std::abs(drag.largest) > std::abs(drag.severity));
     CHECK(holds(estimate.laws->zeta_hull, zeta));
     CHECK(holds(estimate.laws->F0_hull, F0));
