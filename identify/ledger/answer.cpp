@@ -170,7 +170,8 @@ std::string why_preferred(const Identification& all) {
 /// Why no estimate is used though there are some: every departure, and what would help with each.
 std::string why_contradicted(const Ledger& ledger) {
   std::vector<std::string> held;
-  for (const std::vector<Assumption>& departure : ledger.departures) held.push_back(statements(departure, ", or that "));
+  for (const std::vector<Assumption>& departure : ledger.departures)
+    held.push_back(statements(departure, ", or that "));
   return "it does not hold that " + core::joined(held, "; nor that ") +
          "; what would help: " + what_would_help(ledger);
 }
