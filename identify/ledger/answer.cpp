@@ -112,24 +112,6 @@ std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
   return names;
 }
 
-std::string why_preferred(const Identification& all) {
-  const auto rivals =
-      std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
-  std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
-                                             : "none of the assumptions it rests on is violated";
-  const auto usable = std::ranges::count_if(all.estimates, &Estimate::usable);
-  if (rivals == 0 && usable > 1)
-    text += ", and " + std::to_string(usable) +
-            " methods agree; the record has no more readings than parameters, so there is no interval";
-  if (rivals > 1 && all.estimates[*all.answer].method == "joint_fit")
-    text += ", and it has all data; a narrower interval beside it is narrower by chance";
-  else if (rivals > 1)
-    text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
-  const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
-  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
-  return text;
-}
-
 /// What to measure or state so that an assumption can be done without.
 std::string what_would_help(Assumption assumption) {
   using enum Assumption;
@@ -155,17 +137,43 @@ std::string what_would_help(Assumption assumption) {
   return "more data, or less noise";
 }
 
-/// Why no estimate is used though there are some: every departure, and what would help with each.
-std::string why_contradicted(const Ledger& ledger) {
-  std::vector<std::string> held;
+/// The same of every departure that was found.
+std::string what_would_help(const Ledger& ledger) {
   std::vector<std::string> helps;
   for (const std::vector<Assumption>& departure : ledger.departures) {
-    held.push_back(statements(departure, ", or that "));
     std::string help = what_would_help(departure.front());
     if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
   }
+  return core::joined(helps, "; and ");
+}
+
+std::string why_preferred(const Identification& all) {
+  const auto rivals =
+      std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
+  std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
+                                             : "none of the assumptions it rests on is violated";
+  const auto usable = std::ranges::count_if(all.estimates, &Estimate::usable);
+  if (rivals == 0 && usable > 1)
+    text += ", and " + std::to_string(usable) +
+            " methods agree; the record has no more readings than parameters, so there is no interval";
+  if (rivals > 1 && all.estimates[*all.answer].method == "joint_fit")
+    text += ", and it has all data; a narrower interval beside it is narrower by chance";
+  else if (rivals > 1)
+    text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
+  const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
+  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
+  if (all.estimates[*all.answer].laws && !all.ledger.departures.empty())
+    text += "; it is a range over laws, and what would narrow it: " + what_would_help(all.ledger);
+  return text;
+}
+
+/// Why no estimate is used though there are some: every departure, and what would help with each.
+std::string why_contradicted(const Ledger& ledger) {
+  std::vector<std::string> held;
+  for (const std::vector<Assumption>& departure : ledger.departures)
+    held.push_back(statements(departure, ", or that "));
   return "it does not hold that " + core::joined(held, "; nor that ") +
-         "; what would help: " + core::joined(helps, "; and ");
+         "; what would help: " + what_would_help(ledger);
 }
 
 std::string why_none(const Identification& all) {

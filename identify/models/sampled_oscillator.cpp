@@ -340,10 +340,8 @@ void SampledOscillator::expand(double begin) {
     }
     expand_motion(left);
   }
-  if (!tangents_.empty()) {
-    linearise();
-    look_along();
-  }
+  if (!tangents_.empty()) linearise();
+  if (std::ranges::any_of(tangents_, [](const Tangent& tangent) { return tangent.by == By::force; })) look_along();
   for (Tangent& tangent : tangents_) expand(tangent);
 }
 

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <complex>
+#include <unsupported/Eigen/FFT>
 #include <utility>
 
 #include "identify/statistics/autoregression.hpp"
@@ -25,41 +28,58 @@ double product_at(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index l
   return sum;
 }
 
-/// Autocorrelation of the residuals at lags 0, 1, ..., as far as the covariance looks.
-std::vector<double> correlation_of(const Eigen::VectorXd& r, const Ranges& blocks) {
-  const double variance = r.squaredNorm();
-  std::vector<double> rho{1.0};
-  if (!(variance > 0.0)) return rho;
-  const double chance = 2.0 / std::sqrt(static_cast<double>(r.size()));
-  const Eigen::Index longest = r.size() / 10;
-  Eigen::Index last = longest;
-  for (Eigen::Index lag = 1; lag <= last; ++lag) {
-    rho.push_back(product_at(r, blocks, lag) / variance);
-    if (last == longest && rho.back() < chance) last = std::min(longest, 2 * lag);
+/// The same at lags 0 ... most by Fourier's transform: a residual that lasts is alike over thousands of samples,
+/// and sums lag by lag would take the square of the number of samples.
+std::vector<double> products_up_to(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index most) {
+  std::vector<double> products(static_cast<std::size_t>(most) + 1, 0.0);
+  Eigen::FFT<double> transform;
+  for (const auto& [begin, end] : blocks) {
+    const auto length = std::bit_ceil(static_cast<std::size_t>(end - begin + most));
+    std::vector<double> values(length, 0.0);
+    std::copy(r.data() + begin, r.data() + end, values.begin());
+    std::vector<std::complex<double>> lines;
+    transform.fwd(lines, values);
+    for (std::complex<double>& line : lines) line = std::norm(line);
+    transform.inv(values, lines);
+    for (std::size_t lag = 0; lag < products.size(); ++lag) products[lag] += values[lag];
   }
-  return rho;
+  return products;
 }
 
-double weight(std::size_t lag, std::size_t count) {
-  return 1.0 - static_cast<double>(lag) / static_cast<double>(count);
+/// How many lags the covariance looks at, 0 among them: twice the first at which the residuals' autocorrelation has
+/// died down to chance, a tenth of the residuals at most.
+std::size_t lags_of(const Eigen::VectorXd& r, const Ranges& blocks) {
+  const double variance = r.squaredNorm();
+  if (!(variance > 0.0)) return 1;
+  const double chance = 2.0 / std::sqrt(static_cast<double>(r.size())) * variance;
+  const Eigen::Index longest = r.size() / 10;
+  const auto twice = [longest](Eigen::Index lag) {
+    return static_cast<std::size_t>(std::min(longest, 2 * lag)) + 1;
+  };
+  constexpr Eigen::Index few = 32;
+  for (Eigen::Index lag = 1; lag <= std::min(few, longest); ++lag)
+    if (product_at(r, blocks, lag) < chance) return twice(lag);
+  if (longest <= few) return static_cast<std::size_t>(longest) + 1;
+  const std::vector<double> products = products_up_to(r, blocks, longest);
+  for (Eigen::Index lag = few + 1; lag <= longest; ++lag)
+    if (products[static_cast<std::size_t>(lag)] < chance) return twice(lag);
+  return static_cast<std::size_t>(longest) + 1;
 }
 
-/// The bracket of the covariance.
-Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& columns, const Eigen::VectorXd& r, const Ranges& blocks,
-                                 std::size_t lags) {
-  const Eigen::MatrixXd scores = r.asDiagonal() * columns;
-  Eigen::MatrixXd sum = scores.transpose() * scores;
-  for (std::size_t l = 1; l < lags; ++l) {
-    const auto lag = static_cast<Eigen::Index>(l);
-    for (const auto& [begin, end] : blocks) {
-      const Eigen::Index count = end - begin - lag;
-      if (count <= 0) continue;
-      const Eigen::MatrixXd part =
-          scores.middleRows(begin + lag, count).transpose() * scores.middleRows(begin, count);
-      sum += weight(l, lags) * (part + part.transpose());
+/// Sum over pairs of rows of their products, with Bartlett's weights 1 - lag/lags: that of the products of all sums
+/// of `lags` rows on end, over `lags`. One pass, however many lags.
+Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& rows, const Ranges& blocks, std::size_t lags) {
+  const auto window = static_cast<Eigen::Index>(lags);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
+  for (const auto& [begin, end] : blocks) {
+    Eigen::RowVectorXd within = Eigen::RowVectorXd::Zero(rows.cols());
+    for (Eigen::Index last = begin; last < end + window - 1; ++last) {
+      if (last < end) within += rows.row(last);
+      if (last - window >= begin) within -= rows.row(last - window);
+      sum.noalias() += within.transpose() * within;
     }
   }
-  return sum;
+  return sum / static_cast<double>(lags);
 }
 
 }  // namespace
@@ -89,15 +109,16 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   fit.deviation = std::sqrt(fit.residuals.squaredNorm() / static_cast<double>(columns.rows() - count));
 
   const Ranges parts = block_ranges(blocks, columns.rows());
-  const std::vector<double> rho = correlation_of(fit.residuals, parts);
-  double inflation = 1.0;
-  for (std::size_t l = 1; l < rho.size(); ++l) inflation += 2.0 * weight(l, rho.size()) * rho[l];
+  const std::size_t lags = lags_of(fit.residuals, parts);
+  const double variance = fit.residuals.squaredNorm();
+  const double inflation = variance > 0.0 ? bartlett_sum(fit.residuals, parts, lags)(0, 0) / variance : 1.0;
   fit.independent = static_cast<double>(columns.rows()) / std::max(1.0, inflation);
 
   const Eigen::MatrixXd inverse =
       spectrum.vectors * spectrum.values.cwiseInverse().asDiagonal() * spectrum.vectors.transpose();
   const Eigen::MatrixXd root = scale.cwiseInverse().asDiagonal() * inverse;
-  fit.covariance = root * score_covariance(scaled, fit.residuals, parts, rho.size()) * root.transpose();
+  const Eigen::MatrixXd scores = fit.residuals.asDiagonal() * scaled;
+  fit.covariance = root * bartlett_sum(scores, parts, lags) * root.transpose();
   // As least squares of independent errors has N - p in place of N.
   fit.covariance *= 1.0 + static_cast<double>(count) / fit.freedom();
   return fit;

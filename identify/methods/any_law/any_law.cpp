@@ -51,20 +51,24 @@ void take(const LawIntervals& laws, const KnownConstants& constants, Estimate& e
   place(estimate.value.x_f, estimate.interval95->x_f, laws.F0_hull, 1.0 / constants.stiffness);
 }
 
-void tell(const LawIntervals& laws, Estimate& estimate) {
+/// `stated`: whether the user bounds the severities.
+void tell(const LawIntervals& laws, bool stated, Estimate& estimate) {
   constexpr int digits = 3;
   if (laws.inflation > 1.0)
     estimate.warnings.push_back("no law of the library fits: the noise was raised by a factor of " +
                                 core::format_number(laws.inflation, digits) + " until the best one did");
   for (const std::string& name : laws.unsolved)
     estimate.warnings.push_back("no steady states were found under '" + name + "', which is left out");
-  const auto bounded = std::ranges::count_if(laws.laws, [](const LawAnswer& law) {
+  const auto bounded = std::ranges::count_if(laws.laws, [stated](const LawAnswer& law) {
     constexpr double near = 0.99;
-    return !law.rejected && law.largest > 0.0 && std::abs(law.severity) > near * law.largest;
+    // A law that is rejected at the user's bound might hold beyond it.
+    return (stated || !law.rejected) && std::abs(law.severity) > near * std::abs(law.largest) &&
+           law.severity != 0.0;
   });
   if (bounded > 0)
     estimate.warnings.push_back(std::to_string(bounded) + (bounded == 1 ? " law fits" : " laws fit") +
-                                " best at the largest severity: raise 'largest_severity' to see what lies beyond");
+                                " best at the largest severity that it was followed to" +
+                                (stated ? ": leave out 'largest_severity' to see what lies beyond" : ""));
 }
 
 /// Plain friction with the constants as stated. Where one of these is moved by little the fit begins here, and not
@@ -152,7 +156,9 @@ void widen(Interval& ends, double about, double by) {
 }  // namespace
 
 LawIntervalOptions interval_options(const AnyLawOptions& options) {
-  return {.largest_severity = options.largest_severity,
+  const bool stated = !std::isnan(options.largest_severity);
+  return {.largest_severity = stated ? options.largest_severity : LawIntervalOptions{}.largest_severity,
+          .further = !stated,
           .severity_deviation = options.severity_deviation,
           .law_error = options.law_error,
           .without = options.without};
@@ -173,7 +179,7 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
   estimate.laws = laws;
   estimate.used = model.numbers();
   take(*laws, constants, estimate);
-  tell(*laws, estimate);
+  tell(*laws, !std::isnan(options.largest_severity), estimate);
   const auto allowed = std::ranges::count_if(laws->laws, [](const LawAnswer& law) { return !law.rejected; });
   conclude(estimate, {},
            "rests on " + laws->data + ", which allow " + std::to_string(allowed) + " of " +

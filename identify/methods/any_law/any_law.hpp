@@ -4,9 +4,10 @@
 /// Steady states, with or without phases, or the extremes of a free vibration are fitted under every law of the
 /// library, each over its severity (law_intervals.hpp). The 95 % interval of the estimate is the hull; its value is
 /// the mean of the average over laws, moved into the hull where it lies outside. What remains assumed: one law of
-/// the library, or one that acts on the readings like it, its severity below `largest_severity`; that the sensors
-/// are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty: estimated from what a
-/// smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`. Cost: seconds.
+/// the library, or one that acts on the readings like it, its severity below `largest_severity` where that is
+/// stated; that the sensors are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty:
+/// estimated from what a smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`.
+/// Cost: seconds.
 
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ inline constexpr Option largest_severity_option{
     .kind = OptionKind::number,
     .unit = "1",
     .range = {.low = 0.0, .high = 1.0, .low_open = true},
-    .otherwise = "0.3",
+    .otherwise = "0.3, and further where a law fits best there",
     .meaning = "severity up to which any_law seeks each law; it bounds the departure from Coulomb's law"};
 inline constexpr Option severity_deviation_option{
     .name = "severity_deviation",
@@ -52,7 +53,7 @@ inline constexpr Option without_option{.name = "without",
                                        .words = library_names};
 
 struct AnyLawOptions : KnownDeviations {
-  double largest_severity = 0.3;
+  double largest_severity = unknown;  ///< unknown: as `otherwise` says
   double severity_deviation = 0.1;
   double law_error = 0.25;
   std::vector<std::string> without{};

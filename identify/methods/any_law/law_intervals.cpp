@@ -129,7 +129,8 @@ class Summary {
     answer.rejected = answer.p_value < level;
     const SeverityPoint& best = best_of(profile.points);
     answer.severity = best.severity;
-    answer.largest = profile.law->law.largest;
+    const bool below = best.severity < 0.0;
+    answer.largest = (below ? profile.points.front() : profile.points.back()).severity;
     answer.value = {zeta_of(best.c), best.c, best.F0 / constants_.stiffness, best.F0};
     answer.F0_interval95 =
         region_of(profile.points, reach * scale_, &SeverityPoint::F0, &SeverityPoint::F0_deviation);
@@ -186,16 +187,21 @@ class Summary {
     return shares;
   }
 
-  /// Of each node: the normal density of its severity, by the trapezoidal rule, in all 1.
+  /// Of each node: the normal density of its severity, by the trapezoidal rule, in all 1. A law that had to be
+  /// followed beyond the severities that are expected of it has that expectation against it: its prior is as wide
+  /// as it departs.
   static std::vector<double> prior_of(const Profile& profile) {
     const std::vector<SeverityPoint>& nodes = profile.points;
     std::vector<double> prior(nodes.size(), 1.0);
     if (nodes.size() < 2) return prior;
+    const LibraryLaw& law = profile.law->law;
+    const double best = std::abs(best_of(nodes).severity);
+    const double deviation = best > law.largest ? std::max(law.deviation, best) : law.deviation;
     double sum = 0.0;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       const double before = nodes[j == 0 ? 0 : j - 1].severity;
       const double after = nodes[std::min(j + 1, nodes.size() - 1)].severity;
-      const double z = nodes[j].severity / profile.law->law.deviation;
+      const double z = nodes[j].severity / deviation;
       prior[j] = 0.5 * (after - before) * std::exp(-0.5 * z * z);
       sum += prior[j];
     }

@@ -34,7 +34,7 @@ struct LawAnswer {
   double p_value = 0.0;
   bool rejected = false;
   double severity = 0.0;  ///< of the best fit
-  double largest = 0.0;   ///< severity up to which it was sought; signed
+  double largest = 0.0;   ///< severity up to which it was sought on that side; signed
   ParameterSet value;     ///< of the best fit
   Interval zeta_interval95{};
   Interval F0_interval95{};

@@ -203,6 +203,13 @@ VectorXd continued(const std::vector<SeverityFit>& fits, double severity) {
   return unknowns;
 }
 
+/// Whether a law has to be followed beyond the severities that are expected of it: it fits best at the last of
+/// them, and far better than plain friction. Its region is open there, an end of it would be that of the search.
+bool is_open(const std::vector<SeverityFit>& fits, double least) {
+  constexpr double far = 10.0;
+  return fits.back().chi2 <= least && fits.front().chi2 - least > far;
+}
+
 /// The last but one fit takes the derivatives between those of its neighbours, which took their own.
 void share_slopes(std::vector<SeverityFit>& fits) {
   const SeverityFit& right = fits.back();
@@ -212,6 +219,23 @@ void share_slopes(std::vector<SeverityFit>& fits) {
   SeverityFit shared = middle;
   shared.slopes = (1.0 - part) * left.slopes + part * right.slopes;
   if (find_covariance(shared)) middle = std::move(shared);
+}
+
+/// Goes on at growing severities until no region reaches further, or to the last one that the law has.
+void follow(const ReadingModel& model, const rigs::Rig& departure, const ChannelNoise& noise, double furthest,
+            NearbyOrbits& near, std::vector<SeverityFit>& fits) {
+  constexpr double growth = 1.5;
+  constexpr double out_of_region = 15.0;
+  double least = fits.back().chi2;
+  while (std::abs(fits.back().severity) < std::abs(furthest) && fits.back().chi2 - least < out_of_region) {
+    double severity = growth * fits.back().severity;
+    if (std::abs(severity) > std::abs(furthest)) severity = furthest;
+    const LawStart start{continued(fits, severity), fits.back().slopes, true};
+    const std::optional<SeverityFit> fit = fit_law(model, {&departure, severity}, noise, start, near);
+    if (!fit) return;
+    fits.push_back(*fit);
+    least = std::min(least, fit->chi2);
+  }
 }
 
 }  // namespace
@@ -272,7 +296,7 @@ std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain
 }
 
 std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
-                                     const ChannelNoise& noise, const SeverityFit& plain) {
+                                     const ChannelNoise& noise, const SeverityFit& plain, double furthest) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;
   std::vector<SeverityFit> fits = {plain};
@@ -288,8 +312,10 @@ std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig&
     fits.push_back(*fit);
     if (own_slopes && i > 1) share_slopes(fits);
     least = std::min(least, fit->chi2);
-    if (fit->chi2 > least + out_of_reach && fit->chi2 > fits[fits.size() - 2].chi2) break;
+    if (fit->chi2 > least + out_of_reach && fit->chi2 > fits[fits.size() - 2].chi2) return fits;
   }
+  if (fits.back().severity == largest && is_open(fits, least))
+    follow(model, departure, noise, furthest, *near, fits);
   return fits;
 }
 

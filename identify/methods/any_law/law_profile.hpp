@@ -61,9 +61,10 @@ struct PlainFit {
 
 /// Fits over the severities of one departure, the mildest first; `plain` stands for severity zero. Ends where a law
 /// explains the readings so much worse than a milder one that no region reaches it. Negative `largest`: the other
-/// sign.
+/// sign. A law that fits best at `largest`, and plain friction far worse, is followed on to `furthest` of the same
+/// sign; zero: it is not.
 [[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure,
                                                    double largest, const ChannelNoise& noise,
-                                                   const SeverityFit& plain);
+                                                   const SeverityFit& plain, double furthest = 0.0);
 
 }  // namespace dualdamp::identify

@@ -59,7 +59,7 @@ const std::vector<rigs::Rig>& further_laws() {
        .parameters = {},
        .build = film_beside_damper,
        .severity = "fall of the viscous force at the peak speed, of the first order",
-       .largest = 1.0,
+       .largest = 10.0,
        .values_at = [](const rigs::RigBase&, double s) { return std::vector{s}; },
        .family = rigs::Family::velocity},
       {.name = "partial_play",
@@ -89,6 +89,12 @@ constexpr std::array no_laws = {"rate_state", "rough_way", "second_mode", "warmi
 /// The other sign of a law that is two-sided here.
 constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
 
+/// To which severity a two-sided law may be followed on its negative side.
+double furthest_below(const rigs::Rig& departure) {
+  if (departure.name == "viscous_power") return -rigs::find_departure("viscous_power_below")->largest;
+  return -departure.largest;
+}
+
 template <typename List>
 bool names(const List& list, std::string_view name) {
   return std::ranges::find(list, name) != std::end(list);
@@ -109,9 +115,10 @@ const std::vector<rigs::Rig>& all_laws() {
 }
 
 LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
-  LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit)};
+  LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit, law.furthest)};
   if (!law.both_signs) return all;
-  std::vector<SeverityFit> negative = law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit);
+  std::vector<SeverityFit> negative =
+      law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit, law.furthest_below);
   std::ranges::reverse(negative);
   negative.pop_back();
   all.fits.insert(all.fits.begin(), negative.begin(), negative.end());
@@ -131,13 +138,22 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
   for (const rigs::Rig& departure : all_laws()) {
     if (names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
-    LibraryLaw law{&departure, std::min(options.largest_severity, departure.largest), options.severity_deviation,
+    LibraryLaw law{&departure,
+                   std::min(options.largest_severity, departure.largest),
+                   0.0,
+                   0.0,
+                   options.severity_deviation,
                    names(two_sided, departure.name)};
     // Where the readings tell of spring and frequency these are free under every law.
     const bool of_spring = departure.name == "detuning" || departure.name == "cubic_spring";
     if (of_spring && !model.nuisances().empty()) continue;
     if (departure.name == "detuning") law.largest = 0.01, law.deviation = 0.005;
     if (departure.name == "cubic_spring") law.largest = 0.1, law.deviation = 0.05;
+    // A spring and a frequency that are further off are for the ledger to find.
+    if (options.further && !of_spring) {
+      law.furthest = departure.largest;
+      law.furthest_below = furthest_below(departure);
+    }
     laws.push_back(law);
   }
   return laws;

@@ -12,6 +12,7 @@ namespace dualdamp::identify {
 
 struct LawIntervalOptions {
   double largest_severity = 0.3;
+  bool further = true;              ///< whether a law that fits best there is followed beyond it
   double severity_deviation = 0.1;  ///< of the prior of a severity, about zero
   /// Of what a departure does to the readings: the share that laws like it leave, as a standard deviation.
   double law_error = 0.25;
@@ -22,6 +23,8 @@ struct LawIntervalOptions {
 struct LibraryLaw {
   const rigs::Rig* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
   double largest = 0.0;                  ///< severity up to which it is sought
+  double furthest = 0.0;                 ///< to which it is followed where it fits best at `largest`
+  double furthest_below = 0.0;           ///< the same of negative severities, negative; zero: it is not
   double deviation = 0.0;                ///< of the prior of its severity
   bool both_signs = false;
 

@@ -80,7 +80,8 @@ std::optional<BootstrapSpread> spread_of(const std::vector<ForwardTest>& tests, 
   };
   return bootstrap_spread(
       own, Eigen::Vector4d(truth.m, truth.c, truth.k, truth.F0),
-      [&](int number) { return synthetic->record(number); }, read);
+      [&](int number) { return synthetic->record(number); }, read,
+      synthetic_records_for(static_cast<std::size_t>(residuals.count())));
 }
 
 /// What a force v|v| would add to the residuals; empty where the motion with it cannot be computed.

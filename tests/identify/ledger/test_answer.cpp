@@ -1,7 +1,9 @@
 #include "identify/ledger/answer.hpp"
 
 #include <catch2/catch.hpp>
+#include <memory>
 
+#include "identify/methods/any_law/law_intervals.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 
 using namespace dualdamp::identify;
@@ -91,6 +93,20 @@ TEST_CASE("A departure of friction leaves no answer, and the verdict says what w
   CHECK_FALSE(found.answer);
   CHECK(mentions(found.verdict, "or that friction does not depend on the position"));
   CHECK(mentions(found.reason, "what would help: record the phase at several frequencies"));
+}
+
+TEST_CASE("A range over laws that answers beside a departure of friction says what would narrow it") {
+  Estimate ranges = estimate("any_law", 0.1, 4.0, 0.5);
+  LawIntervals laws;
+  laws.zeta_hull = ranges.interval95->zeta;
+  laws.F0_hull = ranges.interval95->F0;
+  ranges.laws = std::make_shared<const LawIntervals>(laws);
+  const std::vector<Estimate> both = {estimate("energy_balance", 0.1, 4.0, 0.05), ranges};
+  const Identification found = concluded(both, ledger({Assumption::friction_velocity}));
+  CHECK(answering(found) == "any_law");
+  CHECK(mentions(found.reason, "what would narrow it: record the phase at several frequencies"));
+  // Where nothing departs there is nothing to narrow.
+  CHECK_FALSE(mentions(concluded({ranges}, ledger({})).reason, "what would narrow it"));
 }
 
 TEST_CASE("Findings of a method decide only where the ledger could test nothing") {

@@ -21,6 +21,7 @@
 #include "identify/methods/any_law/steady_readings.hpp"
 #include "tests/identify/methods/any_law/advice_rates.hpp"
 #include "tests/identify/methods/any_law/alias_bound.hpp"
+#include "tests/identify/methods/any_law/answer_rates.hpp"
 #include "tests/identify/methods/any_law/law_laboratory.hpp"
 
 namespace {
@@ -351,5 +352,9 @@ int main(int argc, char** argv) {
     if (wanted("bound/" + std::string(name_of(kind)))) print_bound(kind, records, first);
   for (const char* name : {"contact_compliance", "dahl"})
     if (wanted("advice/" + std::string(name))) print_advice(*identify::rigs::find_departure(name), records, first);
+  for (const identify::rigs::Rig& departure : identify::rigs::departures())
+    if (departure.mislead == nullptr && departure.name != "warming" &&
+        wanted("answers/" + std::string(departure.name)))
+      print_answers(departure, records, first);
   return 0;
 }

@@ -116,6 +116,31 @@ TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull hol
   CHECK(std::abs(law_of(bounded, "contact_compliance").severity) <= 0.02);
 }
 
+TEST_CASE(
+    "any_law: a law that fits best at the expected severity is followed on, and the hull holds a strong drag") {
+  for (const bool phases : {false, true}) {
+    Normal normal(12);
+    // Twice the force of the damper at the reference speed.
+    const Record record = states("quadratic_drag", 2.0, phases, normal);
+    const Estimate estimate = any_law(record, known);
+    REQUIRE(estimate.outcome.ok());
+    CAPTURE(phases);
+    CHECK(law_of(estimate, "coulomb_viscous").rejected);
+    const LawAnswer& drag = law_of(estimate, "film_beside_damper");
+    CHECK_FALSE(drag.rejected);
+    // Of the speeds that the record has, half of the reference's.
+    CHECK(drag.severity == Approx(-1.0).margin(0.4));
+    CHECK(std::abs(drag.largest) > std::abs(drag.severity));
+    CHECK(holds(estimate.laws->zeta_hull, zeta));
+    CHECK(holds(estimate.laws->F0_hull, F0));
+    // A severity that the user states is a bound, and a law that ends there is told.
+    const Estimate bounded = any_law(record, known, {.largest_severity = 0.3});
+    REQUIRE(bounded.outcome.ok());
+    for (const LawAnswer& law : bounded.laws->laws) CHECK(std::abs(law.severity) <= 0.3);
+    CHECK_FALSE(bounded.warnings.empty());
+  }
+}
+
 TEST_CASE("any_law: a law that the user leaves out is not in the library") {
   Normal normal(12);
   const Record record = states("contact_compliance", 0.2, true, normal);
