@@ -1,12 +1,12 @@
 #include "sim/engine/variation.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <vector>
 
+#include "sim/engine/eigenvalues.hpp"
 #include "sim/engine/lu_factors.hpp"
 #include "sim/engine/radau_collocation.hpp"
 
@@ -142,13 +142,11 @@ class RadauVariation final : public Variation {
   /// Of h J_i, each component in its own size.
   [[nodiscard]] Eigen::VectorXcd eigenvalues(std::size_t i, std::span<const double> sizes) const {
     const auto n = static_cast<Eigen::Index>(n_());
-    return Eigen::MatrixXd::NullaryExpr(n, n,
-                                        [&](Eigen::Index row, Eigen::Index column) {
-                                          const auto j = static_cast<std::size_t>(row);
-                                          const auto k = static_cast<std::size_t>(column);
-                                          return jacobian(i, j, k) * sizes[k] / sizes[j];
-                                        })
-        .eigenvalues();
+    return eigenvalues_of(Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index row, Eigen::Index column) {
+      const auto j = static_cast<std::size_t>(row);
+      const auto k = static_cast<std::size_t>(column);
+      return jacobian(i, j, k) * sizes[k] / sizes[j];
+    }));
   }
 
   /// Of the equations of all stages.

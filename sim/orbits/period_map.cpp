@@ -1,10 +1,11 @@
 #include "sim/orbits/period_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "sim/engine/eigenvalues.hpp"
 
 namespace dualdamp::sim {
 
@@ -40,7 +41,7 @@ std::vector<std::complex<double>> ForcingPeriod::multipliers() const {
         std::sqrt(std::complex<double>(half_gap * half_gap + monodromy(0, 1) * monodromy(1, 0)));
     return {half_trace + root, half_trace - root};
   }
-  const Eigen::VectorXcd values = monodromy.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues_of(monodromy);
   return {values.begin(), values.end()};
 }
 
@@ -67,7 +68,7 @@ std::vector<Eigen::Index> ForcingPeriod::free_coordinates() const {
 double ForcingPeriod::free_radius() const {
   if (!ends_in_its_mode() || !monodromy.allFinite()) return std::numeric_limits<double>::infinity();
   const std::vector<Eigen::Index> free = free_coordinates();
-  return monodromy(free, free).eval().eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues_of(monodromy(free, free)).cwiseAbs().maxCoeff();
 }
 
 ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
