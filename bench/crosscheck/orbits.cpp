@@ -48,8 +48,11 @@ sim::Transient transient(const sim::Model& model, const sim::SteadyState& state)
                                          .most_work = most_work,
                                          .give_up = [&] { return patience.is_over(); }});
   };
-  const sim::Transient motion = follow(usual_periods);
-  return contradicts(state, motion) ? follow(most_periods) : motion;
+  sim::Transient motion = follow(usual_periods);
+  if (!contradicts(state, motion)) return motion;
+  sim::Transient longer = follow(most_periods);
+  // What could not be followed further is no excuse: the contradiction stands.
+  return longer.settled || (longer.outcome.ok() && longer.periods > motion.periods) ? longer : motion;
 }
 
 Finding compare_transient(const sim::SteadyState& state, const sim::Transient& motion) {

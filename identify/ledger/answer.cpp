@@ -147,6 +147,10 @@ std::string what_would_help(const Ledger& ledger) {
   return core::joined(helps, "; and ");
 }
 
+bool departs_in_friction(const Ledger& ledger) {
+  return ledger.is_violated(Assumption::friction_velocity) || ledger.is_violated(Assumption::friction_displacement);
+}
+
 std::string why_preferred(const Identification& all) {
   const auto rivals =
       std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
@@ -162,7 +166,7 @@ std::string why_preferred(const Identification& all) {
     text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
   if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
-  if (all.estimates[*all.answer].laws && !all.ledger.departures.empty())
+  if (all.estimates[*all.answer].laws && departs_in_friction(all.ledger))
     text += "; it is a range over laws, and what would narrow it: " + what_would_help(all.ledger);
   return text;
 }
@@ -284,8 +288,7 @@ std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate c
 
 std::string verdict_of(const Identification& all) {
   std::string text = departures_text(all.ledger);
-  const bool of_friction = all.ledger.is_violated(Assumption::friction_velocity) ||
-                           all.ledger.is_violated(Assumption::friction_displacement);
+  const bool of_friction = departs_in_friction(all.ledger);
   if (!all.answer)
     return (text.empty()
                 ? ""

@@ -5,6 +5,7 @@
 
 namespace dualdamp::sim {
 
+/// Not numbers where the solver does not converge, as of a matrix that is not finite.
 [[nodiscard]] Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix);
 
 }  // namespace dualdamp::sim

@@ -59,16 +59,17 @@ void tell(const LawIntervals& laws, bool stated, Estimate& estimate) {
                                 core::format_number(laws.inflation, digits) + " until the best one did");
   for (const std::string& name : laws.unsolved)
     estimate.warnings.push_back("no steady states were found under '" + name + "', which is left out");
-  const auto bounded = std::ranges::count_if(laws.laws, [stated](const LawAnswer& law) {
+  std::vector<std::string> bounded;
+  for (const LawAnswer& law : laws.laws) {
     constexpr double near = 0.99;
     // A law that is rejected at the user's bound might hold beyond it.
-    return (stated || !law.rejected) && std::abs(law.severity) > near * std::abs(law.largest) &&
-           law.severity != 0.0;
-  });
-  if (bounded > 0)
-    estimate.warnings.push_back(std::to_string(bounded) + (bounded == 1 ? " law fits" : " laws fit") +
-                                " best at the largest severity that it was followed to" +
-                                (stated ? ": leave out 'largest_severity' to see what lies beyond" : ""));
+    if ((stated || !law.rejected) && law.severity != 0.0 && std::abs(law.severity) > near * std::abs(law.largest))
+      bounded.push_back(law.name);
+  }
+  if (!bounded.empty())
+    estimate.warnings.push_back(
+        "the range may go on beyond the last severity of laws that fit best there: " + core::joined(bounded, ", ") +
+        (stated ? "; without 'largest_severity' they are followed on where they can be" : ""));
 }
 
 /// Plain friction with the constants as stated. Where one of these is moved by little the fit begins here, and not

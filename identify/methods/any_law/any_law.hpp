@@ -25,7 +25,7 @@ inline constexpr Option largest_severity_option{
     .unit = "1",
     .range = {.low = 0.0, .high = 1.0, .low_open = true},
     .otherwise = "0.3, and further where a law fits best there",
-    .meaning = "severity up to which any_law seeks each law; it bounds the departure from Coulomb's law"};
+    .meaning = "severity up to which any_law follows each law; it bounds the departure from Coulomb's law"};
 inline constexpr Option severity_deviation_option{
     .name = "severity_deviation",
     .kind = OptionKind::number,

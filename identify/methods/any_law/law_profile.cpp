@@ -204,7 +204,7 @@ VectorXd continued(const std::vector<SeverityFit>& fits, double severity) {
 }
 
 /// Whether a law has to be followed beyond the severities that are expected of it: it fits best at the last of
-/// them, and far better than plain friction. Its region is open there, an end of it would be that of the search.
+/// them, and far better than plain friction. An end of its region there would be that of the search.
 bool is_open(const std::vector<SeverityFit>& fits, double least) {
   constexpr double far = 10.0;
   return fits.back().chi2 <= least && fits.front().chi2 - least > far;

@@ -23,6 +23,7 @@ Field field_of(const identify::Option& option) {
   field.range = option.range;
   field.min_items = option.least_items;
   field.max_items = option.most_items;
+  if (option.kind != OptionKind::flag) field.fallback_words = option.otherwise;
   return field;
 }
 
