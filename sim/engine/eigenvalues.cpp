@@ -1,14 +1,14 @@
 #include "sim/engine/eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::sim {
 
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  if (solver.info() != Eigen::Success)
-    return Eigen::VectorXcd::Constant(matrix.rows(), std::numeric_limits<double>::quiet_NaN());
+  if (solver.info() != Eigen::Success) return Eigen::VectorXcd::Constant(matrix.rows(), core::infinity);
   return solver.eigenvalues();
 }
 

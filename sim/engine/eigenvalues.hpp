@@ -5,7 +5,8 @@
 
 namespace dualdamp::sim {
 
-/// Not numbers where the solver does not converge, as of a matrix that is not finite.
+/// Infinite where the solver does not converge, as of a matrix that is not finite: a map whose multipliers are not
+/// known must not count as attracting.
 [[nodiscard]] Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix);
 
 }  // namespace dualdamp::sim

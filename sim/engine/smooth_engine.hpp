@@ -75,7 +75,7 @@ class SmoothEngine final : public Engine {
     friction::Trigger trigger;
     friction::Direction direction;
   };
-  /// By how much columns_ and lead_ have a law's mode change early.
+  /// What the crossing of a law's guard added to lead_, to be taken back behind it.
   struct ModeLead {
     Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
     Eigen::VectorXd rates_before;

@@ -200,15 +200,15 @@ Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
 /// delay and of what the columns make of it.
 void SmoothEngine::carry_from_event() {
   carry_through_changes();
-  const ModeLead late = std::exchange(mode_lead_, {});
-  if (late.time.size() == 0) return;
+  const ModeLead added = std::exchange(mode_lead_, {});
+  if (added.time.size() == 0) return;
   const Eigen::VectorXd rates = rates_now();
-  if (rates.size() != late.rates_before.size()) return;
+  if (rates.size() != added.rates_before.size()) return;
   const auto sizes = as_vector(flow_.scales()).array();
-  const double change = ((rates - late.rates_before).array() / sizes).abs().maxCoeff();
-  if (!(change < same_rates * (late.rates_before.array() / sizes).abs().maxCoeff())) return;
-  columns_ += rates * late.time;
-  lead_ -= late.time;
+  const double change = ((rates - added.rates_before).array() / sizes).abs().maxCoeff();
+  if (!(change < same_rates * (added.rates_before.array() / sizes).abs().maxCoeff())) return;
+  columns_ += rates * added.time;
+  lead_ -= added.time;
 }
 
 /// The motion after the mode changes begins with the same lead.

@@ -312,7 +312,7 @@ std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig&
     fits.push_back(*fit);
     if (own_slopes && i > 1) share_slopes(fits);
     least = std::min(least, fit->chi2);
-    if (fit->chi2 > least + out_of_reach && fit->chi2 > fits[fits.size() - 2].chi2) return fits;
+    if (fit->chi2 > least + out_of_reach && fit->chi2 > fits[fits.size() - 2].chi2) break;
   }
   if (fits.back().severity == largest && is_open(fits, least))
     follow(model, departure, noise, furthest, *near, fits);

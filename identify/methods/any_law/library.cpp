@@ -138,12 +138,10 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
   for (const rigs::Rig& departure : all_laws()) {
     if (names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
-    LibraryLaw law{&departure,
-                   std::min(options.largest_severity, departure.largest),
-                   0.0,
-                   0.0,
-                   options.severity_deviation,
-                   names(two_sided, departure.name)};
+    LibraryLaw law{.departure = &departure,
+                   .largest = std::min(options.largest_severity, departure.largest),
+                   .deviation = options.severity_deviation,
+                   .both_signs = names(two_sided, departure.name)};
     // Where the readings tell of spring and frequency these are free under every law.
     const bool of_spring = departure.name == "detuning" || departure.name == "cubic_spring";
     if (of_spring && !model.nuisances().empty()) continue;

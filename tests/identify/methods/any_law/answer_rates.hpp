@@ -1,6 +1,6 @@
 #pragma once
 /// How often the answer of the whole identification holds the truth, on random rigs whose friction, spring or drive
-/// departs as far as it can: eight levels in three sweeps, amplitudes alone, noise 0.5 %.
+/// departs strongly (severity 1, or its largest below it): eight levels in three sweeps, amplitudes alone, noise 0.5 %.
 
 #include <cstdint>
 
